@@ -1,4 +1,4 @@
-//! The program: command line of the library.
+//! The program `asperity`. It runs the command line of the library.
 
 use std::process::ExitCode;
 

@@ -1,8 +1,9 @@
-//! The words of Python for remedies: arguments that remove the cause of an error or a warning.
+//! Words of Python for remedies. A remedy removes the cause of an error or a warning, usually by an
+//! argument.
 
 use asperity::data::Remedy;
 
-/// Returns a remedy in the words of Python: an argument with its value, or an entry of the
+/// Returns the words of Python for a remedy: an argument with its value, or an entry of the
 /// dictionary `options` of `asperity.fit`.
 pub fn argument(remedy: &Remedy) -> String {
     let words = match remedy {
@@ -56,8 +57,8 @@ pub fn argument(remedy: &Remedy) -> String {
     words.to_owned()
 }
 
-/// Returns the name of the argument, or of the entry of `options`, that a remedy changes; `None`
-/// for a remedy that is not an argument.
+/// Returns the name of the argument, or of the entry of `options`, with which a remedy is applied;
+/// `None` if a remedy has no such argument.
 pub fn name(remedy: &Remedy) -> Option<&'static str> {
     let name = match remedy {
         Remedy::SurfaceName | Remedy::NoSurfaceName => "surface_name",

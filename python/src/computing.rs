@@ -1,5 +1,5 @@
-//! Long computations for Python. They run without the lock of Python (GIL), report their progress,
-//! and can be stopped by Ctrl-C.
+//! Long computations that Python starts. They run without the lock of Python (GIL), report their
+//! progress, and stop at Ctrl-C.
 
 use crate::failure::Failure;
 use crate::scene::{Scene, simulation};
@@ -15,23 +15,24 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
-/// Message of an exception that is due to a defect of the program.
+/// Message of an exception that shows a defect of the program.
 pub const DEFECT: &str = "internal error, please report it";
 
-/// Python function to which the progress is reported; `None` without such a function.
+/// Python function (callback) that receives the progress; `None` if the caller gives none.
 pub type Progress = Option<Py<PyAny>>;
 
-/// Connection of a running computation with Python: the test whether to stop, and the progress.
+/// Connection of a running computation with Python, by which it reports progress and learns that it
+/// must stop.
 #[derive(Default)]
 pub struct Watch {
     is_stopped: AtomicBool,
-    /// Exception raised by a signal or by the callback, if there is one.
+    /// Exception that a signal or the callback has raised; `None` if there is none.
     raised: Mutex<Option<PyErr>>,
     progress: Progress,
 }
 
 impl Watch {
-    /// Returns true if the computation has to stop, because a signal or the callback raised an
+    /// Returns true if the computation must stop, because a signal or the callback has raised an
     /// exception.
     pub fn stop(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
@@ -57,9 +58,9 @@ impl Watch {
     }
 }
 
-/// Runs a computation without the lock of Python (GIL), and returns its result. The computation has
-/// its own thread. The calling thread, which may be the one that receives signals, meanwhile checks
-/// for them.
+/// Runs a computation without the lock of Python (GIL), and returns its result. The computation
+/// runs on a thread of its own. Meanwhile the calling thread checks for signals, because it may be
+/// the only thread that receives them.
 pub fn computed<R: Send>(
     py: Python<'_>,
     progress: Progress,
@@ -74,8 +75,8 @@ pub fn computed<R: Send>(
         let watch = &watch;
         scope(|scope| {
             let started = Builder::new().spawn_scoped(scope, move || {
-                // This is dropped when the computation ends, even by a panic, so that the waiting
-                // thread notices it.
+                // `_ended` is dropped when the computation ends, even by a panic. This wakes the
+                // waiting thread.
                 let _ended = ended;
                 work(watch)
             });
@@ -98,15 +99,15 @@ pub fn computed<R: Send>(
     Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
 }
 
-/// Arguments of a call: a scene, the number of profiles, the number of threads, and the callback of
-/// the progress. Without a number the program chooses it.
+/// Arguments of a call: a scene, the number of profiles, the number of threads, and the callback
+/// for the progress. If a number is `None`, the program chooses it.
 #[derive(FromPyObject)]
 pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 
-/// Data of a call, as the computation needs it.
+/// Data of a call in the form that the computation needs.
 pub struct Case<'a> {
     pub document: Document,
-    /// Roughness in memory, for which there is no file; `None` if the scene has none.
+    /// Roughness that exists only in memory and not in a file; `None` if the scene has none.
     pub in_memory: Option<Arc<MeasuredRoughness>>,
     pub profiles: u64,
     pub jobs: usize,
@@ -119,9 +120,9 @@ impl Case<'_> {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Runs a computation of `all` parts that a signal or the callback may stop. `done` returns the
-    /// number of finished parts from a report of the computation, or `None` if the number has not
-    /// changed.
+    /// Runs a computation of `all` parts, which a signal or the callback may stop. `done` converts
+    /// a report of the computation to the number of finished parts, or to `None` if this number has
+    /// not changed.
     pub fn watched<P, T, E: Into<Failure>>(
         &self,
         all: u64,
@@ -143,7 +144,7 @@ impl Case<'_> {
 }
 
 impl Call {
-    /// Computes a result as [`computed`] does.
+    /// Runs the computation `work` of the data of this call, with the function [`computed`].
     pub fn computed<R: Send>(
         self,
         py: Python<'_>,

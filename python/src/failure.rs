@@ -1,4 +1,4 @@
-//! Failures of computations, and the Python exceptions that report them.
+//! Failures of computations, and the Python exceptions that they become.
 
 use crate::advice::{argument, name};
 use crate::words::sentence;
@@ -16,7 +16,8 @@ use std::fmt::Display;
 use std::fs::File;
 use std::path::PathBuf;
 
-/// Creates an exception of the class `class` of the package `asperity` with these values.
+/// Creates an exception of the class with the name `class`, which the Python package `asperity`
+/// defines. `values` are the arguments of the class.
 fn exception<'py>(
     py: Python<'py>,
     class: &str,
@@ -25,11 +26,11 @@ fn exception<'py>(
     py.import("asperity._errors")?.getattr(class)?.call1(values)
 }
 
-/// Reason why a computation has no result, as a Python exception with a sentence.
+/// Reason why a computation has no result. It is a Python exception with a sentence.
 pub struct Failure(PyErr);
 
 impl Failure {
-    /// Creates a failure with an exception of the class `name` of the package `asperity`.
+    /// Creates a failure with an exception of the class `name`, which the Python package defines.
     fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
         Failure(Python::attach(|py| match exception(py, name, values) {
             Ok(exception) => PyErr::from_value(exception),
@@ -37,26 +38,28 @@ impl Failure {
         }))
     }
 
-    /// Creates the failure of a value that is not allowed. `allowed` says what is allowed. The
-    /// sentence has the value in escaped and shortened form.
+    /// Creates the failure for a value that is not allowed. `allowed` describes the allowed values.
+    /// The sentence of the exception contains the value escaped and shortened.
     pub fn field(field: &str, value: &str, allowed: &str) -> Failure {
         let message = format!("{} = {}; allowed: {allowed}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, allowed)
     }
 
-    /// Creates the failure of a value that is not allowed, with the sentence `message`.
+    /// Creates the failure for a value that is not allowed, with `message` as the sentence of the
+    /// exception.
     fn field_in_words(message: String, field: &str, value: &str, allowed: &str) -> Failure {
         Failure::of_class("FieldError", (sentence(&message), field, value, allowed))
     }
 
-    /// Creates the failure of a text that cannot be read, with the reason.
+    /// Creates the failure for a text that cannot be read, with the reason.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
         let message = format!("{} = \"{}\": {reason}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, &reason.to_string())
     }
 
-    /// Creates the failure to read files. If a file cannot be opened, this is the failure;
-    /// otherwise the failure follows from `error`, which describes the content.
+    /// Creates the failure of reading files. If a file cannot be opened, the failure is an
+    /// `OSError`. Otherwise it follows from `error`, which describes a fault in the content of the
+    /// files.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         for file in files {
             if file.is_dir() || File::open(file).is_err() {
@@ -66,7 +69,7 @@ impl Failure {
         error.into()
     }
 
-    /// Creates the failure of an error, with the Python arguments that help.
+    /// Creates the failure for an error, with the Python arguments that are remedies.
     fn of_remedied(error: &impl Remedied) -> Failure {
         error.in_words(argument).into()
     }
@@ -117,7 +120,7 @@ impl From<ContactError> for Failure {
         let message = error.to_string();
         match (error.stage(), &error) {
             (Some(stage), _) => {
-                // In Python, as in all tables, loading stages are counted from 0.
+                // Python and all tables count loading stages from 0.
                 let reason = message
                     .strip_prefix(&format!("stage {}: ", stage + 1))
                     .unwrap_or(&message);
@@ -141,9 +144,9 @@ impl From<ContactError> for Failure {
     }
 }
 
-/// Converts errors to failures by their variants. A variant with another error becomes the failure
-/// of that error. Lack of memory becomes a `MemoryError`, and an unreadable file an `OSError`. Any
-/// other variant is a value that is not allowed.
+/// Converts errors to failures, depending on their variants. If a variant contains another error,
+/// the failure of this other error is used. Lack of memory becomes a `MemoryError`, and an
+/// unreadable file an `OSError`. All other variants mean that a value is not allowed.
 macro_rules! failures {
     ($($error:ident: $($inner:ident)*, memory $($memory:ident)*, file $($file:ident)*;)*) => {$(
         impl From<$error> for Failure {
@@ -220,7 +223,7 @@ impl From<ExperimentError> for Failure {
     }
 }
 
-/// Returns the name of the Python argument that the first remedy of an error changes.
+/// Returns the name of the Python argument with which the first remedy of an error is applied.
 fn first_name(error: &impl Remedied) -> Option<&'static str> {
     error.remedies().first().and_then(name)
 }

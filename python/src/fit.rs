@@ -1,4 +1,4 @@
-//! Fits of scenes to measured force curves for Python.
+//! Fits of scenes to measured force curves, for calls from Python.
 
 use crate::advice::argument;
 use crate::computing::{Call, Case};
@@ -16,8 +16,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A measured curve: its name, then displacements in m and forces in N. Without these numbers the
-/// name is the path of a file.
+/// A measured curve: a name, and columns of displacements in m and of forces in N. If the columns
+/// are `None`, the name is the path of a file.
 #[derive(FromPyObject)]
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
@@ -34,7 +34,7 @@ impl Curve {
     }
 }
 
-/// Returns an error if no curve was fitted. It has the reason of the first curve.
+/// Returns an error if no curve was fitted. The error states the reason for the first curve.
 fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> {
     let mut reason = "";
     for row in rows.iter().rev() {
@@ -56,7 +56,7 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     Err(Failure::of_files(&files, message))
 }
 
-/// Fits a scene to one curve, to each of several curves, or with random profiles to all curves
+/// Fits a scene to one curve, to each of several curves, or (with random profiles) to all curves
 /// together. `words` are options of `asperity fit`.
 #[pyfunction]
 pub fn fit(

@@ -1,5 +1,5 @@
-//! Profiles of rigid bodies and their force loops for Python: the force curve as arrays, its main
-//! results, and its picture.
+//! Profiles of rigid bodies and their force loops, for calls from Python: the force curve as
+//! arrays, its main results, and its picture.
 
 use crate::computing::{Progress, computed};
 use crate::failure::Failure;
@@ -18,7 +18,8 @@ use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Profile made from heights or from a scene. `asperity.Profile` gives names to its parts.
+/// Profile made from heights or from a scene. The Python class `asperity.Profile` gives names to
+/// its parts.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Profile {
     pub profile: asperity::Profile,
@@ -57,7 +58,8 @@ impl Profile {
         })
     }
 
-    /// Returns the profile of the form of a scene, with the given heights in m as its roughness.
+    /// Returns a profile with the form of a scene, and with the given heights in m as its
+    /// roughness.
     #[staticmethod]
     fn of_roughness(scene: &Scene, heights: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
         let scene = scene.document.scene();
@@ -95,15 +97,16 @@ impl Profile {
     }
 }
 
-/// Effective modulus (Pa), works of adhesion on closing and on opening (J/m²), and loading
-/// stiffness (N/m); then the stages as text, true for edges at whole springs, and the number of
-/// samples.
+/// Effective modulus in Pa, works of adhesion on closing and on opening in J/m², and loading
+/// stiffness in N/m. After these numbers come the loading stages as text, true for edges at whole
+/// springs, and the number of samples.
 type Load = ((f64, [f64; 2], f64), (String, bool, u64));
 
-/// Indentation in m and force in N of each marked point, by the name of the point.
+/// Indentation in m and force in N of each marked point. The key is the name of the point.
 type Marks = BTreeMap<&'static str, (f64, f64)>;
 
-/// Force loop of a profile or of a computed scene. `asperity.Loop` gives names to its parts.
+/// Force loop of a profile or of a computed scene. The Python class `asperity.Loop` gives names to
+/// its parts.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
     stages: Vec<LegRecord>,
@@ -113,13 +116,13 @@ pub struct Loop {
     title: String,
     /// Premises of the model that the loading does not meet.
     warnings: Vec<Warning>,
-    /// Outcome of the scene; `None` for a loop of a profile of heights.
+    /// Outcome of the scene; `None` if the profile was given by its heights.
     pub outcome: Option<Arc<Outcome>>,
 }
 
 #[pymethods]
 impl Loop {
-    /// Loads a profile that is given by its heights.
+    /// Computes the loading of a profile that is given by its heights.
     #[staticmethod]
     fn of_heights(
         py: Python<'_>,
@@ -158,7 +161,7 @@ impl Loop {
         })
     }
 
-    /// Loads the body of a scene.
+    /// Computes the loading of the body of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
         let mut simulation = scene.simulation().for_one_scene();
@@ -182,8 +185,9 @@ impl Loop {
         })
     }
 
-    /// Returns the columns of the force curve in the order of `asperity.Loop`, those of whole
-    /// numbers first. The last array is the released energy of each stage in J.
+    /// Returns the columns of the force curve in the order of `asperity.Loop`: first the columns of
+    /// whole numbers, then the others. The last array is not a column; it has the released energy
+    /// in J of each stage.
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let mut counts = [const { Vec::new() }; 2];
         let mut columns = [const { Vec::new() }; 6];
@@ -205,8 +209,9 @@ impl Loop {
         )
     }
 
-    /// Returns pull-off force (N), its indentation (m), preload (N), dissipated energy (J), κ,
-    /// Tabor number and share of ideal contact. The regime and the marked points follow.
+    /// Returns pull-off force (N), indentation at pull-off (m), preload (N), dissipated energy (J),
+    /// κ, Tabor number and share of ideal contact. After these numbers come the regime and the
+    /// marked points.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
         let mut figures = [
             self.figures.adhesion_force,
@@ -231,7 +236,7 @@ impl Loop {
         (figures, regime, marks)
     }
 
-    /// Returns the premises of the model that the loading does not meet, one sentence for each.
+    /// Returns a sentence for each premise of the model that the loading does not meet.
     fn warnings(&self) -> Vec<String> {
         warning_texts(&self.warnings)
     }

@@ -31,8 +31,8 @@ mod _native {
         surface::Surface,
     };
 
-    /// Runs the program with the given arguments, the first of which is the name of the program,
-    /// and returns the exit code.
+    /// Runs the program with the given arguments and returns the exit code. The first argument is
+    /// the name of the program.
     #[pyfunction]
     fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
         py.detach(|| asperity::cli::main(arguments))

@@ -1,4 +1,5 @@
-//! Contact of a square map in three dimensions without adhesion, for Python.
+//! Contact of a square map of heights with an elastic half-space, without adhesion, for calls from
+//! Python.
 
 use crate::computing::computed;
 use crate::failure::Failure;
@@ -10,8 +11,8 @@ use pyo3::prelude::*;
 
 /// Presses a rigid square map, given by its heights in m, against an elastic half-space. `load` has
 /// the side of the map (m), the effective modulus (Pa) and the force (N). `residual` is the allowed
-/// residual in units of the rms height. Returns pressures (Pa) and gaps (m) row by row, then force
-/// (N), indentation (m), area of contact (m²), residual, and number of convolutions.
+/// residual in units of the rms height. Returns the pressures (Pa) and gaps (m) row by row, and
+/// then force (N), indentation (m), area of contact (m²), residual, and number of convolutions.
 #[pyfunction]
 pub fn press<'py>(
     py: Python<'py>,

@@ -1,4 +1,4 @@
-//! Results of scenes for Python: functions that call the libraries, and their answers as reports.
+//! Results of scenes, for calls from Python: functions that call the libraries and return reports.
 
 use crate::advice::argument;
 use crate::computing::{Call, Case, DEFECT};
@@ -24,8 +24,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A result that can be written in the formats of the program: JSON, a table as CSV or as an array
-/// of NumPy, text, and a figure.
+/// A result that can be written in the formats of the program: text, JSON, a table as CSV or as a
+/// NumPy array, and a figure.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Report(Box<dyn Fn(Format) -> io::Result<Vec<u8>> + Send + Sync>);
 
@@ -36,8 +36,8 @@ impl Report {
     }
 }
 
-/// Returns the document that is stated in tables and figures; `None` for a scene with a roughness
-/// in memory, because no scene file can contain it.
+/// Returns the document that tables and figures state as their origin. `None` if the scene has a
+/// roughness that exists only in memory, because no scene file can contain it.
 pub fn named<'a>(
     document: &'a Document,
     in_memory: &Option<Arc<MeasuredRoughness>>,
@@ -45,7 +45,7 @@ pub fn named<'a>(
     in_memory.is_none().then_some(document)
 }
 
-/// Returns a report in a format as bytes. CSV and SVG state the scene `of` from which the result
+/// Returns a report in a format, as bytes. CSV and SVG state the scene `of`, from which the result
 /// was computed.
 pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
     let mut written = Vec::new();
@@ -73,7 +73,7 @@ impl Report {
             let message = format!("format {format:?}; allowed: {names}");
             return Err(PyValueError::new_err(message));
         };
-        // A panic, which is a defect of the program, becomes a Python exception.
+        // A panic shows a defect of the program. It becomes a Python exception.
         let written = py
             .detach(|| catch_unwind(AssertUnwindSafe(|| (self.0)(known))))
             .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
@@ -89,18 +89,18 @@ fn done_of_results(results: &Results) -> Option<u64> {
     Some(results.profiles_done())
 }
 
-/// Returns `None` for a short computation, whose finished parts are not counted.
+/// Returns `None` for all reports of a computation that is too short to count its finished parts.
 fn unchanged<P>(_: &P) -> Option<u64> {
     None
 }
 
-/// Returns the number of finished parts from the report of a computation that consists of this
-/// number.
+/// Returns the number of finished parts, for a computation whose reports are this number.
 fn done(parts: &u64) -> Option<u64> {
     Some(*parts)
 }
 
-/// Computes a scene on its random profiles, with the further quantities `further`.
+/// Computes a scene on its random profiles. `further` are quantities that are recorded in addition
+/// to the usual ones.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let scene = case.document.scene();
     case.watched(case.profiles, done_of_ensemble, |control| {
@@ -167,7 +167,7 @@ pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
     })
 }
 
-/// Finds the number of a scene at which a quantity has a value.
+/// Finds the value of a number of a scene at which a quantity reaches a given value.
 #[pyfunction]
 pub fn find(
     py: Python<'_>,
@@ -203,8 +203,8 @@ pub fn find(
     })
 }
 
-/// Computes the adhesion force of a scene as a function of the preload. `preloads` is a text as for
-/// `asperity run --preloads`.
+/// Computes the adhesion force of a scene as a function of the preload. `preloads` is a text in the
+/// notation of `asperity run --preloads`.
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
     call.computed(py, |case| {
@@ -237,7 +237,7 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
     })
 }
 
-/// Computes the unloading of a scene from each of many turning points.
+/// Computes the unloadings of a scene that begin at many turning points.
 #[pyfunction]
 pub fn reversals(
     py: Python<'_>,
@@ -268,8 +268,8 @@ pub fn reversals(
     })
 }
 
-/// Compares a scene on profiles (lines) with the scene in three dimensions. A square has `cells`
-/// grid cells along its side.
+/// Compares the results of a scene on profiles (lines) with the results in three dimensions.
+/// `cells` is the number of grid cells along the side of each square.
 #[pyfunction]
 pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
     let lines = call.1;
@@ -304,14 +304,15 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
     })
 }
 
-/// Value on an axis of a study: a number in the SI unit of the axis, or a text with a unit.
+/// Value on an axis of a study: a number in the SI unit of the axis, or a text that may have a
+/// unit.
 #[derive(FromPyObject)]
 pub enum AxisValue {
     Number(f64),
     Text(String),
 }
 
-/// Path of the field that an axis varies, and the values of the axis.
+/// Path of the field that varies along an axis, and the values on the axis.
 type GivenAxis = (String, Vec<AxisValue>);
 
 fn read_axis(
@@ -339,7 +340,8 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
-/// Computes a scene for each combination of values on the axes, on several random profiles.
+/// Computes a scene for each combination of values on the axes. Each combination is computed on
+/// several random profiles.
 #[pyfunction]
 pub fn study(
     py: Python<'_>,

@@ -1,5 +1,5 @@
-//! Scenes for Python: opened by name, from files or from text, changed, or with a surface in
-//! memory.
+//! Scenes for calls from Python. They are opened by name, read from files or text, changed, or made
+//! from a surface in memory.
 
 use crate::failure::Failure;
 use crate::force_loop::Profile;
@@ -13,7 +13,7 @@ use asperity::surface::lines::{MeasuredProfile, MeasuredRoughness};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Name in place of a file for an equivalent line that was made from heights in memory.
+/// Name that an equivalent line has in place of a file if it was made from heights in memory.
 const HEIGHTS: &str = "heights in memory";
 
 /// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of
@@ -21,7 +21,7 @@ const HEIGHTS: &str = "heights in memory";
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
-    /// Roughness in memory, for which there is no file; `None` if the scene has none.
+    /// Roughness that exists only in memory and not in a file; `None` if the scene has none.
     pub in_memory: Option<Arc<MeasuredRoughness>>,
 }
 
@@ -31,8 +31,8 @@ impl Scene {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Returns the roughness in memory if `document`, which was made from this scene, still
-    /// contains it.
+    /// Returns the roughness that exists only in memory, if the document still contains it.
+    /// `document` was made from this scene.
     fn kept_in_memory(
         &self,
         document: &Document,
@@ -61,8 +61,8 @@ impl Scene {
     }
 }
 
-/// Returns a simulation of a document. `in_memory` is a roughness that replaces the files of the
-/// document.
+/// Returns a simulation of a document. `in_memory` is a roughness that is used in place of the
+/// measured files of the document.
 pub fn simulation(document: &Document, in_memory: Option<&Arc<MeasuredRoughness>>) -> Simulation {
     let simulation = Simulation::new(document.resolve(""));
     match in_memory {
@@ -86,7 +86,7 @@ impl Scene {
         }
     }
 
-    /// Reads the text of a scene. Files that the scene names are relative to the working folder.
+    /// Reads the text of a scene. Paths of files in the scene are relative to the working folder.
     #[staticmethod]
     fn parse(text: &str) -> Result<Scene, Failure> {
         Ok(Scene {
@@ -95,8 +95,8 @@ impl Scene {
         })
     }
 
-    /// Returns a scene of a profile that is given by its heights, on a body with the effective
-    /// modulus `modulus` in Pa.
+    /// Returns a scene in which a body with the effective modulus `modulus` (in Pa) has this
+    /// profile.
     #[staticmethod]
     fn of_profile(profile: &Profile, modulus: f64) -> Result<Scene, Failure> {
         let profile = &profile.profile;
@@ -133,8 +133,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with other values of fields, given as pairs of a path and a value in the
-    /// notation of a scene file.
+    /// Returns the scene with other values of fields. `fields` has pairs of a path and a value in
+    /// the notation of a scene file.
     fn set(&self, fields: Vec<(String, String)>) -> Result<Scene, Failure> {
         let document = self.document.set_all(&fields)?;
         let in_memory = self.kept_in_memory(&document)?;
@@ -144,7 +144,7 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with these works of adhesion in J/m². Without `closing`, the work on
+    /// Returns the scene with these works of adhesion in J/m². If `closing` is `None`, the work on
     /// closing is equal to the work on opening. The range of the attraction does not change. A work
     /// of 0 removes the adhesion.
     fn with_works(&self, work: f64, closing: Option<f64>) -> Result<Scene, Failure> {

@@ -1,4 +1,4 @@
-//! Measured surfaces for Python, read from files or made from arrays.
+//! Measured surfaces for calls from Python, read from files or made from arrays.
 
 use crate::advice::argument;
 use crate::computing::computed;
@@ -16,27 +16,28 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A map of heights in m, with the distances in m between its columns and between its rows.
+/// A map of heights in m, with the distance in m between its columns, and the distance in m between
+/// its rows.
 type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 
 /// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), and preload (N); `None`
-/// for an unknown number.
+/// for a number that is not given.
 type Numbers = [Option<f64>; 4];
 
-/// An analysed measured surface, from which profiles and scenes are made.
+/// A measured surface with its analysis. Profiles and scenes can be made from it.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Surface {
     task: SurfaceTask,
     report: Arc<SurfaceReport>,
-    /// True if the heights were given as an array. A scene cannot name a file for them.
+    /// True if the heights were given as an array, so that a scene cannot name their file.
     is_array: bool,
 }
 
 #[pymethods]
 impl Surface {
-    /// Analyses the files of the measured roughness of a scene. If `map` is given, this map of
-    /// heights is analysed instead, with the options of the roughness. If modulus and work of
-    /// adhesion are given, the adhesion on `profiles` random profiles is computed.
+    /// Analyses the files of the measured roughness of a scene or, if `map` is given, this map with
+    /// the options of the roughness. If the modulus and the work of adhesion are given, also
+    /// computes the adhesion on `profiles` random profiles.
     #[new]
     fn new(
         py: Python<'_>,
@@ -84,7 +85,7 @@ impl Surface {
         })
     }
 
-    /// Returns the statistics and spectra as a report.
+    /// Returns a report on the statistics and the spectra.
     #[getter]
     fn report(&self) -> Report {
         let report = Arc::clone(&self.report);
@@ -92,7 +93,7 @@ impl Surface {
     }
 
     /// Returns a scene with the roughness of this surface. `seed` is the seed of the random phases.
-    /// For a surface from an array, the spectrum is kept in memory.
+    /// If the surface was made from an array, its spectrum exists only in memory.
     fn roughen(&self, scene: &Scene, seed: u64) -> Result<Scene, Failure> {
         let mut measured = self.task.measured.clone();
         measured.seed = seed;
@@ -104,8 +105,8 @@ impl Surface {
         })
     }
 
-    /// Returns a scene of the equivalent line over the length of the scan, on a body with the
-    /// effective modulus `modulus` in Pa.
+    /// Returns a scene in which a body with the effective modulus `modulus` (in Pa) has the profile
+    /// of the equivalent line, as long as the scan.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
         let scene = self
             .task
@@ -131,8 +132,8 @@ fn read_faces(task: &SurfaceTask) -> Result<Vec<MeasuredFace>, Failure> {
         .map_err(|error| Failure::of_files(&files, error.to_string()))
 }
 
-/// Analyses a map of heights in m, and the file of the opposite face if there is one. `spacing` is
-/// in m.
+/// Analyses a map of heights in m and, if there is one, the file of the opposite face. `spacing`
+/// has the distances in m between the columns and between the rows.
 fn faces_of_map(
     task: &SurfaceTask,
     heights: &[f64],

@@ -1,4 +1,4 @@
-//! Options of commands that are arguments in Python, and texts of errors for Python.
+//! Parses arguments of Python functions that are options of commands, and makes texts of errors.
 
 use crate::failure::Failure;
 use asperity::cli::arguments::{Arguments, Command};
@@ -7,11 +7,11 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, CommandFactory, Parser};
 use std::error::Error;
 
-/// Largest number of characters of a word in a message. A longer word comes from a user's text and
-/// is cut.
+/// Largest number of characters of a word in a message. A longer word can only come from a text of
+/// the user, and is cut.
 const LONGEST_WORD: usize = 255;
 
-/// Returns a message for Python, with control characters of terminals escaped and with long words
+/// Returns a message for Python. Control characters of terminals are escaped, and long words are
 /// shortened.
 pub fn sentence(message: &str) -> String {
     let mut shortened = String::new();
@@ -27,7 +27,8 @@ pub fn sentence(message: &str) -> String {
     shortened
 }
 
-/// Parses the options of a command. Errors name arguments of Python instead of options.
+/// Parses the options of a command. Error messages use the names of the Python arguments instead of
+/// the names of the options.
 pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failure> {
     let line = ["asperity".to_owned(), name.to_owned()]
         .into_iter()
@@ -37,7 +38,7 @@ pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failur
         .command)
 }
 
-/// Returns the failure for an option that is unknown or whose value is not allowed.
+/// Returns the failure for an option that does not exist, or whose value is not allowed.
 fn refused(command: &str, error: &clap::Error) -> Failure {
     let Some(given) = context(error, ContextKind::InvalidArg) else {
         return first_paragraph(error).into();
@@ -84,7 +85,8 @@ fn names_of_options(command: &str) -> String {
     names.join(", ")
 }
 
-/// Options of `asperity fit` for which Python has other arguments.
+/// Options of `asperity fit` that are not arguments in Python, because other arguments replace
+/// them.
 const NOT_IN_PYTHON: [&str; 8] = [
     "set", "free", "jobs", "profiles", "scene", "format", "output", "force",
 ];
@@ -99,6 +101,6 @@ fn first_paragraph(error: &clap::Error) -> String {
         }
         lines.push(line);
     }
-    // In Python the options are arguments with the same names, without dashes.
+    // In Python, the options are arguments with the same names but without dashes.
     lines.join(" ").replace("--", "")
 }

@@ -1,4 +1,5 @@
-//! `asperity check`: computes closed forms, laws and numerically hard cases on this machine.
+//! `asperity check`: checks this program against closed forms, laws and numerically hard cases on
+//! this machine.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
@@ -56,7 +57,8 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     conclude(&verdicts)
 }
 
-/// Computes all checks. A signal ends the computation after the check that is being computed.
+/// Performs all checks. After a signal, the present check is finished, and the others are not
+/// begun.
 fn judged(checks: Vec<Check>) -> Result<Vec<Verdict>, CliError> {
     let count = checks.len();
     let task = Task {
@@ -84,7 +86,7 @@ fn judged(checks: Vec<Check>) -> Result<Vec<Verdict>, CliError> {
     )
 }
 
-/// A check that begins: number of the check, counted from 1, and name of its case.
+/// A check that has just begun: its number, counted from 1, and the name of its case.
 struct Begun {
     number: usize,
     name: &'static str,

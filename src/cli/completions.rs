@@ -23,7 +23,7 @@ pub(super) fn completions(
     mut program: Command,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    // The script is written to memory first, because the generator panics if writing fails.
+    // The generator panics if writing fails. Therefore the script is written to memory first.
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut program, "asperity", &mut script);
     Ok(stdout.write_all(&script)?)

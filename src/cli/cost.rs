@@ -1,4 +1,4 @@
-//! `asperity cost`: measures the cost of accuracy for a scene.
+//! `asperity cost`: measures the cost of accuracy, that is, error and computing time, for a scene.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
@@ -22,7 +22,7 @@ Examples:
 Errors are relative to the closed form of the adhesion force if the scene has one, else to the
 finest solution within the budget, whose own error is estimated and stated.";
 
-/// Largest allowed time limit of all measurements, s.
+/// Largest time limit in s that the user may set for all measurements together.
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Args, Debug)]
@@ -58,7 +58,7 @@ fn budget(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// A setting of the discretisation that is being measured.
+/// Setting of the discretisation that is being measured now.
 struct Trying {
     knob: Knob,
     setting: String,

@@ -28,9 +28,9 @@ Examples:
 
 The same command gives the same frames, whenever and wherever it runs.";
 
-/// Number of frames per second of an animation on a terminal. The next constant is that of frames
-/// printed as text.
+/// Number of frames per second of a demo that is played on a terminal.
 const WATCHED: f64 = 12.0;
+/// Number of frames per second of a demo that is printed as text.
 const READ: f64 = 1.0;
 
 #[derive(Args, Debug)]
@@ -86,7 +86,7 @@ fn side(text: &str) -> Option<u16> {
 }
 
 /// Plays a script in the explorer: as an animation on a terminal, otherwise as frames of text. With
-/// `--at` only one frame is written, as text or as a picture.
+/// `--at`, writes only one frame, as text or as a picture.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments
@@ -103,7 +103,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     let watched = arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
-        // The theme of a picture in a file must not depend on the environment.
+        // The theme of a picture in a file must be the same in every environment.
         theme: arguments.theme.unwrap_or(if arguments.output.is_some() {
             Theme::Dark
         } else {

@@ -1,5 +1,5 @@
-//! `asperity fit … --profiles`: finds the work of adhesion of a rough body by comparison of its
-//! curves with random profiles.
+//! `asperity fit … --profiles`: finds the work of adhesion of a rough body by comparing its
+//! measured curves with computed curves of random profiles.
 
 use super::advice::option;
 use super::error::CliError;
@@ -15,7 +15,7 @@ use asperity_scene::Simulation;
 use clap::Args;
 use std::io::Write;
 
-/// Number of random profiles if `--profiles` has no number.
+/// Number of random profiles if the user gives `--profiles` without a number.
 const LINES: &str = "128";
 
 /// Arguments of a comparison with random profiles.
@@ -50,7 +50,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl EnsembleArguments {
-    /// Returns the options of a comparison with `lines` random profiles.
+    /// Returns the options for a comparison with `lines` random profiles.
     ///
     /// # Errors
     /// Returns an error for a free parameter that a comparison with random profiles cannot
@@ -87,7 +87,7 @@ impl EnsembleArguments {
     }
 }
 
-/// Compares measured curves with `lines` random profiles, and writes the result.
+/// Compares measured curves with computed curves of `lines` random profiles, and writes the result.
 pub(super) fn ensemble(
     arguments: &Curves<'_>,
     compared: &EnsembleArguments,

@@ -16,7 +16,7 @@ pub struct CliError {
     pub message: String,
     /// Exit code of the process.
     pub exit_code: u8,
-    /// True if the reader of the results has closed the pipe.
+    /// True if the program that reads the results has closed the pipe.
     pub is_closed_pipe: bool,
 }
 
@@ -30,8 +30,8 @@ impl CliError {
         }
     }
 
-    /// Creates the error of a command that was ended by a signal, with the exit code that shells
-    /// use.
+    /// Creates the error of a command that a signal has ended. Its exit code is the one that shells
+    /// use for this signal.
     pub fn interrupted(signal: &AtomicUsize, message: impl Into<String>) -> CliError {
         let exit_code = 128 + u8::try_from(signal.load(Ordering::SeqCst)).unwrap_or_default();
         CliError {
@@ -45,13 +45,14 @@ impl CliError {
         self.exit_code > 128
     }
 
-    /// Creates an error whose message begins with `name` and ends with the options that help.
+    /// Creates an error whose message begins with `name` and ends with the options that are
+    /// remedies.
     pub fn advised(name: impl Display, error: &(dyn Error + 'static)) -> CliError {
         CliError::named(name, advised(error))
     }
 
-    /// Creates an error whose message begins with `name`: the scene, file or argument with the
-    /// error.
+    /// Creates an error whose message begins with `name`, which is the scene, file or argument that
+    /// caused the error.
     pub fn named(name: impl Display, error: impl Display) -> CliError {
         CliError::message(format!("{name}: {error}"))
     }

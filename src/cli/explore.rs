@@ -108,7 +108,8 @@ impl LookArguments {
 }
 
 /// Opens the explorer on a scene or a study. `commands` are the names of all commands. If the
-/// argument is neither a scene nor a study, a similar name of a command is proposed.
+/// argument names neither a scene nor a study, the error message proposes a command with a similar
+/// name.
 ///
 /// After the explorer is closed, a brief summary of the last scene is printed.
 pub(super) fn explore(
@@ -175,8 +176,8 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
     Ok(())
 }
 
-/// Returns the newest unsaved changes of an ended session that can be read. It is an error if there
-/// are none.
+/// Returns the newest unsaved changes of an ended session that can be read. Returns an error if
+/// there are none.
 fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     let newest = folder.map(autosave::newest).unwrap_or_default();
     if newest.kept.is_some() {
@@ -189,8 +190,8 @@ fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     Err(CliError::named("--restore", why))
 }
 
-/// Returns what the explorer opens: a scene or a study with the changes of its fields, a scene to
-/// compare with, and a measured curve. `default` is the scene that is opened without an argument.
+/// Returns what the explorer shows first: a scene or a study with changed fields, a scene for
+/// comparison, and a measured curve. `default` is the scene for the case that the user names none.
 fn opening(
     arguments: &ExploreArguments,
     default: &str,
@@ -202,7 +203,7 @@ fn opening(
             if let Some(way) = no_scene(Path::new(name)) {
                 return CliError::message(way);
             }
-            // A single word that names no scene may be a misspelt command.
+            // A single word that does not name a scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic()) && !Path::new(name).exists();
             match nearest(name, commands.split(", ")).filter(|_| is_word) {
                 Some(near) => CliError::named(

@@ -1,5 +1,5 @@
-//! `asperity find`: finds the number of a scene, or the preload, at which a quantity has a given
-//! value.
+//! `asperity find`: finds the value of a number of the scene, or the preload, at which a quantity
+//! has a given value.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};

@@ -159,7 +159,8 @@ fn fit_one(
     output.write(stdout, &report, format, origin)?;
     let leaves_out_words = output.file().is_some() && format != Format::Text;
     if leaves_out_words && let Some(text) = report.text() {
-        // The file is written even if standard error is closed.
+        // An error in writing to standard error is ignored, so that the file is written in any
+        // case.
         let _ = io::stderr().write_all(text.as_bytes());
     }
     Ok(())

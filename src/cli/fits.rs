@@ -1,5 +1,5 @@
 //! `asperity fit` for several curves: fits all curves in files and folders on several threads, and
-//! writes a table. If the table already exists, only the missing rows are computed.
+//! writes a table. If the table already exists, only its missing rows are computed.
 
 use super::advice::option;
 use super::error::CliError;
@@ -30,15 +30,15 @@ const FORMATS: &[Format] = &[
     Format::Png,
     Format::Pdf,
 ];
-/// Beginning of the first line of a table. The next constant is the beginning of the line with its
-/// command.
+/// Beginning of the first line of a table.
 const PROGRAM: &str = "# asperity ";
+/// Beginning of the line with the command in a table.
 const COMMAND: &str = "# command: ";
-/// Largest size in bytes of a table that is continued.
+/// Largest size in bytes of an existing table to which rows can be added.
 const LARGEST_TABLE: usize = 1 << 28;
 
-/// Returns the files that the arguments name. A folder counts as all its files, sorted by their
-/// names.
+/// Returns the files that the arguments name. In place of a folder, it returns the files in the
+/// folder that may be curves, sorted by their names.
 pub(super) fn files_of(
     curves: &[PathBuf],
     output: Option<&Path>,
@@ -86,13 +86,13 @@ pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
     line.show(&format!("{} curves computed", grouped(*computed)), None);
 }
 
-/// Reason why the row of a curve is missing in the table.
+/// Reason why a curve has no row in the table.
 enum RowError {
     Unwritable(io::Error),
     Stopped,
 }
 
-/// State of the fits: the rows so far, and the table to which further rows are written.
+/// State of the fits: the rows computed so far, and the table to which further rows are appended.
 struct Progress {
     rows: HashMap<String, CurveRow>,
     /// Table to which a row is appended after each fit; `None` if no table is written.
@@ -102,7 +102,7 @@ struct Progress {
 
 /// Measured curves, and the arguments of their fits.
 pub(super) struct Curves<'a> {
-    /// Files, or folders of files.
+    /// Paths of files with curves, or of folders with such files.
     pub paths: &'a [PathBuf],
     pub scene: &'a str,
     pub overrides: &'a Overrides,
@@ -113,7 +113,7 @@ pub(super) struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    /// Returns the options for reading the curves. The stiffness of the instrument is that of the
+    /// Returns the options for reading the curves. The stiffness of the instrument comes from the
     /// scene.
     pub(super) fn reading_for(&self, document: &Document) -> CurveOptions {
         CurveOptions {
@@ -144,8 +144,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    // The rows do not depend on the number of threads, so a table may be continued with another
-    // number.
+    // The number of threads has no influence on the rows. Therefore the command in the table does
+    // not contain it, and the table can be continued with another number of threads.
     let command = command_without(&["--jobs"]);
     let provenance = scene_provenance(
         &command,
@@ -194,7 +194,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     if failures > 0 {
         let failures = grouped(failures as u64);
         let all = grouped(rows.len() as u64);
-        // The results are written even if standard error is closed.
+        // An error in writing to standard error is ignored, so that the results are written in any
+        // case.
         let _ = writeln!(
             io::stderr(),
             "{failures} of {all} curves were not read or not fitted; their rows have the reason"
@@ -203,7 +204,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     Ok(())
 }
 
-/// Returns an error if a file is named twice, because a table has one row for each file.
+/// Returns an error if a file is named twice, because the table can have only one row for each
+/// file.
 fn check_names(names: &[String]) -> Result<(), CliError> {
     let mut seen = HashSet::new();
     for name in names {
@@ -227,8 +229,9 @@ impl Batch<'_> {
         }
     }
 
-    /// Returns the row of each file, in the order of the files. Rows that the table already has are
-    /// kept. Each new row is appended to the table as soon as it is computed.
+    /// Returns the row of each file, in the order of the files. A row that the table already
+    /// contains is not computed again. Each new row is appended to the table as soon as it is
+    /// computed.
     fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
         let names: Vec<String> = files
             .iter()
@@ -316,7 +319,7 @@ impl Batch<'_> {
         )
     }
 
-    /// Returns the table with these rows as text.
+    /// Returns a table of these rows as text in CSV.
     fn text_of(&self, rows: &[CurveRow]) -> String {
         let mut text = Vec::new();
         let table = self
@@ -330,8 +333,8 @@ impl Batch<'_> {
         String::from_utf8_lossy(&text).into_owned()
     }
 
-    /// Returns the rows that an existing table has; empty without such a file, or if it is to be
-    /// overwritten.
+    /// Returns the rows that an existing table contains. The result is empty if there is no table,
+    /// or if the table is to be overwritten.
     fn kept(&self, path: &Path) -> Result<HashMap<String, CurveRow>, CliError> {
         if !path.exists() || self.curves.output.force {
             return Ok(HashMap::new());
@@ -344,18 +347,19 @@ impl Batch<'_> {
                 refusal(&text, &self.text_of(&[])),
             ));
         };
-        // A process that was killed may have left an incomplete last row, which is computed again.
+        // If an earlier process was killed, the last row may be incomplete. Such a row is computed
+        // again.
         let whole = rows.rsplit_once('\n').map_or("", |(whole, _)| whole);
         let rows = whole
             .lines()
             .filter_map(|line| CurveRow::from_line(line, self.free.len()));
         // A curve that could not be read or fitted is tried again, because its file may have been
-        // repaired.
+        // repaired since.
         let rows = rows.filter(|row| row.error.is_empty());
         Ok(rows.map(|row| (row.file.clone(), row)).collect())
     }
 
-    /// Returns the table with the kept rows, opened so that further rows can be appended.
+    /// Writes a table with the rows that are kept, and opens it to append further rows.
     fn begun(&self, path: &Path, rows: &HashMap<String, CurveRow>) -> Result<File, CliError> {
         let mut rows: Vec<CurveRow> = rows.values().cloned().collect();
         rows.sort_by(|one, other| one.file.cmp(&other.file));
@@ -369,8 +373,8 @@ impl Batch<'_> {
     }
 }
 
-/// Returns the reason why a table cannot be continued. `expected` is the beginning that a table of
-/// this command has.
+/// Returns the reason why an existing table with this text cannot be continued. `expected` is the
+/// beginning of a table that this command would write.
 fn refusal(text: &str, expected: &str) -> String {
     if !text.starts_with(PROGRAM) {
         return "this is not a table of fits; allowed: another file, or --force, which overwrites this file"

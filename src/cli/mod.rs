@@ -1,7 +1,7 @@
 //! The command line: its arguments, and one function for each command.
 //!
-//! Results are written to standard output, everything else to standard error. Exit codes: 0 for
-//! success, 1 if the input is wrong or the computation fails, 2 for wrong usage.
+//! Results are written to standard output, and everything else to standard error. The exit code is
+//! 0 for success, 1 if the input is wrong or the computation fails, and 2 for wrong usage.
 
 mod advice;
 pub mod arguments;
@@ -50,12 +50,13 @@ const BUFFER: usize = 1 << 18;
 const SUCCESS: u8 = 0;
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with the given arguments, the first of which is the name of the program, and
-/// returns the exit code.
+/// Runs the program with the given arguments and returns the exit code. The first argument is the
+/// name of the program.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed = typed::TYPED.get_or_init(|| arguments.into_iter().collect());
     if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
-        // Scenes, tables and messages contain names of files as text, so arguments must be UTF-8.
+        // Scenes, tables and messages contain the names of files as text. Therefore the arguments
+        // must be UTF-8.
         let word = printable(&word.to_string_lossy()).into_owned();
         let _ = writeln!(
             io::stderr(),
@@ -67,8 +68,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(arguments) => arguments,
         Err(error) => {
             let error = explained(error, typed);
-            // Help and version come here as well. If an error repeats control characters of an
-            // argument, it is printed escaped and without colours.
+            // The texts of help and version arrive here too. If an error repeats control characters
+            // of an argument, it is printed with these characters escaped and without colours.
             let printed = match printable_lines(&error.render().to_string()) {
                 Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
                 _ => error.print(),
@@ -87,20 +88,22 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let done = dispatch(&arguments, &mut stdout).and_then(|()| Ok(stdout.flush()?));
     match done {
         Ok(()) => SUCCESS,
-        // The reader has closed the pipe, as in `asperity run … | head`.
+        // The program that reads the results has closed the pipe, as in `asperity run … | head`.
+        // This is no error.
         Err(error) if error.is_closed_pipe => SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
-            // Errors may contain names and excerpts of files with control characters, which are
-            // escaped.
+            // Errors may contain names of files and excerpts from files. Control characters in them
+            // are escaped.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
             error.exit_code
         }
     }
 }
 
-/// Returns the error of the argument parser, or a plainer one if the first word is not a command.
-/// The parser then takes the first word for a scene, and the next words for a command or options.
+/// Returns the error of the argument parser or, if the first word is not a command, a plainer
+/// error. In this case the parser takes the first word for a scene, and the next words for a
+/// command or for options.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);
@@ -116,7 +119,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else {
         return error;
     };
-    // Second word without a dash, which the parser takes for a command.
+    // Second word that does not begin with a dash. The parser takes it for a command.
     let second = error
         .get(ContextKind::InvalidSubcommand)
         .map(ToString::to_string);

@@ -22,12 +22,12 @@ pub(super) const TEXT_OR_PICTURE: &[Format] =
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 pub(super) const WITHOUT_PICTURE: &[Format] =
     &[Format::Text, Format::Json, Format::Csv, Format::Npy];
-/// Formats of results that have neither a table nor a picture.
+/// Formats of results that can be written neither as a table nor as a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Smallest width and smallest height of a printed figure, mm. The next constant is the largest of
-/// both.
+/// Smallest width and smallest height in mm of a printed figure.
 const LEAST: [u32; 2] = [50, 30];
+/// Largest width, and also largest height, in mm of a printed figure.
 const MOST: u32 = 500;
 /// Number of px (1/96 inch) in a metre of a printed figure.
 const PX: f64 = 96.0 / 0.0254;
@@ -62,16 +62,16 @@ pub struct OutputArguments {
     pub parameters: bool,
 }
 
-/// Names of the options for the look of figures.
+/// Identifiers of the options that determine the look of figures.
 const LOOK: [&str; 5] = ["width", "height", "only", "no_title", "parameters"];
 
-/// Hides the options for figures in the help of a command without figures.
+/// Hides an option for the look of figures, in the help of a command that draws no figures.
 pub(super) fn without_look(option: Arg) -> Arg {
     let is_look = LOOK.contains(&option.get_id().as_str());
     option.hide(is_look)
 }
 
-/// Parses a length, and returns it in m. It must be at least `least` mm.
+/// Parses a length and returns it in m. The length must be from `least` mm to [`MOST`] mm.
 fn length(text: &str, least: u32) -> Result<f64, String> {
     let length = parse_quantity(text, "m").map_err(|error| error.to_string())?;
     let range = 1e-3 * f64::from(least)..=1e-3 * f64::from(MOST);
@@ -82,14 +82,15 @@ fn length(text: &str, least: u32) -> Result<f64, String> {
     }
 }
 
-/// Origin of results, which is written into their files as provenance.
+/// Origin of results. The origin is written into the files of the results, so that they can be
+/// computed again.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
-    /// A scene, with the document from which its files are found.
+    /// A scene, with the document to whose folder the files of the scene are relative.
     Scene(&'a Document, &'a Scene),
-    /// Scenes of a figure, each with its name.
+    /// Named scenes that a figure shows.
     Scenes(&'a [(String, Scene)]),
-    /// Measured files.
+    /// Measured files that were analysed without a scene.
     Files(&'a [PathBuf]),
 }
 
@@ -106,8 +107,8 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// Returns the name of the first given option for the look of figures; `None` without such an
-    /// option.
+    /// Returns the identifier of the first option for the look of figures that the user has given;
+    /// `None` if there is none.
     fn look(&self) -> Option<&'static str> {
         let OutputArguments {
             width,
@@ -129,7 +130,7 @@ impl OutputArguments {
             .find_map(|(option, is_given)| is_given.then_some(option))
     }
 
-    /// Returns the figure with the requested size, panels and title.
+    /// Returns the figure with the width, height, panels and title that the user has requested.
     fn looked(&self, figure: Figure) -> Result<Figure, CliError> {
         let [width, height] =
             [self.width, self.height].map(|length| length.map(|length| PX * length));
@@ -152,9 +153,9 @@ impl OutputArguments {
         })
     }
 
-    /// Returns the format of the results: that of the extension of FILE, otherwise the chosen
-    /// format, otherwise the usual format. Also checks that FILE can be written, so that an error
-    /// comes before the computation. Binary formats are refused on a terminal.
+    /// Returns the format of the results: the format of the extension of FILE, otherwise the format
+    /// that the user has chosen, otherwise `usual`. Also checks that FILE can be written, so that
+    /// the user gets an error before the computation. Binary formats are refused on a terminal.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format =
             Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
@@ -181,8 +182,8 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report with its provenance to its destination. A figure gets the requested width
-    /// and the box of parameters.
+    /// Writes a report with its origin to the file or to standard output. In a figure, the width
+    /// and the box of parameters are those that the user has requested.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -227,7 +228,7 @@ impl OutputArguments {
         })
     }
 
-    /// Writes a figure to its destination, as a picture or as text.
+    /// Writes a figure as a picture or as text, to the file or to standard output.
     pub(super) fn write_figure(
         &self,
         stdout: &mut dyn Write,
@@ -254,7 +255,7 @@ impl OutputArguments {
     }
 }
 
-/// Checks that the name of a file has the given extension or none, and that the file can be
+/// Checks that the name of a file has the given extension or no extension, and that the file can be
 /// written.
 pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
     check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
@@ -270,7 +271,7 @@ pub struct AnswerFormat {
 }
 
 impl AnswerFormat {
-    /// Writes the answer as text, or as a JSON object that begins with version and command.
+    /// Writes the answer as text, or as a JSON object whose first entries are version and command.
     pub(super) fn write(
         self,
         stdout: &mut dyn Write,
@@ -290,14 +291,14 @@ impl AnswerFormat {
     }
 }
 
-/// Returns the command of this process for a POSIX shell, without the options for format and
-/// destination.
+/// Returns the command line of this process for a POSIX shell. The options for format and
+/// destination are left out.
 pub(super) fn command() -> String {
     command_without(&[])
 }
 
-/// Returns the command of this process without the options for format and destination. `options`
-/// are further options that are left out, each with its value.
+/// Returns the command line of this process for a POSIX shell. The options for format and
+/// destination, and the options `options` with their values, are left out.
 pub(super) fn command_without(options: &[&str]) -> String {
     let mut words = vec!["asperity".to_owned()];
     let typed = TYPED.get().into_iter().flatten();
@@ -328,10 +329,11 @@ fn is_option(word: &str, option: &str) -> bool {
     }
 }
 
-/// Width in columns of a figure as text that is not written to a terminal.
+/// Width in columns of a figure that is written as text, but not to a terminal.
 const COLUMNS: usize = 80;
 
-/// Returns a figure as text. On a terminal it has the width and the colours of the terminal.
+/// Returns a figure as text. For a terminal, the text has the width and the colours of the
+/// terminal.
 fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
@@ -347,7 +349,7 @@ fn variable(name: &str) -> String {
     std::env::var(name).unwrap_or_default()
 }
 
-/// Returns the colours of the terminal, as the environment variables state them.
+/// Returns the colours of the terminal, which environment variables state.
 fn colours() -> Colours {
     if !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb" {
         Colours::None

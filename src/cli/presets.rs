@@ -58,8 +58,8 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-/// Prints the text of a scene. On a terminal control characters are escaped, because the author of
-/// the text may be unknown.
+/// Prints the text of a scene. On a terminal, control characters are escaped, because the scene may
+/// come from an unknown author.
 fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     let shown = if io::stdout().is_terminal() {
         printable_lines(text)
@@ -78,8 +78,8 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     format.write(stdout, || table(&entries), &SceneList { scenes })
 }
 
-/// Returns a table of names and titles. If a scene has an error, the error is shown instead of the
-/// title.
+/// Returns a table of names and titles. If a scene has an error, the table shows the error in place
+/// of the title.
 fn table(entries: &[Entry]) -> String {
     let mut rows = Vec::with_capacity(entries.len());
     for entry in entries {
@@ -137,8 +137,8 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     }
 }
 
-/// Returns the name of a valid scene with its warnings. For an invalid scene the error has all its
-/// errors, one in each line.
+/// Returns the name of a valid scene with its warnings. For an invalid scene, returns an error that
+/// contains all errors of the scene, one in each line.
 fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     let document =
         asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
@@ -148,8 +148,8 @@ fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     }
 }
 
-/// Returns the error of the measured surface of a scene, with the path of its field; `None` if the
-/// scene has no measured surface or the surface has no error.
+/// Returns the error that occurs when the profile is made from a measured surface, with the path of
+/// the wrong field. `None` if there is no error, or if the scene has no measured surface.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     scene.measured()?;

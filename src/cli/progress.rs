@@ -1,5 +1,5 @@
-//! Progress of long computations on standard error, and signals that end them. On a terminal the
-//! progress is a single line that changes.
+//! Progress of long computations on standard error, and signals that end such computations. On a
+//! terminal, the progress is a single line that is written again and again.
 
 use super::error::CliError;
 use asperity_data::Control;
@@ -9,22 +9,23 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// Shortest time between two texts of the progress line on a terminal.
+/// Shortest time between two changes of the progress line on a terminal.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// Message of a command that is ended by a signal before its results are complete.
+/// Message of a command that a signal has ended before its results were complete.
 const STOPPED: &str = "stopped; no results are written";
 
 #[derive(Default)]
 pub(super) struct ProgressLine {
-    /// Time at which the text on the terminal was written; `None` without a text.
+    /// Time at which the present text was written to the terminal; `None` if there is no text.
     drawn: Option<Instant>,
 }
 
 impl ProgressLine {
-    /// Shows a text on a terminal in place of the previous text. The text is skipped if the
-    /// previous one is less than `BETWEEN` old and `plain` is `None`. Without a terminal `plain` is
-    /// printed, if it is given. Nothing fails if standard error is closed.
+    /// On a terminal, replaces the progress line by a text. A text without `plain` is skipped if
+    /// the previous text is younger than [`BETWEEN`]. If standard error is not a terminal, prints
+    /// the text `plain`, if there is one. Errors in writing are ignored, because standard error may
+    /// be closed.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {
@@ -56,19 +57,19 @@ impl ProgressLine {
 
 /// A long computation of a command.
 pub(super) struct Task<'a> {
-    /// Name of the scene, study or file, with which the message of an error begins; `None` if the
-    /// error already has a name.
+    /// Name of the scene, study or file. The message of an error begins with it. `None` if the
+    /// errors of the computation already have a name.
     pub name: Option<&'a str>,
     pub threads: usize,
-    /// Text shown on a terminal until the first progress is reported.
+    /// Text that is shown on a terminal until the computation reports its first progress.
     pub begins: String,
 }
 
-/// Shows no progress, for a short computation. A signal can still end it.
+/// Function for a computation that is too short to show its progress. A signal can still end it.
 pub(super) fn show_nothing<P>(_: &P, _: &mut ProgressLine) {}
 
-/// Runs a computation. `show` shows its progress on a terminal, and the last text is removed at the
-/// end. A signal that asks the process to end (such as Ctrl-C) ends the computation.
+/// Runs a computation. `show` shows its progress on a terminal, and at the end the progress is
+/// removed. If a signal (such as Ctrl-C) asks the process to end, the computation stops.
 ///
 /// # Errors
 /// Returns the error of the computation, or an error if a signal ended it.
@@ -100,19 +101,19 @@ pub(super) fn watched<P, T, E: Into<CliError>>(
     })
 }
 
-/// Signals of the process; empty until they are watched for the first time.
+/// Signals that the process watches; empty until it watches them for the first time.
 static SIGNALS: OnceLock<Signals> = OnceLock::new();
 
 struct Signals {
-    /// True while no computation is watched, so that a signal ends the process at once.
+    /// True while no computation is being watched. A signal then ends the process at once.
     act_at_once: Arc<AtomicBool>,
-    /// Number of the first signal that came while signals were watched; 0 until then.
+    /// Number of the first signal that arrived during a watched computation; 0 if none has arrived.
     first: Arc<AtomicUsize>,
 }
 
-/// Watch over the signals that ask the process to end. While there is a watch, the first signal is
-/// only recorded, and a second signal ends the process at once. Without a watch, the first signal
-/// does so.
+/// Watches for signals that ask the process to end. While this value exists, the first signal is
+/// only recorded, and a second signal ends the process at once. Otherwise the first signal ends the
+/// process at once.
 pub(super) struct SignalWatch {
     signals: &'static Signals,
 }
@@ -135,7 +136,7 @@ impl SignalWatch {
         self.signals.first.load(Ordering::SeqCst) != 0
     }
 
-    /// Creates the error of a command that was ended by the recorded signal.
+    /// Creates the error of a command that the recorded signal has ended.
     pub(super) fn interrupted(&self, message: impl Into<String>) -> CliError {
         CliError::interrupted(&self.signals.first, message)
     }

@@ -1,4 +1,5 @@
-//! `asperity reference`: compares a scene on profiles (lines) with the scene in three dimensions.
+//! `asperity reference`: compares the results of a scene on profiles (lines) with the results in
+//! three dimensions.
 
 use super::advice::option;
 use super::error::CliError;
@@ -70,7 +71,7 @@ pub(super) fn reference(
     )
 }
 
-/// Compares a scene with three dimensions, and shows the progress on standard error.
+/// Compares a scene on profiles with three dimensions, and shows the progress on standard error.
 pub(super) fn compared(
     document: &Document,
     options: ReferenceOptions,

@@ -1,4 +1,4 @@
-//! `asperity reversals`: computes the unloading of a scene from each of many turning points.
+//! `asperity reversals`: computes the unloadings of a scene that begin at many turning points.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
@@ -40,8 +40,8 @@ pub struct ReversalsArguments {
 /// Number of turning points if the user gives none.
 const USUAL: usize = 64;
 
-/// Parses two forces and, after a colon, the number of turning points. Without forces the turning
-/// points follow from the scene.
+/// Parses two forces and, after a colon, the number of turning points. If the forces are missing,
+/// the range of turning points follows from the scene.
 fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     let (forces, count) = text
         .split_once(':')
@@ -85,7 +85,8 @@ pub(super) fn reversals(
     }
     let mut preloads = None;
     let mut staircase = None;
-    // Tables contain only the turning points, so no adhesion force is computed for them.
+    // Tables contain only the turning points and no adhesion forces, so that these need not be
+    // computed.
     if !format.is_table() {
         let largest = map
             .reversals

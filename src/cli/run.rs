@@ -101,8 +101,8 @@ pub struct RunArguments {
 /// Width of messages in columns.
 const WIDTH: usize = 80;
 
-/// A scene to be computed. If a tolerance is given, its springs and edges were chosen for this
-/// tolerance.
+/// A scene that is to be computed. If a tolerance is given, the springs and edges of `scene` are
+/// those that were chosen for this tolerance.
 struct Chosen<'a> {
     document: &'a Document,
     scene: CheckedScene,
@@ -117,13 +117,13 @@ impl Chosen<'_> {
 }
 
 impl RunArguments {
-    /// Returns true if figures of profiles or contact patches are requested.
+    /// Returns true if the user has requested figures of profiles or of contact patches.
     fn has_sections(&self) -> bool {
         matches!(self.draw, Some(Drawn::Profile | Drawn::Patches))
     }
 
-    /// Returns the format of the results. Which formats are possible depends on the number of
-    /// scenes, on `--draw` and on `--preloads`.
+    /// Returns the format of the results. The number of scenes, `--draw` and `--preloads` determine
+    /// which formats are possible.
     fn format(&self) -> Result<Format, CliError> {
         let several = !self.more.is_empty();
         if self.draw == Some(Drawn::Panels) && !several {
@@ -168,9 +168,9 @@ impl RunArguments {
         Ok(documents)
     }
 
-    /// Returns the scene of a document. If a tolerance is given, springs and edges are chosen for
-    /// this tolerance. The choice is stated in the text of a single scene, otherwise on standard
-    /// error.
+    /// Returns the scene of a document. If a tolerance is given, its springs and edges are chosen
+    /// for this tolerance. The report of a single scene states this choice; in all other cases, it
+    /// is written to standard error.
     fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
         let Some(tolerance) = self.tolerance else {
             return Ok(Chosen {
@@ -211,8 +211,9 @@ impl RunArguments {
         })
     }
 
-    /// Returns the results of a scene on its random profiles; `None` if a single profile is
-    /// requested. Shares and heights of the profiles are recorded only if a table is written.
+    /// Returns the results of a scene on its random profiles; `None` if the user has requested only
+    /// one profile. The results include the shares and heights of the profiles only if a table is
+    /// written.
     fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
         let Chosen {
             document, scene, ..
@@ -238,7 +239,8 @@ impl RunArguments {
         Ok(Some(ensemble))
     }
 
-    /// Returns the task that computes `count` random profiles of a document, for the progress.
+    /// Returns the task of computing `count` random profiles of a document, for the display of its
+    /// progress.
     fn profiles_task<'a>(&self, document: &'a Document, count: u64) -> Task<'a> {
         Task {
             name: Some(document.name()),
@@ -265,7 +267,7 @@ impl RunArguments {
     }
 
     /// Computes the adhesion force of a scene as a function of the preload. The staircase is
-    /// computed only if it is drawn or if preloads are below zero.
+    /// computed only if the figure shows it, or if there are preloads below zero.
     fn adhesion(
         &self,
         chosen: &Chosen<'_>,
@@ -285,7 +287,7 @@ impl RunArguments {
     }
 
     /// Computes the adhesion force as a function of the preload on one or several random profiles.
-    /// The number of computed profiles is shown on a terminal.
+    /// On a terminal, the number of computed profiles is shown meanwhile.
     fn adhesion_on_profiles(
         &self,
         chosen: &Chosen<'_>,
@@ -352,7 +354,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     }
 }
 
-/// Function that writes a report on all scenes.
+/// Function that writes a report, together with its origin in all scenes.
 type WriteReport<'a> = dyn FnMut(&dyn Report) -> Result<(), CliError> + 'a;
 
 fn run_loadings(
@@ -380,15 +382,15 @@ fn run_loadings(
     write_loading(arguments, chosen, outcome, ensemble, format, write)
 }
 
-/// Computes a scene on the profile with its own seed, and on random profiles if the options request
-/// them.
+/// Computes a scene on the profile with the seed of the scene, and also on random profiles if the
+/// user has requested several.
 fn loaded<'a>(
     arguments: &RunArguments,
     chosen: &Chosen<'a>,
     format: Format,
 ) -> Result<ComparedScene<'a>, CliError> {
-    // The profile of the scene is computed first, so that an error of the scene is reported as
-    // such.
+    // The profile of the scene comes first, so that the message of an error names the scene and not
+    // a random profile.
     let outcome = compute(chosen.document, &chosen.scene)?;
     let ensemble = arguments.ensemble(chosen, format)?;
     if !holds_warnings(format) {
@@ -402,8 +404,8 @@ fn loaded<'a>(
     })
 }
 
-/// Writes the result of a single scene: a table of the random profiles, or the result with its
-/// errors.
+/// Writes the result of a single scene: either a table of its random profiles, or its result with
+/// the estimated errors.
 fn write_loading(
     arguments: &RunArguments,
     chosen: &Chosen<'_>,
@@ -465,8 +467,8 @@ fn estimated(
     )
 }
 
-/// Returns the warnings of a result. Warnings of an ensemble have the number of profiles to which
-/// they apply.
+/// Returns the warnings about a result. If there are several random profiles, each warning states
+/// to how many of them it applies.
 fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
     match ensemble {
         Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
@@ -474,8 +476,8 @@ fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Strin
     }
 }
 
-/// Writes the adhesion force as a function of the preload: a report for a single scene, or a figure
-/// with a panel for each of several scenes.
+/// Writes the adhesion force as a function of the preload: for a single scene as a report, for
+/// several scenes as a figure with a panel for each scene.
 fn run_preloads(
     arguments: &RunArguments,
     preloads: &Axis,
@@ -514,7 +516,7 @@ fn run_preloads(
     write(&Figure::of_panels(figures))
 }
 
-/// Returns a figure of the profiles of the scenes in contact, or of their contact patches.
+/// Returns a figure that shows, for each scene, the profile in contact or the contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
     let has_patches = arguments.draw == Some(Drawn::Patches);
     let mut figures = Vec::new();

@@ -73,11 +73,12 @@ impl SceneArguments {
     }
 }
 
-/// Writes on standard error the premises that a scene does not meet. It is used for results that do
-/// not contain warnings: tables, figures and times.
+/// Writes to standard error the premises of the model that a scene does not meet. Commands call
+/// this function if their results contain no warnings, as in tables, figures and times.
 pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     for warning in warnings {
-        // The command continues even if standard error is closed.
+        // An error in writing is ignored, so that the command continues even if standard error is
+        // closed.
         let _ = writeln!(
             io::stderr(),
             "warning: {}: {warning}",
@@ -86,13 +87,13 @@ pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     }
 }
 
-/// Returns true for formats in which results contain their warnings.
+/// Returns true for the formats in which a result contains its warnings.
 pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
-/// Opens the scene that an argument names. If the file is a measured file instead of a scene, the
-/// error names the commands that read such files.
+/// Opens the scene that an argument names. If the argument names a measured file instead of a
+/// scene, the error message names the commands that read such files.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
     open_argument(name).map_err(|errors| match no_scene(Path::new(name)) {
         Some(way) => CliError::message(way),
@@ -110,12 +111,13 @@ impl Overrides {
     }
 }
 
-/// Returns a simulation for a scene. Paths of files in the scene are relative to the scene file.
+/// Returns a simulation for a scene. Paths in the scene are relative to the folder of the scene
+/// file.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
-/// Computes a scene, and shows the progress on a terminal in loading stages.
+/// Computes a scene. On a terminal, the number of computed loading stages is shown meanwhile.
 pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outcome, CliError> {
     let mut simulation = simulation_of(document);
     compute_stages(document, scene, |stop, after| {
@@ -126,9 +128,9 @@ pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outco
     })
 }
 
-/// Computes a scene with the function `run`, and shows the progress on a terminal in loading
-/// stages. The arguments of `run` are the function that asks whether to stop, and a function to
-/// call after each stage.
+/// Computes a scene with the function `run`. On a terminal, the number of computed loading stages
+/// is shown meanwhile. The first argument of `run` is a function that returns true if the
+/// computation is to stop, and the second one a function to be called after each stage.
 pub(super) fn compute_stages(
     document: &Document,
     scene: &Scene,
@@ -176,8 +178,8 @@ pub(super) fn staircase_of(
     )
 }
 
-/// Returns the number of threads that share the profiles: the requested number, or one for each
-/// core.
+/// Returns the number of threads among which the profiles are divided: the number that the user has
+/// requested or, by default, one for each core.
 pub(super) fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(parallel::threads, usize::from)
 }

@@ -1,4 +1,4 @@
-//! `asperity sensitivity`: computes how the results of a scene change with its numbers.
+//! `asperity sensitivity`: computes how the results of a scene change if its numbers are changed.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};

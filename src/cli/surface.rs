@@ -36,7 +36,7 @@ computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
-/// Number of random profiles for the adhesion force if the user gives none.
+/// Number of random profiles on which the adhesion force is computed, if the user gives none.
 const LINES: u32 = 16;
 
 /// Arguments of `asperity surface`.
@@ -103,13 +103,13 @@ pub struct SurfaceArguments {
 /// A length as the user typed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Length {
-    /// Number in m. For a length without a unit it is in the unit of `--unit`.
+    /// Number in m. If the user typed no unit, it is a number in the unit of `--unit`.
     value: f64,
     has_unit: bool,
 }
 
 impl SurfaceArguments {
-    /// Returns in m the length given with an option.
+    /// Returns the length that the user has given with an option, in m.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
         match (length, self.measured.unit.parse::<Unit>().ok()) {
             (
@@ -128,7 +128,8 @@ impl SurfaceArguments {
         }
     }
 
-    /// Returns the measured surfaces with all options. The files are named as on the command line.
+    /// Returns the measured surfaces with all options for reading and analysing them. The paths of
+    /// the files are those on the command line.
     fn surfaces(&self) -> Result<Measured, CliError> {
         let continue_to = self.in_metres("--continue-to", self.continue_to)?;
         if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
@@ -167,8 +168,8 @@ impl SurfaceArguments {
         })
     }
 
-    /// Returns an error if the output file is one of the measured files, even with `--force`,
-    /// because overwriting would destroy the measurement.
+    /// Returns an error if an output file is one of the measured files. This is refused even with
+    /// `--force`, because overwriting would destroy the measurement.
     fn check_outputs(&self) -> Result<(), CliError> {
         let mut outputs = Vec::new();
         for output in [self.output.file(), self.scene.as_deref()] {
@@ -190,21 +191,22 @@ fn in_unicode(file: &Path) -> String {
     file.to_string_lossy().into_owned()
 }
 
-/// Task of analysing a measured surface, and of computing the adhesion of its equivalent line.
+/// Task of analysing a measured surface, and of computing the adhesion of the equivalent line of
+/// this surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceTask {
     /// Files of the surface, and the options for reading and analysing them.
     pub measured: Measured,
     /// Radius of the tip in m, for the reliability cut-off; `None` if it is unknown.
     pub tip_radius: Option<f64>,
-    /// Effective modulus E* in Pa; `None` if no elastic energy is wanted.
+    /// Effective modulus E* in Pa; `None` if the elastic energy is not requested.
     pub modulus: Option<f64>,
-    /// Work of adhesion γ in J/m²; `None` if no adhesion is wanted.
+    /// Work of adhesion γ in J/m²; `None` if adhesion is not requested.
     pub work: Option<f64>,
     /// Preload in N; `None` for a loading that turns at zero force.
     pub preload: Option<f64>,
-    /// Number of random profiles of the adhesion force. `None` means 16 profiles if each has at
-    /// most 131 072 springs, otherwise no profile.
+    /// Number of random profiles on which the adhesion force is computed. With `None`, there are 16
+    /// profiles if each of them has at most 131 072 springs, otherwise none.
     pub profiles: Option<u32>,
     /// Number of threads. The results do not depend on this number.
     pub jobs: usize,
@@ -213,7 +215,7 @@ pub struct SurfaceTask {
     pub wording: Wording,
 }
 
-/// Progress of the adhesion of a surface, counted in random profiles.
+/// Progress of the computation of the adhesion of a surface, as a number of random profiles.
 pub struct ComputedProfiles {
     /// Number of computed profiles.
     pub computed: u64,
@@ -222,7 +224,7 @@ pub struct ComputedProfiles {
 }
 
 impl SurfaceTask {
-    /// Returns the options of reading and analysing the files.
+    /// Returns the options for reading and analysing the files.
     pub fn options(&self) -> MeasuredOptions {
         let mut options = self.measured.options();
         options.spectrum.tip_radius = self.tip_radius;
@@ -237,8 +239,8 @@ impl SurfaceTask {
             .collect()
     }
 
-    /// Reads and analyses the files of the surface, and the file of the opposite face if there is
-    /// one.
+    /// Reads and analyses the files of the surface. If there is a file of the opposite face, it is
+    /// read and analysed as well.
     ///
     /// # Errors
     /// Returns an error for a file that cannot be read or analysed.
@@ -248,7 +250,7 @@ impl SurfaceTask {
         Ok(faces)
     }
 
-    /// Reads and analyses the file of the opposite face; `None` if there is none.
+    /// Reads and analyses the file of the opposite face; `None` if there is no such file.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read or analysed.
@@ -286,9 +288,9 @@ impl SurfaceTask {
         })
     }
 
-    /// Creates a scene of the equivalent line on a body with the effective modulus `modulus` in Pa.
-    /// The length of the profile is the length of the scan, or of the shorter scan if both faces
-    /// were measured.
+    /// Creates a scene in which a body with the effective modulus `modulus` (in Pa) has the profile
+    /// of the equivalent line. The length of the profile is the length of the scan, or that of the
+    /// shorter scan if both faces were measured.
     pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
         let name = Path::new(&self.measured.file)
             .file_name()
@@ -297,7 +299,7 @@ impl SurfaceTask {
             .iter()
             .map(|face| face.analysis.length)
             .fold(f64::INFINITY, f64::min);
-        // Rounding gives 100 µm for 1 000 points instead of 9.999999999999999e-5 m.
+        // Rounding turns 9.999999999999999e-5 m, from 1 000 points, into 100 µm.
         let length = round_to(length, 12);
         Scene {
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
@@ -315,8 +317,8 @@ impl SurfaceTask {
         }
     }
 
-    /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is
-    /// given, the adhesion of the equivalent line is computed on random profiles.
+    /// Makes the report on analysed faces. If `computes_adhesion` is true and a work of adhesion is
+    /// given, also computes the adhesion of the equivalent line on random profiles.
     ///
     /// # Errors
     /// Returns an error for a value that a scene does not allow, if a profile cannot be computed,
@@ -370,7 +372,8 @@ impl SurfaceTask {
 }
 
 impl SurfaceTask {
-    /// Reads and analyses the files, and makes the report. The progress is shown on a terminal.
+    /// Reads and analyses the files, and makes the report. On a terminal, the progress is shown
+    /// meanwhile.
     fn watched_report(&self, computes_adhesion: bool) -> Result<SurfaceReport, CliError> {
         let task = Task {
             name: None,
@@ -398,7 +401,7 @@ pub(super) fn surface(
         check_file(file, "ron", arguments.output.force)?;
     }
     let task = arguments.task()?;
-    // Adhesion takes seconds to compute. Only text and JSON contain it.
+    // Computing the adhesion takes seconds, and only text and JSON contain the result.
     let computes_adhesion = matches!(format, Format::Text | Format::Json);
     let report = task.watched_report(computes_adhesion)?;
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {

@@ -12,8 +12,8 @@ use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Event to which the explorer reacts: input of the user, a result from another thread, or elapsed
-/// time.
+/// Event to which the explorer reacts: input of the user, a result from another thread, or the
+/// passing of time.
 #[derive(Clone, Debug)]
 pub enum Action {
     Key(KeyEvent),
@@ -30,21 +30,23 @@ pub enum Action {
     Listed(Vec<Entry>),
     /// The paths that begin with the typed path have been found.
     Completed(Vec<String>),
-    /// A scene, a study or a force curve has been opened, or opening it has failed for this reason.
-    /// The first text is its path.
+    /// Opening the path in the first text has succeeded with a scene, a study or a force curve, or
+    /// has failed for the reason in the second text.
     Opened(String, Result<Opened, String>),
-    /// The measured curve has been read with other options, or reading it has failed for this
-    /// reason.
+    /// Reading the measured curve again, with other options, has succeeded, or has failed for the
+    /// reason in the text.
     CurveRead(CurveRequest, Result<Box<Measured>, String>),
     Mouse(Mouse),
 }
 
-/// Work outside of the state of the explorer.
+/// Work that the explorer starts and that does not change its state directly, such as writing a
+/// file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
     /// Asks the solver for the state that the screen shows next.
     Ask,
-    /// Performs the studies that the scene still needs, instead of all earlier ones.
+    /// Starts the background computations (studies) that the scene still needs. All earlier ones
+    /// are cancelled.
     Study,
     Write(OutputFile),
     List,
@@ -83,8 +85,8 @@ pub enum WriteFailure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Scene,
-    /// The selected pane in this format: its figure for a picture, otherwise its result. In the
-    /// text format, all panes.
+    /// The selected pane in this format: a format for pictures gives the figure of the pane, a
+    /// format for data its numbers. The text format gives the text of all panes.
     Pane(Format),
 }
 

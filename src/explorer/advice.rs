@@ -1,9 +1,10 @@
-//! The rows and keys of the explorer that help where a message has a remedy.
+//! Words for the remedies of an error message: the row or the key of the explorer that applies the
+//! remedy.
 
 use asperity_data::Remedy;
 
-/// Returns the words for a remedy in the explorer: the row of the list of parameters, or what the
-/// command line does where the explorer has no row.
+/// Returns how the user applies a remedy in the explorer. If the explorer has no row for the
+/// remedy, the words describe an option of the command line.
 pub fn row(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "the row roughness.surface_name",

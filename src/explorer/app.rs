@@ -41,15 +41,16 @@ pub struct CurveLook {
 pub enum Message {
     Done(String),
     Error(String),
-    /// The new value of the selected parameter was refused for this reason.
+    /// The value that the user gave the selected parameter was refused for this reason.
     Refused(String),
 }
 
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane that has the main place on the screen. The force curve is then below this pane, and
-    /// replaces the profile and the close-up there. `None` if the force curve has the main place.
+    /// Pane that has the main place on the screen. In this case the force curve is drawn below this
+    /// pane, where the profile and the close-up would be. `None` if the force curve has the main
+    /// place.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -59,7 +60,7 @@ pub struct View {
     pub curve: CurveLook,
     /// Scale of the preload axis in the pane of adhesion force against preload.
     pub preloads: AxisScale,
-    /// True if loops of random squares in three dimensions are computed and shown.
+    /// True if the loops of random square surfaces on an elastic half-space are computed and shown.
     pub squares: bool,
     /// Position of the crosshair, from 0 to 1: along the profile in the panes that show springs,
     /// along the horizontal axis in other charts. `None` if there is no crosshair.
@@ -71,8 +72,8 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
-/// State that the screen waits for: the generation of the scene, the requested snapshot, and the
-/// number of manual moves.
+/// State of the contact for which the screen waits: the generation of the scene, the requested
+/// snapshot, and the number of manual moves.
 pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
 #[derive(Clone, Debug)]
@@ -154,8 +155,8 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// Adds a warning and an offer to the notice of the opened scene, as one message. Warnings and
-    /// errors come first.
+    /// Adds a warning and an offer to the message that is shown for the opened scene, so that all
+    /// three are one message. Warnings and errors come first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
         let mut done = None;
@@ -195,8 +196,8 @@ impl App {
             .is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt again with a text that could not be used. `why` is the reason; it may begin
-    /// with the text, which is then not repeated.
+    /// Opens a prompt again with a typed text that the explorer could not use. `why` is the reason.
+    /// If `why` begins with the typed text, the beginning is left out.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let rest = why.strip_prefix(text);
         let reason = rest.and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
@@ -216,12 +217,12 @@ impl App {
         }
     }
 
-    /// Prepares for a command that changes the scene or the panes. It removes the notice, and ends
-    /// an edit that consists of successive moves on the map.
+    /// Prepares for a command that changes the scene or the panes: removes the message, and ends a
+    /// series of moves of the mark on the map, which counts as one edit.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
-        // If the scene has no curve, the reason stays visible. Any other notice disappears with the
-        // next key.
+        // If the computation of the scene has failed, the message with the reason stays visible.
+        // All other messages disappear with the next key.
         if self.is_current() || self.is_computing() {
             self.message = None;
         }
@@ -231,8 +232,9 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Returns the governing parameters of the present scene. They are known if the newest computed
-    /// scene has the same profile and material, even if its adhesion differs; otherwise `None`.
+    /// Returns the governing parameters of the present scene. They are known if the profile and the
+    /// material of the present scene are those of the scene computed last, even if the adhesion
+    /// differs; otherwise `None`.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let before = &computed.scene;
@@ -261,8 +263,8 @@ impl App {
     }
 
     /// Returns the warnings about premises of the model that the present result does not meet, in
-    /// the words of all reports. They concern the random profiles if some are computed, otherwise
-    /// the profile of the scene.
+    /// the words that all reports use. If random profiles have been computed, the warnings concern
+    /// these profiles, otherwise the profile of the scene.
     pub fn warnings(&self) -> Vec<String> {
         let Some(computed) = self.current() else {
             return Vec::new();
@@ -281,9 +283,10 @@ impl App {
     }
 
     /// Returns the outcome to show as a preview:
-    /// * While a value is typed: the outcome for this value or, until it is computed, for the value
-    ///   typed before.
-    /// * After the value is accepted: the same outcome, until the scene itself is computed.
+    /// * While the user types a value: the outcome for the typed value. Until this outcome is
+    ///   computed, the outcome for the value typed before.
+    /// * After the user has accepted the value: the same outcome, until the scene itself is
+    ///   computed.
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
@@ -298,7 +301,7 @@ impl App {
         }
     }
 
-    /// Returns true if the outcome for exactly the typed value is known.
+    /// Returns true if the outcome for the value that the user is typing is computed.
     pub fn is_tried(&self) -> bool {
         let tried = self.tried.as_ref().map(Document::text);
         self.studies
@@ -306,8 +309,8 @@ impl App {
             .is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Returns the position of the scene on the map, as the values on its axes. `None` if the scene
-    /// lacks a quantity of the axes, or if the value of this quantity is not known yet.
+    /// Returns the point of the map that represents the scene, as numbers on the axes. `None` if
+    /// the scene lacks the quantity of an axis, or if the value of this quantity is not known yet.
     pub fn place(&self) -> Option<GridPlace> {
         let (across, up) = self.map_axes()?;
         let scene = self.edit.document.scene();
@@ -342,8 +345,8 @@ impl App {
         Some((axes.next()?, axes.next()))
     }
 
-    /// Returns the quantity that the map shows. It is the chosen quantity, or the first quantity of
-    /// the map if the map does not contain the chosen one.
+    /// Returns the quantity that the map shows: the quantity chosen by the user or, if the map does
+    /// not contain it, the first quantity of the map.
     pub fn mapped(&self) -> Quantity {
         let chosen = self.map.quantity;
         let quantities = self.mappable();
@@ -383,8 +386,9 @@ impl App {
         self.panes().contains(&pane)
     }
 
-    /// Shows and selects a pane. If the pane is already shown, hides it again. But a map that is
-    /// shown and not selected is only selected, because the user then wants to use its keys.
+    /// Shows and selects a pane, or hides the pane if it is already shown. Exception: a map that is
+    /// shown but not selected is selected instead of hidden, because the user then wants to use its
+    /// keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use {
@@ -394,12 +398,12 @@ impl App {
         }
     }
 
-    /// Shows the force curve at the main place, and selects it.
+    /// Gives the main place on the screen to the force curve, and selects the force curve.
     pub fn show_force_curve(&mut self) {
         self.show_large(None, Pane::Force);
     }
 
-    /// Shows a pane at its place and selects it.
+    /// Shows a pane and selects it. A large pane takes the main place on the screen.
     pub fn show(&mut self, pane: Pane) {
         let large = if pane.is_large() {
             Some(pane)
@@ -410,7 +414,8 @@ impl App {
     }
 
     /// Gives the main place to the pane `large`, or to the force curve if `large` is `None`, and
-    /// selects a pane. Another pane needs other studies, so they are requested.
+    /// selects the pane `selected`. If the main place changes, the background computations for the
+    /// new pane are requested.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
@@ -418,9 +423,9 @@ impl App {
         self.view.pane = selected;
     }
 
-    /// Returns the context that determines the meaning of the keys. For example, arrows move the
-    /// mark on the map, and the crosshair in a pane that has one. In the list of parameters, digits
-    /// begin a value.
+    /// Returns the context, which determines what the keys do. For example, the arrow keys move the
+    /// mark on a map, and the crosshair in a pane that shows one. In the list of parameters, a
+    /// digit begins a new value.
     pub fn keys(&self) -> Context {
         if let Some(prompt) = &self.prompt {
             return prompt.context();
@@ -474,9 +479,8 @@ impl App {
             .is_some_and(|outcome| outcome.instrument.is_some())
     }
 
-    /// Returns a force of the computed scene in N. If the force is so small that it is only a
-    /// rounding error of the largest marked force, it returns zero. This happens after a stage to
-    /// zero force.
+    /// Returns the given force in N, or zero if the force is only a rounding error of the largest
+    /// marked force. Such rounding errors occur after a stage that ends at zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, point) in Mark::all(self.legs()) {
@@ -489,8 +493,8 @@ impl App {
         }
     }
 
-    /// Returns true if forces are shown in units of F_a,max. This needs a computed scene that has
-    /// this force.
+    /// Returns true if forces are shown in units of F_a,max. This is possible only if a scene with
+    /// a positive F_a,max is computed.
     pub fn is_normalised(&self) -> bool {
         self.view.curve.normalised && self.ideal_adhesion_force().is_some()
     }
@@ -524,9 +528,8 @@ impl App {
         Some(format!("median {}", share_in_words(shares.quartiles[1])))
     }
 
-    /// Returns the value of a parameter in the notation of the scene file. If the value follows
-    /// from other parameters, it returns the computed value, or `None` as long as this value is not
-    /// known.
+    /// Returns the value of a parameter in the notation of the scene file. For a value that follows
+    /// from other parameters, returns the computed value; `None` until this value is computed.
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());

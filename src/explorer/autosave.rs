@@ -1,6 +1,6 @@
-//! Copies of unsaved changes, for the case that the process or its connection ends before the user
-//! saves them. Each session has a file of its own, which stays locked while the session runs. Files
-//! of the user are never touched.
+//! Copies of unsaved changes, in case the process or its connection ends before the user saves the
+//! changes. Each session has its own file, which is locked while the session runs. Files of the
+//! user are never changed.
 
 use asperity_data::{into_text, open_regular, path_name, read_limited};
 use asperity_scene::Document;
@@ -16,8 +16,8 @@ use std::{fs, io};
 /// each.
 const LONGEST: usize = 1 << 24;
 
-/// Scene with unsaved changes, as a file stores it. The first scene in the file is the one that was
-/// explored.
+/// Scene with unsaved changes, as it is stored in a file. The first scene in the file is the scene
+/// that the user was exploring.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Copy {
@@ -57,8 +57,9 @@ pub fn folder() -> Option<PathBuf> {
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Unsaved changes of an ended session. The first document is the scene that was explored. The file
-/// is locked as long as this value exists, so that no other process can take it.
+/// Unsaved changes of an ended session. The first document is the scene that the user was
+/// exploring. The file is locked while this value exists, so that no other process can take the
+/// file.
 pub struct Kept {
     path: PathBuf,
     lock: File,
@@ -136,7 +137,7 @@ pub fn offer(folder: &Path) -> Option<String> {
     ))
 }
 
-/// Reads the scenes in a file. The first is the scene that was explored.
+/// Reads the scenes in a file. The first scene is the one that the user was exploring.
 fn read(file: &File) -> Result<Vec<Document>, String> {
     let text = read_limited(file, LONGEST)
         .and_then(into_text)
@@ -152,8 +153,9 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Prepares the copies of a new session. If the session continues an ended session (`restored`),
-    /// it takes over the file of the ended session; otherwise it has no file yet.
+    /// Prepares the file with the unsaved changes of a new session. If the session continues an
+    /// ended session (`restored`), it takes over the file of the ended session; otherwise it has no
+    /// file yet.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave {
@@ -171,13 +173,14 @@ impl Autosave {
         }
     }
 
-    /// Returns true if a file holds the unsaved changes of this explorer.
+    /// Returns true if there is a file with the unsaved changes of this session.
     pub fn has_file(&self) -> bool {
         self.own.is_some()
     }
 
-    /// Replaces the kept scenes by these scenes. If there are none, the file is removed. The file
-    /// always has either its old or its new complete content, even if the process is killed.
+    /// Writes these scenes to the file, in place of all scenes in it. If there are no scenes, the
+    /// file is removed. Even if the process is killed meanwhile, the file has either its complete
+    /// old content or its complete new content.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return match self.own.take() {
@@ -250,8 +253,9 @@ mod tests {
         );
     }
 
-    /// A file that cannot be read is named, and does not hide an older file that can be read. It
-    /// may have been damaged by a power cut, or may not be a copy at all.
+    /// A file that cannot be read is reported by its name, and does not hide an older file that can
+    /// be read. Such a file may have been damaged by a power cut, or may not be a copy of a scene
+    /// at all.
     #[test]
     fn files_that_cannot_be_read_are_stated_and_hide_no_older_one() {
         let folder = tempfile::tempdir().unwrap();

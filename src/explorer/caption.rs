@@ -7,7 +7,8 @@ use asperity_contact::Branch;
 use asperity_report::event;
 
 /// Returns the event at the shown state, in words that fit into the title of a pane 34 columns
-/// wide. `None` before the first result, and if the stage does not move the body.
+/// wide. Returns `None` before the first result is computed, and in a stage that does not move the
+/// body.
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     let Drive::Leg(index) = snapshot.drive else {

@@ -30,8 +30,8 @@ pub fn close_up(
     }
 }
 
-/// Returns the first and the last spring of each patch with their heights in m. Springs that are
-/// not shown are left out.
+/// Returns the spring at each end of each patch, with its height in m. Springs outside the close-up
+/// are left out.
 fn boundaries(contact: &SectionContact<'_>, shown: Range<usize>) -> Vec<(usize, f64)> {
     let mut boundaries = Vec::new();
     let first_patch = contact
@@ -61,12 +61,13 @@ fn facts(contact: &SectionContact<'_>, leg: &Leg, number: usize) -> Option<Patch
 
 /// Smallest number of springs in a close-up of a patch.
 const FEWEST: usize = 32;
-/// Number of equal parts of the profile. If nothing is in contact, the close-up shows one part.
+/// Number of equal parts into which the profile is divided. If no spring is in contact, the
+/// close-up shows one part.
 const PARTS: usize = 32;
 
-/// Returns the springs of a close-up. If the user has chosen the number of springs, these springs
-/// lie around the centre. Otherwise the close-up contains the whole patch; the number of springs is
-/// then a power of two, so that it does not change while the patch grows a little.
+/// Returns the range of springs in a close-up. If the user has chosen the number of springs, the
+/// range has this size and lies around the centre. Otherwise the range contains the whole patch.
+/// Its size is then a power of two, so that it does not change when the patch grows a little.
 fn shown(
     count: usize,
     centre: usize,
@@ -123,8 +124,8 @@ fn middle_of_neighbour(contact: &SectionContact<'_>, spring: usize, steps: usize
     }
 }
 
-/// Returns the index of the patch nearest to a spring. If two patches are equally near, it is the
-/// first of them.
+/// Returns the index of the patch nearest to a spring. If two patches are equally near, returns the
+/// index of the first one.
 fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {
     let after = patches.partition_point(|patch| patch.last < spring);
     let near = after.saturating_sub(1)..(after + 1).min(patches.len());

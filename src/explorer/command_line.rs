@@ -1,4 +1,4 @@
-//! Shell commands that open a scene or read a measured curve as the explorer shows them.
+//! Shell commands that open the scene, or read the measured curve, as the explorer shows it now.
 
 use asperity_experiment::{CurveOptions, Drift, Tilt};
 use asperity_scene::text::quoted;
@@ -11,7 +11,7 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
         let set = format!("{path}={value}");
         sets += &format!(" --set {}", quoted(set));
     }
-    // A name that looks like an option comes after all options.
+    // A name that begins with `-` is written after `--`, so that it is not read as an option.
     if name.starts_with('-') {
         format!("{program}{sets} -- {}", quoted(name))
     } else {
@@ -19,7 +19,8 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// Returns options of a measured curve as arguments of a command, each with a blank before it.
+/// Returns the options of a measured curve as arguments of a command. A blank precedes each
+/// argument.
 pub fn curve_arguments(options: &CurveOptions) -> String {
     let segments: Vec<String> = options.segments.iter().map(ToString::to_string).collect();
     let mut text = String::new();

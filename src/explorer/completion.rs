@@ -23,7 +23,8 @@ pub fn complete(typed: &str) -> Vec<String> {
     };
     let entries = read_dir(directory).into_iter().flatten();
     let mut paths = Vec::new();
-    // Entries that cannot be read count too, so that the number of attempts is limited.
+    // Entries that cannot be read count as well, so that the loop makes at most `MOST_ENTRIES`
+    // attempts.
     for entry in entries.take(MOST_ENTRIES).flatten() {
         let Ok(found) = entry.file_name().into_string() else {
             continue;

@@ -25,12 +25,13 @@ pub struct Config {
     pub speed: f64,
     /// True if the animation starts again after its end.
     pub repeat: bool,
-    /// True if the explorer uses the mouse; false if the terminal keeps it.
+    /// True if the explorer reacts to the mouse; false if the terminal does, for example to select
+    /// text.
     pub mouse: bool,
     /// Name of the scene that opens if the user names no scene.
     pub scene: String,
     keys: Vec<KeySetting>,
-    /// The keys in use; empty before the configuration has been read.
+    /// Keys with the changes of the file applied; empty before the file has been read.
     #[serde(skip)]
     pub bindings: Bindings,
 }
@@ -74,9 +75,9 @@ impl Config {
         }
     }
 
-    /// Reads a configuration file. `bindings` are the keys that the file may change. If the file
-    /// does not exist, the defaults apply; but if the user has named the file (`is_named` is true),
-    /// this is an error.
+    /// Reads a configuration file. `bindings` are the default keys, which the file may change. If
+    /// the file does not exist, the defaults apply, except if the user has named the file
+    /// (`is_named`): then this is an error.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         if !is_named && is_missing(path) {
             return Ok(Config::new(bindings));
@@ -87,7 +88,8 @@ impl Config {
         }
     }
 
-    /// Reads the text of a configuration file. `bindings` are the keys that the file may change.
+    /// Reads the text of a configuration file. `bindings` are the default keys, which the file may
+    /// change.
     pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
         let source = Source { text, path };
         let mut config: Config = read_ron(text).map_err(|error| {
@@ -109,8 +111,8 @@ impl Config {
             }
         }
         if let Some((key, action, other)) = config.bindings.conflict() {
-            // The message points to the last setting of one of the two actions, because either of
-            // them may contain the key.
+            // The same key may come from a setting of `action` or of `other`. The message points to
+            // the later of these settings.
             let mut settings = config.keys.iter();
             let number = settings
                 .rposition(|setting| setting.action == action || setting.action == other)
@@ -124,8 +126,8 @@ impl Config {
     }
 }
 
-/// Returns true if there is no file at the path. A broken link counts as a file, which then cannot
-/// be read.
+/// Returns true if there is no file at the path. A broken link does not count as missing; reading
+/// it is then an error.
 fn is_missing(path: &Path) -> bool {
     match path.symlink_metadata() {
         Ok(_) => false,
@@ -133,7 +135,7 @@ fn is_missing(path: &Path) -> bool {
     }
 }
 
-/// A configuration file, for error messages that state the place of a mistake in the file.
+/// Text and path of a configuration file. Error messages use them to state where a mistake is.
 struct Source<'a> {
     text: &'a str,
     path: &'a Path,

@@ -1,4 +1,4 @@
-//! Options for reading a measured curve, as rows of the list of parameters.
+//! Options for reading a measured curve, as rows in the explorer's list of parameters.
 
 use super::measured::Measured;
 use asperity_data::{exact_quantity, format_quantity, in_unit, parse_quantity, unit_of};
@@ -7,27 +7,27 @@ use asperity_scene::fields::{Field, Range};
 use asperity_scene::text::ron_float;
 use std::ops::Bound::{Excluded, Included};
 
-/// Path of the rows of the measured curve in the list of parameters.
+/// Path of the group of rows for the measured curve in the list of parameters.
 pub const GROUP: &str = "measured";
 
-/// First row of the group, which shows the name of the file.
+/// Heading of the group, which shows the name of the file.
 pub static HEAD: Field = Field::beside(GROUP, "measured curve", Range::Group, "");
 
-/// Function that formats a value with its unit.
+/// Function that writes a number with its unit, as text.
 type Format = fn(f64, &str) -> String;
 
-/// Row of the list of parameters for an option. Its value is typed as on the command line.
+/// Row in the list of parameters for one option. The user types its value as on the command line.
 pub struct CurveOptionRow {
     pub field: Field,
-    /// Text for the usual value, which applies if the option is not set.
+    /// Text that is shown if the option is not set.
     pub usual: &'static str,
-    /// Values among which the arrow keys step, the usual value first. Empty if the value can only
-    /// be typed.
+    /// Values through which the arrow keys step. The first is the text for an option that is not
+    /// set. Empty if the value can only be typed.
     choices: &'static [&'static str],
-    /// Returns the value of the option as it is typed; `None` for the usual value. The format
-    /// applies to forces.
+    /// Returns the value of the option as the user would type it; `None` if the option is not set.
+    /// The function of type `Format` writes forces.
     written: fn(&CurveOptions, Format) -> Option<String>,
-    /// Sets the option to a typed value. An empty text means the usual value.
+    /// Sets the option to a typed value. An empty text unsets the option.
     take: fn(&mut CurveOptions, &str) -> Result<(), String>,
 }
 
@@ -37,7 +37,7 @@ const TEXT: Range = Range::Text {
     lines: false,
 };
 const FORCE: Range = Range::Real(Included(-1e6), Included(1e6));
-/// Allowed lengths in m.
+/// Allowed range of a length in m.
 const LENGTH: Range = Range::Real(Excluded(0.0), Included(1e3));
 const NEGATED: &[&str] = &["by the approach", "none", "displacement", "force", "both"];
 const KEPT: &[&str] = &["keep", "remove"];
@@ -51,8 +51,8 @@ const fn option(
     Field::beside(path, name, range, meaning)
 }
 
-/// The options in the order of the list. Options without which some files cannot be read come
-/// first.
+/// All options, in the order in which the list of parameters shows them. The options that are
+/// necessary to read certain files come first.
 pub static OPTIONS: [CurveOptionRow; 10] = [
     CurveOptionRow {
         field: option(
@@ -247,7 +247,7 @@ fn not_among(typed: &str, choices: &'static [&'static str]) -> String {
     format!("{typed}: allowed: {}", Range::Choice(choices))
 }
 
-/// Reads the numbers of segments, which count from 1.
+/// Reads the numbers of segments, separated by commas. The first segment has the number 1.
 fn segments(typed: &str) -> Result<Vec<usize>, String> {
     let mut numbers = Vec::new();
     for word in words(typed) {
@@ -307,7 +307,8 @@ impl CurveOptionRow {
         }
     }
 
-    /// Returns the text with which the editor of the value opens. It is empty for the usual value.
+    /// Returns the text that the user edits when the row is opened. It is empty if the option is
+    /// not set.
     pub fn editable(&self, options: &CurveOptions) -> String {
         (self.written)(options, exact_quantity).unwrap_or_default()
     }
@@ -317,8 +318,8 @@ impl CurveOptionRow {
         (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())
     }
 
-    /// Returns the value as a number in the notation of a scene, if it is a force that the user has
-    /// given; otherwise `None`.
+    /// Returns the value as a number in the notation of a scene file; `None` if the option is not a
+    /// force or is not set.
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
         if self.field.unit != "N" {
             return None;
@@ -328,8 +329,9 @@ impl CurveOptionRow {
         Some(ron_float(force))
     }
 
-    /// Adds a unit to a typed force without a unit. It is the unit of the shown value or, if that
-    /// is not a force, the unit of the noise. Other values stay unchanged.
+    /// Adds a unit to a typed force without a unit: the unit of the present value or, if the
+    /// present value is not a force, the unit of the noise. Values that are not forces stay
+    /// unchanged.
     pub fn with_unit(&self, measured: &Measured, typed: &str) -> String {
         let is_force = self.field.unit == "N" || self.field.path == "measured.drift";
         if !is_force {
@@ -344,8 +346,8 @@ impl CurveOptionRow {
         in_unit(typed, unit_of(&noise))
     }
 
-    /// Returns the options with this option set to a typed value. An empty text, or the text for
-    /// the usual value, removes the option.
+    /// Returns the options with this option set to a typed value. An empty text, or the text that
+    /// is shown for an option that is not set, unsets the option.
     ///
     /// # Errors
     /// Returns the reason if the option cannot have this value.
@@ -365,16 +367,15 @@ impl CurveOptionRow {
         let next = match self.choices.iter().position(|choice| *choice == present) {
             Some(place) if forwards && place < last => place + 1,
             Some(place) if !forwards => place.checked_sub(1).unwrap_or(last),
-            // After the last choice the first one follows. It also follows a value that is not one
-            // of the choices.
+            // The first choice follows the last one, and any value that is not one of the choices.
             _ => 0,
         };
         self.choices.get(next).copied()
     }
 }
 
-/// Returns the differences between two sets of options as text, such as `noise by the curve → 2
-/// nN`.
+/// Returns the differences between two sets of options as text, such as
+/// `noise by the curve → 2 nN`.
 pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
     let mut changes = Vec::new();
     for option in &OPTIONS {

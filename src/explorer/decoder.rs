@@ -1,6 +1,6 @@
-//! Converts the bytes of a terminal to keys, pasted texts and gestures of the mouse. A broken line
-//! may deliver only the beginning of a key or a paste. Such a beginning is given up after a pause,
-//! so that later keys are read correctly.
+//! Converts the bytes of a terminal to keys, pasted texts and gestures of the mouse. If the line to
+//! the terminal breaks, only the beginning of a key or of a paste may arrive. After a pause the
+//! decoder ends such a beginning, so that later keys are read correctly.
 
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
@@ -10,11 +10,12 @@ use std::time::Duration;
 /// Longest pause between the bytes of a key. On a slow line, these bytes may arrive separately.
 const SEQUENCE_PAUSE: Duration = Duration::from_millis(80);
 
-/// Longest pause within a pasted text. It is long because the rest of a paste that is ended too
-/// early would be read as keys.
+/// Longest pause within a pasted text. It is long, because after a paste that is ended too early
+/// the rest of the text would be read as keys.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
-/// Largest number of parameter bytes that are kept of a sequence. All known sequences are shorter.
+/// Largest number of parameter bytes that are stored for a sequence. All known sequences are
+/// shorter.
 const LONGEST_SEQUENCE: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
@@ -31,21 +32,23 @@ enum Pending {
     Nothing,
     /// The first bytes of a character in UTF-8.
     Character { bytes: Vec<u8>, is_alt: bool },
-    /// ESC: the key of this name, or the beginning of a sequence.
+    /// `ESC`, which is either the escape key or the beginning of a sequence.
     Escape,
-    /// ESC O: a key of the application mode.
+    /// `ESC O`, the beginning of a key in the application mode.
     Application,
-    /// ESC [ followed by parameters. The value contains the parameters read so far.
+    /// `ESC [`, which parameters follow. The value contains the parameters read so far.
     Control(Vec<u8>),
-    /// ESC [ [: a function key of the Linux console.
+    /// `ESC [ [`, the beginning of a function key on the Linux console.
     Console,
-    /// ESC [ M: a gesture of the mouse, which consists of three more bytes.
+    /// `ESC [ M`, the beginning of a gesture of the mouse. The value contains those of the three
+    /// following bytes that have been read.
     Gesture(Vec<u8>),
-    /// ESC ], ESC P or ESC _: an answer of the terminal, which ends with BEL or ESC \.
+    /// `ESC ]`, `ESC P` or `ESC _`, the beginning of an answer of the terminal. The answer ends
+    /// with `BEL` or `ESC \`.
     Answer,
-    /// ESC inside an answer of the terminal.
+    /// `ESC` inside an answer of the terminal, which may be the beginning of its end.
     EscapeInAnswer,
-    /// ESC [ 200 ~: a pasted text. The value contains the text read so far.
+    /// `ESC [ 200 ~`, the beginning of a pasted text. The value contains the text read so far.
     Paste(Vec<u8>),
 }
 
@@ -62,8 +65,8 @@ impl Decoder {
         if let Pending::Paste(_) = self.pending
             && bytes.iter().all(|byte| *byte == INTERRUPT)
         {
-            // Pasted text arrives in larger pieces. Therefore a piece that consists only of this
-            // byte is a Ctrl+C of the user.
+            // Pasted text arrives in larger pieces. Therefore a piece that consists only of Ctrl+C
+            // bytes comes from the user.
             self.end();
         }
         for byte in bytes {
@@ -82,8 +85,8 @@ impl Decoder {
         }
     }
 
-    /// Ends the incomplete input without its rest. An ESC alone becomes the key, and an incomplete
-    /// paste becomes the text read so far.
+    /// Ends the incomplete input, because the rest does not arrive. A single ESC becomes the escape
+    /// key, and an incomplete paste becomes the text read so far.
     pub fn give_up(&mut self) -> Vec<Event> {
         self.end();
         std::mem::take(&mut self.events)
@@ -97,8 +100,9 @@ impl Decoder {
         }
     }
 
-    /// Ends a paste whose end sequence is missing or incomplete. If its text contains a Ctrl+C, the
-    /// user has tried to interrupt the explorer, so this key is pressed afterwards.
+    /// Ends a paste whose end sequence is missing or incomplete. If the pasted text contains a
+    /// Ctrl+C, the user has tried to interrupt the explorer, so a press of Ctrl+C is added after
+    /// the text.
     fn end_paste(&mut self, text: &[u8]) {
         let mut end = text.len();
         for length in 1..PASTE_END.len() {
@@ -191,8 +195,8 @@ impl Decoder {
         }
     }
 
-    /// Handles a byte that does not fit an incomplete sequence. A printable byte is dropped,
-    /// because it belongs to the broken sequence. A control character or ESC begins a new key.
+    /// Handles a byte that does not fit the incomplete sequence. A printable byte is dropped,
+    /// because it belongs to this broken sequence. A control character or ESC begins a new key.
     fn begin_unless_text(&mut self, byte: u8) {
         if byte < b' ' {
             self.begin(byte, false);
@@ -273,7 +277,7 @@ impl Decoder {
     }
 }
 
-/// Returns the key for a byte after ESC O.
+/// Returns the key for the byte after the bytes `ESC O`.
 fn application_key(byte: u8) -> Option<KeyCode> {
     match byte {
         b'P'..=b'S' => Some(KeyCode::F(1 + byte - b'P')),
@@ -281,7 +285,7 @@ fn application_key(byte: u8) -> Option<KeyCode> {
     }
 }
 
-/// Returns the key for a letter after ESC O or ESC [.
+/// Returns the key for the letter after the bytes `ESC O` or `ESC [`.
 fn moving_key(letter: u8) -> Option<KeyCode> {
     match letter {
         b'A' => Some(KeyCode::Up),
@@ -294,7 +298,7 @@ fn moving_key(letter: u8) -> Option<KeyCode> {
     }
 }
 
-/// Returns the key for a number before `~`.
+/// Returns the key for a number that a terminal sends before `~`.
 fn numbered_key(number: u8) -> Option<KeyCode> {
     match number {
         1 | 7 => Some(KeyCode::Home),
@@ -312,8 +316,8 @@ fn numbered_key(number: u8) -> Option<KeyCode> {
     }
 }
 
-/// Returns the event of a sequence that consists of `ESC [`, these parameters and this last byte.
-/// `None` for an answer of the terminal, and for a key that the explorer does not use.
+/// Returns the event for a sequence that consists of `ESC [`, these parameters and this last byte.
+/// Returns `None` for an answer of the terminal, and for a key that the explorer does not use.
 fn control_event(parameters: &str, last: u8) -> Option<Event> {
     if let Some(gesture) = parameters.strip_prefix('<') {
         return if matches!(last, b'M' | b'm') {
@@ -342,8 +346,8 @@ fn control_event(parameters: &str, last: u8) -> Option<Event> {
                 modifiers | KeyModifiers::SHIFT,
             )));
         }
-        // `ESC [ … R` is not a key but an answer of the terminal that states the position of the
-        // cursor.
+        // `ESC [ … R` is missing here, because it is not a key but an answer of the terminal: the
+        // position of the cursor.
         b'P' | b'Q' | b'S' if matches!(first, "" | "1") => application_key(last)?,
         _ if matches!(first, "" | "1") => moving_key(last)?,
         _ => return None,
@@ -351,7 +355,8 @@ fn control_event(parameters: &str, last: u8) -> Option<Event> {
     Some(Event::Key(KeyEvent::new(code, modifiers)))
 }
 
-/// Returns the modifiers of a key. `mask` is one more than the sum of their bits.
+/// Returns the modifiers of a key from the number `mask`, which is 1 plus the sum of the bits of
+/// the modifiers.
 fn modifiers_of(mask: u8) -> KeyModifiers {
     let bits = mask.saturating_sub(1);
     let mut modifiers = KeyModifiers::NONE;
@@ -364,7 +369,7 @@ fn modifiers_of(mask: u8) -> KeyModifiers {
     modifiers
 }
 
-/// Returns the key for a character code before `u`.
+/// Returns the key for a character code that a terminal sends before `u`.
 fn coded_key(code: u32) -> Option<KeyCode> {
     match char::from_u32(code)? {
         '\x1b' => Some(KeyCode::Esc),
@@ -600,8 +605,8 @@ mod tests {
     }
 
     proptest! {
-        /// Most of these bytes begin sequences. After a pause the next key must be read correctly,
-        /// and a Ctrl+C at any time.
+        /// Most of these bytes begin sequences. Nevertheless the next key after a pause, and a
+        /// Ctrl+C at any time, must be read correctly.
         #[test]
         fn no_bytes_swallow_later_keys(
             pieces in prop::collection::vec(

@@ -20,14 +20,14 @@ pub struct Edited {
     pub measured: Option<Measured>,
 }
 
-/// Returns true if a row of the list belongs to this path. If a loading stage has a number, the
-/// path of its row is the path of the number, which ends in `.0`.
+/// Returns true if a row of the list of parameters has this path. A loading stage with a number is
+/// shown by the row of its number, whose path ends in `.0`.
 fn is_at(parameter: &Parameter, path: &str) -> bool {
     parameter.path == path || parameter.path.strip_suffix(".0") == Some(path)
 }
 
 impl Edited {
-    /// Returns true if the scenes or the curves differ in anything that undo restores.
+    /// Returns true if the scenes, or the sources of the curves, differ.
     fn differs(&self, other: &Edited) -> bool {
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
@@ -45,15 +45,15 @@ impl Edited {
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
-    /// The measured curve beside the scene.
+    /// The measured curve that is compared with the scene.
     pub measured: Option<Measured>,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.
     pub scene: Arc<CheckedScene>,
-    /// Scenes and curves before each edit, the newest last.
+    /// Scenes and curves before each edit that can be undone, the newest last.
     pub past: Vec<Edited>,
     future: Vec<Edited>,
-    /// The document of each scene as it was saved or opened, by the name of the scene.
+    /// For each name of a scene, the document as it was last saved or opened.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene has been saved or opened.
     pub saves: u64,
@@ -87,7 +87,7 @@ impl Editor {
         self.parameters.get(self.selected)
     }
 
-    /// Selects the parameter in this row. If there is no such row, it is the last one.
+    /// Selects the parameter in this row, or in the last row if there is no such row.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }
@@ -105,10 +105,10 @@ impl Editor {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
-    /// Returns the row of the field with this path or, if there is none, the row of the nearest
-    /// group that contains the field. If there is no such group, it returns the selected row. As a
-    /// result, the selection stays in place when rows appear or disappear, and the row that
-    /// switched an effect off can switch it on again.
+    /// Returns the row of the field with this path. If there is none, returns the row of the
+    /// nearest group that contains the field; if there is no such group either, returns the
+    /// selected row. As a result, the selection stays in place when rows appear or disappear, and
+    /// after a row has switched an effect off, the same row can switch it on again.
     fn row_of(&self, path: &str) -> usize {
         let mut path = path;
         loop {
@@ -123,8 +123,8 @@ impl Editor {
         }
     }
 
-    /// Makes a document the explored scene. Undo returns to the previous document, unless the
-    /// documents are the same.
+    /// Makes a document the explored scene. Undo returns to the previous document. If the two
+    /// documents are the same, nothing is added to the history.
     pub fn adopt(&mut self, document: Document) {
         self.adopt_all(Edited {
             document,
@@ -132,7 +132,7 @@ impl Editor {
         });
     }
 
-    /// Makes a document and a measured curve the explored scene and curve, in one edit.
+    /// Makes a document the explored scene and a curve the measured curve, in one edit.
     pub fn adopt_all(&mut self, edited: Edited) {
         let before = self.exchange(edited);
         if before.differs(&self.edited()) {
@@ -152,7 +152,7 @@ impl Editor {
         }
     }
 
-    /// Replaces the present document and the present curve. Returns the replaced ones.
+    /// Replaces the present document and the present curve, and returns the previous ones.
     fn exchange(&mut self, Edited { document, measured }: Edited) -> Edited {
         Edited {
             document: replace(&mut self.document, document),
@@ -160,15 +160,16 @@ impl Editor {
         }
     }
 
-    /// Continues the last edit: the document replaces the result of this edit.
+    /// Continues the last edit: the document takes the place of its result, so that one undo
+    /// reverts both.
     pub fn replace(&mut self, document: Document) {
         self.document = document;
         self.future.clear();
         self.renew();
     }
 
-    /// If `back` is true, undoes the last edit; otherwise redoes the last undone edit. Returns the
-    /// changes as text; `None` if there is no such edit.
+    /// Undoes the last edit if `back` is true; otherwise redoes the edit that was undone last.
+    /// Returns the changes as text; `None` if there is no edit to undo or redo.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let next = if back {
             self.past.pop()?
@@ -198,21 +199,21 @@ impl Editor {
         Some(changes.join(", "))
     }
 
-    /// Keeps a document with unsaved changes before another scene takes its place.
+    /// Stores a document with unsaved changes before another scene takes its place.
     pub fn leave(&mut self, document: Document) {
         if self.is_changed(&document) {
             self.left.insert(document.name().to_owned(), document);
         }
     }
 
-    /// Updates everything that depends on the document and the measured curve.
+    /// Updates everything that follows from the document and the measured curve.
     fn renew(&mut self) {
         let selected = self
             .parameter()
             .map(|parameter| parameter.path.clone())
             .unwrap_or_default();
-        // The present scene may have been left earlier with the same content. Then its unsaved
-        // changes need not be kept twice.
+        // The user may have left the present scene earlier, with the same content as now. Then its
+        // unsaved changes need not be stored twice.
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
@@ -246,8 +247,8 @@ impl Editor {
         unsaved
     }
 
-    /// Continues with the unsaved changes of another session. The first document is the explored
-    /// scene.
+    /// Continues with the unsaved changes of another session. The first document becomes the
+    /// explored scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
             let name = document.name().to_owned();
@@ -261,7 +262,8 @@ impl Editor {
         }
     }
 
-    /// Shows a measured curve that was named when the explorer started. Undo does not remove it.
+    /// Adds the measured curve that the user named when starting the explorer. Undo does not remove
+    /// this curve.
     pub fn begin_with(&mut self, measured: Measured) {
         self.measured = Some(measured);
         self.renew();
@@ -272,7 +274,7 @@ impl Editor {
         self.select(self.row_of(curve_options::GROUP));
     }
 
-    /// Marks the scene as saved. From now on, this file is the file of the scene.
+    /// Marks the scene as saved in a file. From now on, this file is the file of the scene.
     pub fn set_saved_as(&mut self, path: &Path) {
         let text = self.document.text_for_own_file();
         if let Ok(document) = Document::parse(&text, &path.to_string_lossy()) {

@@ -4,14 +4,14 @@ use super::action::{Action, Gesture, Mouse};
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
 /// Reads input on two new threads, which end when the terminal disappears or the explorer ends.
-/// `send` receives each event, and `None` when the input ends. It returns false when nobody
-/// receives events any more.
+/// Each event is passed to `send`, and `None` when the input ends. `send` returns false if the
+/// receiver of the events has ended.
 #[cfg(unix)]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     use super::decoder::Decoder;
     use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 
-    // At most one piece waits in this channel. Further bytes wait in the terminal.
+    // The channel holds at most one piece. Further bytes wait in the terminal.
     let (pieces, received) = sync_channel(1);
     let terminal = keyboard()?;
     spawn("terminal", move || {
@@ -27,8 +27,8 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
             let events = match piece {
                 Ok(bytes) => decoder.read(&bytes),
                 Err(RecvTimeoutError::Timeout) => decoder.give_up(),
-                // When the connection drops, the input ends here. Otherwise the process would stay
-                // and read nothing for ever.
+                // The terminal has disappeared, for example because the connection dropped. Without
+                // this return, the process would wait for input for ever.
                 Err(RecvTimeoutError::Disconnected) => {
                     send(None);
                     return;
@@ -65,7 +65,7 @@ fn keyboard() -> std::io::Result<std::fs::File> {
     std::fs::File::open("/dev/tty")
 }
 
-/// Reads bytes until the terminal disappears or `send` returns false.
+/// Reads bytes and passes them to `send`, until the terminal disappears or `send` returns false.
 #[cfg(unix)]
 fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -81,8 +81,8 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
                 }
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            // If another program that shares the terminal has switched it to non-blocking reads,
-            // wait here for the next bytes.
+            // The read fails with this error if another program that shares the terminal has
+            // switched it to non-blocking reads. Then `poll` waits for the next bytes.
             Err(error) if error.kind() == ErrorKind::WouldBlock => {
                 let _ = poll(&mut [PollFd::new(&terminal, PollFlags::IN)], None);
             }
@@ -91,9 +91,9 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     }
 }
 
-/// Reads input on a new thread, which ends when the terminal disappears or the explorer ends.
-/// `send` receives each event, and `None` when the input ends. It returns false when nobody
-/// receives events any more.
+/// Reads input on a new thread, which ends when the terminal disappears or the explorer ends. Each
+/// event is passed to `send`, and `None` when the input ends. `send` returns false if the receiver
+/// of the events has ended.
 #[cfg(not(unix))]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
@@ -110,13 +110,13 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
         .map(drop)
 }
 
-/// Returns the action that an event of the terminal causes; `None` if the event means nothing to
-/// the explorer.
+/// Returns the action that an event of the terminal causes; `None` if the explorer does not react
+/// to the event.
 pub fn action_of(event: Event) -> Option<Action> {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Press => Some(Action::Key(key)),
         Event::Paste(text) => Some(Action::Paste(text)),
-        // On Unix, a signal announces the new size of the window instead.
+        // On Unix, this event is ignored, because a signal announces the new size of the window.
         Event::Resize(columns, rows) if cfg!(not(unix)) => Some(Action::Resize(columns, rows)),
         Event::Mouse(mouse) => gesture_of(mouse),
         _ => None,

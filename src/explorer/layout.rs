@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 pub struct Layout {
     pub title: Option<Rect>,
     pub panes: Vec<(Pane, Rect)>,
-    /// Lines for the headline figures, or for the line being typed.
+    /// Lines for the main results, or for the line that the user is typing.
     pub status: Rect,
     pub footer: Option<Rect>,
 }
@@ -23,7 +23,8 @@ impl Layout {
     /// Returns the layout for a window of this size, in columns and rows.
     pub fn within(app: &App, size: (u16, u16)) -> Self {
         let (width, height) = size;
-        // A small window first loses the lines around the panes, and only then panes.
+        // In a small window, the lines around the panes are left out first, and panes only if this
+        // is not enough.
         let has_footer = height >= 6;
         let top = if height >= 32 {
             2
@@ -88,8 +89,8 @@ impl Layout {
     }
 }
 
-/// Returns the area below the title of a pane, without a blank column on the right. If a pane is
-/// too small for a title, it returns the whole area.
+/// Returns the area below the title of a pane, without the last column, which stays blank. If a
+/// pane is too small for a title, returns the whole area.
 pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
         return area;
@@ -107,23 +108,23 @@ pub fn has_title(area: Rect) -> bool {
     area.height >= 5 && area.width >= 16
 }
 
-/// Smallest width in columns of a window that has the list of parameters at its side.
+/// Smallest width in columns of a window with the list of parameters at the right side.
 const WITH_LIST: u16 = 60;
-/// Smallest width in columns of the list at the side.
+/// Smallest width in columns of the list of parameters at the side.
 const NARROWEST_LIST: u16 = 32;
-/// Largest width in columns of the list at the side.
+/// Largest width in columns of the list of parameters at the side.
 const WIDEST_LIST: u16 = 48;
-/// Smallest height in rows of an area that has panes below the main pane.
+/// Smallest height in rows of the area on the left if it has panes below the main pane.
 const WITH_LOWER: u16 = 20;
-/// Smallest width in columns of an area that has two panes below the main pane.
+/// Smallest width in columns of the area on the left if it has two panes below the main pane.
 const WITH_CLOSE_UP: u16 = 60;
-/// Smallest height in rows of a narrow window that shows several rows of the list.
+/// Smallest height in rows of a narrow window that shows several rows of the list of parameters.
 const WITH_ROWS: u16 = 16;
 
-/// Returns the panes of the window with their areas. The main pane is the largest; it is the force
-/// curve, unless another pane takes its place. The list of parameters at the side is as high as the
-/// window. A small window omits the close-up, then the profile, and finally the list except for its
-/// selected row.
+/// Returns the panes that the window shows, with their areas. The main pane is the largest: the
+/// force curve, unless another pane has taken its place. The list of parameters at the side is as
+/// high as the window. As the window becomes smaller, first the close-up is left out, then the
+/// profile, and finally the list except for its selected row.
 fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if body.is_empty() {
         return Vec::new();
@@ -156,7 +157,7 @@ fn main_pane(app: &App) -> Pane {
     app.view.large.unwrap_or(Pane::Force)
 }
 
-/// Returns the pane to show beside the list of parameters if there is room for only one.
+/// Returns the pane to show beside the list of parameters if there is room for only one pane.
 fn only_pane(app: &App) -> Pane {
     if app.view.pane == Pane::Parameters {
         main_pane(app)
@@ -165,8 +166,8 @@ fn only_pane(app: &App) -> Pane {
     }
 }
 
-/// Returns the panes of a window that is too narrow for the list at the side: one pane, and below
-/// it some rows of the list.
+/// Returns the panes of a window that is too narrow for the list of parameters at the side: one
+/// pane, and some rows of the list below this pane.
 fn panes_of_narrow(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     let selected = app.view.pane;
     if body.height < 3 || selected == Pane::Parameters {

@@ -1,5 +1,4 @@
-//! The body under manual loading, and its path, which is the force curve since manual loading
-//! began.
+//! The body under manual loading, and the force curve of the body since manual loading began.
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
@@ -8,12 +7,12 @@ use asperity_contact::{CurvePoint, Direction, Move};
 use asperity_data::round_to;
 use asperity_scene::stages::Reach;
 
-/// Number of points on the curve of one move.
+/// Number of points that a move adds to the force curve.
 const POINTS: u32 = 16;
-/// Largest number of points on the curve of a move to separation.
+/// Largest number of points that a move to separation adds to the force curve.
 const MOST_POINTS: u32 = 512;
 
-/// State in which manual loading begins.
+/// State of the contact in which manual loading begins.
 pub struct ManualBegin {
     /// Indentation in m.
     pub indentation: f64,
@@ -21,7 +20,7 @@ pub struct ManualBegin {
     pub is_separated: bool,
     /// Distance in m between the points of the curve when the body is pulled off.
     pub step: f64,
-    /// Loading stages that led to this state.
+    /// Loading stages after which manual loading begins.
     pub loading: Vec<Move>,
     /// Direction of the last of these stages; `None` if there are none.
     pub direction: Option<Direction>,
@@ -39,8 +38,8 @@ pub struct ManualBody {
 }
 
 impl ManualBody {
-    /// Begins manual loading of a body that has moved along a leg (a motion in one direction).
-    /// `None` if there is not enough memory.
+    /// Begins manual loading of a body that has moved along `leg`, a motion in one direction.
+    /// Returns `None` if there is not enough memory.
     pub fn take(leg: &Leg, begin: ManualBegin) -> Option<Self> {
         let mut body = Body::at(leg, begin.indentation).ok()?;
         if begin.is_separated {
@@ -66,7 +65,7 @@ impl ManualBody {
         self.body.leg()
     }
 
-    /// Returns what the body has done since the last call.
+    /// Returns the path of the body since the last call.
     pub fn travel(&mut self) -> ManualPath {
         let further = ManualPath {
             released_energy: self.travel.released_energy,
@@ -106,7 +105,8 @@ impl ManualBody {
         let distance = to.indentation - from.indentation;
         let mut path = self.points_between(&leg, from, distance, target)?;
         path.push(to);
-        // Successive motions in the same direction are one stage, which ends at the last target.
+        // If the direction has not changed, this motion and the last one are one stage, which ends
+        // at the new target.
         let direction = Some(leg.direction());
         if self.direction == direction {
             self.travel.loading.pop();
@@ -118,8 +118,8 @@ impl ManualBody {
             self.travel.path.push((stage, point));
         }
         self.travel.changed += to.springs.abs_diff(from.springs);
-        // Between contact and separation all springs attach or detach, so no spring may be left out
-        // at the lower end.
+        // If the motion begins or ends without contact, all springs attach or detach. The range of
+        // indentations then has no lower end, so that no spring is left out of the sum.
         let passes_separation = from.springs == 0 || to.springs == 0;
         let below = if passes_separation {
             f64::NEG_INFINITY
@@ -131,7 +131,8 @@ impl ManualBody {
     }
 
     /// Returns the points of the force curve of a motion, without its two ends. `distance` is the
-    /// change of the indentation in m. In a motion to separation, the points are `self.step` apart.
+    /// change of the indentation in m. If the target is separation, the points are `self.step`
+    /// apart.
     fn points_between(
         &self,
         leg: &Leg,

@@ -1,5 +1,5 @@
-//! State of the map that is shown: the live map over H and κ, or a map of a study over the axes of
-//! the study.
+//! State of the pane of the map, which shows either the live map over H and κ or a map of a study
+//! over the axes of the study.
 
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};
@@ -8,13 +8,15 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapState {
-    /// Quantity to show. If the map does not contain it, the first quantity of the map is shown.
+    /// Quantity that the user has chosen. If the map does not contain it, the first quantity of the
+    /// map is shown.
     pub quantity: Quantity,
     /// A finished study. It stays open until another study is opened.
     pub study: Option<OpenStudy>,
     /// True if the map of the study is shown instead of the live map.
     pub of_study: bool,
-    /// True if the last edit moved the mark. Another move then belongs to the same edit.
+    /// True if the last edit moved the mark. A further move of the mark then belongs to the same
+    /// edit.
     pub moving: bool,
 }
 
@@ -53,8 +55,8 @@ impl OpenStudy {
         }
     }
 
-    /// Returns true if a scene belongs to the shown map. It may differ from the scene of the study
-    /// only in the quantities of the axes.
+    /// Returns true if a scene belongs to the shown map, so that it differs from the scene of the
+    /// study at most in the quantities of the axes.
     pub fn is_of(&self, scene: &Scene) -> bool {
         self.study_map.is_of(self.slice, scene)
     }
@@ -85,8 +87,8 @@ impl MapState {
         Plan::of_map(scene).ok()
     }
 
-    /// Returns the key of the live map of a scene. Changes of κ and H do not change the key. `None`
-    /// if the scene has no live map.
+    /// Returns a text that identifies the live map of a scene. It does not depend on κ and H, which
+    /// are the axes of the map. Returns `None` if the scene has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -1,4 +1,5 @@
-//! A measured force curve beside the scene. It states forces over displacements of the instrument.
+//! A measured force curve that is compared with the scene: force over the displacement of the
+//! instrument.
 
 use super::studies::Findings;
 use crate::explorer::advice;
@@ -10,13 +11,13 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Path of the file for the screen, without control characters.
+    /// Path of the file as shown on the screen, without control characters.
     pub name: String,
     pub path: PathBuf,
     pub curve: Arc<MeasuredCurve>,
     /// Options with which the curve has been read.
     pub options: CurveOptions,
-    /// Measured displacement at first touch in m.
+    /// Displacement in m of the instrument at first touch.
     pub offset: f64,
 }
 
@@ -36,8 +37,8 @@ impl Measured {
         })
     }
 
-    /// Reads the file again with other options. If the displacements stay the same, the point of
-    /// first touch is kept.
+    /// Reads the file again with other options. If the displacements do not change, the
+    /// displacement at first touch does not change either.
     pub fn read_again(&self, options: CurveOptions) -> Result<Self, ExperimentError> {
         let mut measured = Measured::read(&self.path, options)?;
         if measured.curve.displacement == self.curve.displacement {
@@ -46,15 +47,16 @@ impl Measured {
         Ok(measured)
     }
 
-    /// The sentences on the curve, with the rows that change what they state.
+    /// Returns the sentences on the preparation of the curve. Each sentence names the rows in which
+    /// the user can change what it states.
     pub fn statements(&self) -> String {
         let notes = self.curve.statements.iter();
         let sentences: Vec<String> = notes.map(|note| note.in_words(advice::row)).collect();
         sentences.join(" ")
     }
 
-    /// Returns the measured points as points of a force curve, with the indentations that follow
-    /// from the stiffness of the instrument (N/m).
+    /// Returns the measured points as points of a force curve. The indentation follows from the
+    /// displacement, the force and the stiffness of the instrument in N/m.
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
         let mut points = Vec::new();
         for (displacement, force) in self.curve.displacement.iter().zip(&self.curve.force) {
@@ -77,7 +79,7 @@ impl Measured {
     }
 }
 
-/// Fit of parameters to the measured curve that is being computed.
+/// Fit of parameters to the measured curve, while it is being computed.
 #[derive(Clone, Debug)]
 pub struct Fitting {
     pub free: Vec<Free>,
@@ -85,14 +87,15 @@ pub struct Fitting {
     pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
-/// Returns the fit of the present scene to the measured curve. It fits the displacement at first
-/// touch, and further parameters if the user has requested them. `None` if the fit is not computed
-/// yet.
+/// Returns the fit of the present scene to the measured curve; `None` if it is not computed yet.
+/// The fit always determines the displacement at first touch, and other parameters only at the
+/// user's request.
 pub fn fitted(studies: &Findings) -> Option<&FitResult> {
     studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }
 
-/// Returns the reason why the scene cannot be compared with the curve; `None` if there is none.
+/// Returns the reason why the scene cannot be compared with the measured curve; `None` if the
+/// comparison has not failed.
 pub fn failure(studies: &Findings) -> Option<&str> {
     studies.failure::<Arc<FitResult>>()
 }

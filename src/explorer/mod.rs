@@ -1,9 +1,9 @@
-//! The explorer. Threads for input, solver and studies send actions into one channel. The main
-//! thread takes the actions from this channel; `update` changes the state, and the views draw it.
-//! The main thread computes no contact, and sleeps while there are no actions.
+//! The explorer. The threads for input, solver and background computations (studies) send actions
+//! into one channel. The main thread receives the actions; `update` changes the state, and the
+//! views draw it. The main thread computes no contact, and sleeps while there are no actions.
 
-// This module is public only for the tests. Names and types say what such documentation would
-// repeat.
+// This module is public only for the tests. Documentation of every item would repeat its name and
+// its type.
 #![allow(missing_docs)]
 
 pub mod action;

@@ -1,4 +1,4 @@
-//! The mouse: it selects panes and rows, drags the body and scrolls. Everything can be done with
+//! The mouse: it selects panes and rows, moves the body and scrolls. Everything can be done with
 //! keys too.
 
 use super::action::{Gesture, Mouse};
@@ -24,7 +24,7 @@ pub fn act(app: &mut App, mouse: Mouse) {
     };
     match mouse.gesture {
         Gesture::Wheel(turns) => wheel(app, pane, under, turns),
-        // A drag is ignored outside the pane in which it began.
+        // If a drag leaves the pane in which it began, it has no effect there.
         Gesture::Drag if pane != app.view.pane => {}
         gesture => {
             app.view.pane = pane;
@@ -51,8 +51,8 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     }
 }
 
-/// Acts on what is under the mouse in the selected pane. `is_press` is true when the button is
-/// pressed, and false during a drag.
+/// Acts on what is under the mouse in the selected pane. `is_press` is true if the user has pressed
+/// the button, and false if the mouse moves with the button pressed.
 fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {
@@ -71,13 +71,13 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
 }
 
 /// Moves the body to the indentation under the mouse. `x` is the number on the horizontal axis
-/// there.
+/// under the mouse.
 fn drag(app: &mut App, here: Position, x: f64) {
     if indentation_at(app, x).is_none() {
         return;
     }
-    // Manual loading begins before the position is read, because it can change the range of the
-    // axis.
+    // The start of manual loading can change the range of the axis. Therefore it comes first, and
+    // the number under the mouse is read afterwards.
     if app.manual.is_none() {
         movement::take(app, None);
     }

@@ -1,5 +1,5 @@
 //! What the explorer shows when it starts (a scene, or a finished study with its scene), and what
-//! it opens later by a path.
+//! the user opens later by typing a path.
 
 use super::ghost::Ghost;
 use super::measured::Measured;
@@ -51,14 +51,14 @@ impl From<Document> for Opening {
 }
 
 impl Opening {
-    /// Opens a scene by its name or file, or a study by its folder. If a folder of a study has the
-    /// same name as a built-in scene, the study is opened.
+    /// Opens a scene by its name or file, or a study by its folder. If a built-in scene and the
+    /// folder of a study have the same name, the study is opened.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
-    /// Opens the argument of a command as [`Self::of`] does. The argument may also name a stream;
-    /// see [`open_argument`].
+    /// Opens what an argument of the command line names. This can be a stream, see
+    /// [`open_argument`], or anything that [`Self::of`] opens.
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }
@@ -93,7 +93,7 @@ impl Opening {
     }
 }
 
-/// What was found at a path that the user opened while the explorer runs.
+/// What was found at a path that the user opened while the explorer was running.
 #[derive(Clone, Debug)]
 pub enum Opened {
     Scene(Box<Opening>),

@@ -1,4 +1,4 @@
-//! The panes of the explorer, and the contexts of their keys.
+//! The panes of the explorer. The context of a pane determines what the keys do.
 
 use super::keys::bindings::Context;
 
@@ -23,7 +23,8 @@ impl Pane {
     /// All panes, in the order in which the help describes them.
     pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Returns true for a pane that takes the main place, so that profile and close-up are hidden.
+    /// Returns true for a pane that takes the main place on the screen. The profile and the
+    /// close-up are then hidden.
     pub fn is_large(self) -> bool {
         !matches!(
             self,
@@ -31,8 +32,8 @@ impl Pane {
         )
     }
 
-    /// Returns the name of a file with the content of the pane. The list of parameters exports the
-    /// force curve.
+    /// Returns the name of an exported file for this pane. From the list of parameters, the force
+    /// curve is exported.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Force | Self::Parameters => "force",
@@ -46,8 +47,8 @@ impl Pane {
         }
     }
 
-    /// Returns the context of the keys while this pane is selected. A crosshair has keys only while
-    /// it is shown.
+    /// Returns the context, which determines what the keys do while this pane is selected. The keys
+    /// of a crosshair apply only while the crosshair is shown.
     pub fn keys(self) -> Context {
         match self {
             Self::Sensitivity => Context::Explore,

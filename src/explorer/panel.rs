@@ -1,5 +1,5 @@
-//! Panels: the content of panes as data. The same renderer draws all panels. It also finds what a
-//! panel shows in a given cell, with the same division of the area.
+//! Panels: the content of panes as data. One function draws all panels; another one returns what a
+//! panel shows in a given cell. Both divide the area in the same way.
 
 use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
@@ -33,13 +33,14 @@ pub enum Body {
 
 /// Largest number of attempts to divide a pane between its legend and its chart.
 const MOST_ROUNDS: usize = 4;
-/// Share of the length of an axis below which two positions count as equal.
+/// Two positions on an axis count as equal if their distance is below this share of the length of
+/// the axis.
 const HAIR: f64 = 1e-9;
-/// Width in columns below which a pane is narrow. If its readings do not all fit beside the title,
-/// the title line of a narrow pane still shows as many as possible.
+/// Width in columns below which a pane is narrow. If the texts of a narrow pane do not all fit
+/// beside its title, as many as possible are shown there nevertheless.
 const NARROW: u16 = 40;
-/// Smallest height in rows of a chart with both scales. Lines above and below the chart get only
-/// the rows that remain.
+/// Smallest height in rows of a chart with both axes. Lines above and below the chart get only the
+/// rows that remain.
 const FEWEST_ROWS: u16 = 6;
 /// Number of columns of the title line that neither the title nor the texts on its right may use.
 const FRAME_OF_TITLE: usize = 8;
@@ -94,8 +95,8 @@ impl Panel {
         self.show(readings, width);
     }
 
-    /// Writes readings beside the title. If they do not all fit there, they are written below the
-    /// chart.
+    /// Writes the values at the crosshair beside the title or, if they do not all fit there, below
+    /// the chart.
     pub fn show(&mut self, readings: Vec<Part>, width: u16) {
         let taken = self.title.chars().count() + FRAME_OF_TITLE;
         let room = usize::from(width).saturating_sub(taken);
@@ -106,7 +107,7 @@ impl Panel {
             return;
         }
         // A low pane has no rows below its chart. Therefore a narrow pane also writes as many
-        // readings as possible beside its title.
+        // values as possible beside its title.
         self.edge = if width < NARROW {
             readings.clone()
         } else {
@@ -163,7 +164,7 @@ fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f6
     for pair in points.windows(2) {
         let from = chart.x.scale.coordinate(pair[0].0);
         let to = chart.x.scale.coordinate(pair[1].0);
-        // Due to rounding, the end of a curve may miss the coordinate slightly.
+        // Due to rounding, the end of a curve may lie slightly before the coordinate.
         let rounding = HAIR * chart.x.span.width() * (to - from).abs();
         let is_between = (from - coordinate) * (to - coordinate) <= rounding;
         if !is_between || from == to {
@@ -171,8 +172,8 @@ fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f6
         }
         let low = chart.y.scale.coordinate(pair[0].1);
         let high = chart.y.scale.coordinate(pair[1].1);
-        // If a point has no coordinate, such as a negative number on a logarithmic axis, no value
-        // between the points can be computed.
+        // An end of the segment may have no finite coordinate, such as a negative number on a
+        // logarithmic axis. Then no value between the two ends can be computed.
         if low == high || !low.is_finite() || !high.is_finite() {
             return Some(pair[0].1);
         }
@@ -205,7 +206,7 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     parts
 }
 
-/// Calls `draw` with the style of charts in this appearance.
+/// Calls `draw` with the styles in which charts are drawn in this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     draw(&CellStyle {
         ink: &|ink| look.theme.style(meaning(ink)),
@@ -225,7 +226,7 @@ pub fn meaning(ink: Ink) -> Meaning {
         Ink::Unloading => Retraction,
         Ink::Manual => Manual,
         Ink::Kept => Ghost,
-        // These are the colours that the present curve does not use.
+        // These are colours that the present curve does not use.
         Ink::Compared(number) => [Surface, Manual, Text, Ghost][number % 4],
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => [Retraction, Surface, Manual, Approach, Quiet, Text][number % 6],
@@ -239,8 +240,8 @@ struct Places {
 }
 
 impl Places {
-    /// Divides the area below the title into head, body and foot. In a small window, the foot
-    /// becomes shorter first, and then the head.
+    /// Divides the area below the title into head, body and foot. In a small window, first the foot
+    /// and then the head gets fewer lines.
     fn within(panel: &Panel, legend: usize, area: Rect) -> Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
@@ -298,7 +299,7 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
         Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
     }
     if has_title(area) {
-        // One column between two panes stays blank.
+        // The last column of a pane stays blank if another pane is on its right.
         let width = area.width - u16::from(area.right() < buffer.area.right());
         let line = title_line(&panel.title, edge, width, is_selected, look);
         draw_lines(&[line], area, buffer);
@@ -326,7 +327,7 @@ fn draw_scrollbar(
     bar.render(column, buffer, &mut state);
 }
 
-/// What a panel shows above its chart, in addition to its title and its head.
+/// Parts of a panel above its chart, in addition to the text of the title and the head.
 struct Heading {
     /// Lines above the chart with entries of the legend.
     legend: Vec<Line<'static>>,
@@ -334,9 +335,9 @@ struct Heading {
     edge: Vec<Part>,
 }
 
-/// Places the entries of the legend for curves whose names do not fit beside them. If there is room
-/// for all these entries in the title line, they come before the texts on its right. Otherwise they
-/// are written in lines above the chart.
+/// Places the legend, which has an entry for each curve whose name does not fit beside the curve.
+/// If the title line has room for all entries, they are placed there, before the texts on the
+/// right. Otherwise they are written in lines above the chart.
 fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     let mut heading = Heading {
         legend: Vec::new(),
@@ -347,8 +348,8 @@ fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     };
     let inner = inside(area);
     let mut entries: Vec<Part> = Vec::new();
-    // Lines of the legend leave less room for names beside the curves, so that further names may
-    // need an entry. Therefore the division is repeated.
+    // Each line of the legend leaves less room for names beside the curves, so that further names
+    // may need an entry in the legend. Therefore the division of the pane is repeated.
     for _ in 0..MOST_ROUNDS {
         let body = Places::within(panel, heading.legend.len(), inner).body;
         let left_out = in_theme(look, |style| {
@@ -381,8 +382,8 @@ fn fits_into_title(title: &str, texts: &[Part], width: u16) -> bool {
     taken <= usize::from(width)
 }
 
-/// Returns the title line of a pane: the title, a line, and as many of the texts `edge` as fit on
-/// the right.
+/// Returns the title line of a pane: the title, a rule, and on the right as many of the texts
+/// `edge` as fit.
 fn title_line(
     title: &str,
     edge: Vec<Part>,
@@ -419,9 +420,9 @@ pub fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Returns the first visible row of a list. It depends only on the selected row, so that a click on
-/// a visible row usually does not scroll the list. The rows above and below the selected row are
-/// visible too.
+/// Returns the first visible row of a list. The row depends only on the selected row, so that a
+/// click on a visible row usually does not scroll the list. The rows directly above and below the
+/// selected row are visible too.
 fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     let height = usize::from(height.max(1));
     let margin = usize::from(height >= 3);
@@ -429,8 +430,8 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// Joins parts to one line, up to the first part that does not fit into the columns. The parts are
-/// two blanks apart if all of them fit in this way, otherwise one blank.
+/// Joins parts to one line. The first part that does not fit into the columns, and all later parts,
+/// are left out. If there is room, two blanks separate the parts, otherwise one.
 fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let fits_wide = widths + 2 * parts.len().saturating_sub(1) <= columns;
@@ -452,14 +453,14 @@ fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
-    /// Numbers on the two axes of a chart. For a cell beside the plot, these are the numbers of the
-    /// nearest cell of the plot.
+    /// Numbers on the two axes of a chart. For a cell outside the plot area, these are the numbers
+    /// of the nearest cell inside.
     Data(f64, f64),
     Row(usize),
     Frame,
 }
 
-/// Returns what a panel shows in a cell, if the panel is drawn into this area.
+/// Returns what a panel that is drawn into `area` shows in the cell `cell`.
 pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Under {
     let inner = inside(area);
     let legend = heading(panel, area, look).legend;

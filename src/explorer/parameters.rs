@@ -10,9 +10,9 @@ use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
 
-/// Groups in the order of the list. The groups that users change most often come first: adhesion,
-/// load and roughness. Form and material are usually chosen once. The measured curve is not part of
-/// the scene, so it comes last.
+/// Groups in the order in which the list shows them. The groups that users change most often come
+/// first: adhesion, loading and roughness. Form and material are usually chosen once. The measured
+/// curve comes last, because it is not part of the scene.
 const GROUPS: [&str; 8] = [
     "adhesion",
     "loading",
@@ -24,8 +24,8 @@ const GROUPS: [&str; 8] = [
     curve_options::GROUP,
 ];
 
-/// Fields of the scene file that the list does not show. The edges are set together with the number
-/// of springs for a tolerance.
+/// Fields of the scene file that have no row in the list. `numerics.edges` is among them because
+/// the choice of springs for a tolerance sets it together with the number of springs.
 const HIDDEN: [&str; 5] = [
     "version",
     "observe",
@@ -44,8 +44,8 @@ const ADHESION: [&str; 3] = [
 /// Two ways to state the amplitude of the roughness. Each value determines the other.
 const AMPLITUDE: [&str; 2] = ["roughness.rms_height", "roughness.rms_gradient"];
 
-/// Fields that come first in their group, after the first row of the group. The other fields have
-/// the order of the scene file.
+/// Fields that come first in their group, directly after the heading of the group. The other fields
+/// keep the order of the scene file.
 const FIRST: [&str; 7] = [
     ADHESION[0],
     ADHESION[1],
@@ -78,9 +78,9 @@ pub enum Setting {
     Field,
     /// The row cannot be changed, because it is the heading of a group.
     Heading,
-    /// κ or e_el/γ. A new value replaces the value of γ, κ or e_el/γ that the scene states.
+    /// κ or e_el/γ. The scene file states only γ, κ or e_el/γ; a new value replaces the stated one.
     RoughnessParameter(RoughnessParameter),
-    /// γ. A new value replaces the value of γ, κ or e_el/γ that the scene states.
+    /// γ. The scene file states only γ, κ or e_el/γ; a new value replaces the stated one.
     WorkOfAdhesion,
     /// Option for reading the measured curve. The number is its index in
     /// [`curve_options::OPTIONS`].
@@ -102,7 +102,7 @@ impl Parameter {
         }
     }
 
-    /// Returns the name of the parameter. For a loading stage, the number of the stage follows.
+    /// Returns the name of the parameter. For a loading stage, the number of the stage is added.
     pub fn name(&self) -> String {
         match self.leg {
             Some(leg) => format!("{} {}", self.field.name, leg + 1),
@@ -118,17 +118,18 @@ impl Parameter {
         );
         match self.setting {
             Setting::Heading => false,
-            // Numbers of segments and of points are read from a text, but the user types them as
+            // Numbers of segments and of points are stored as text, but the user types them as
             // numbers.
             Setting::CurveOption(_) => !matches!(self.field.range, Range::Choice(_)),
-            // A stage without a number may be replaced by a stage with a number.
+            // A stage without a number takes one as well: it is then replaced by a stage with this
+            // number.
             _ => self.leg.is_some() || !is_text,
         }
     }
 
-    /// Returns the symbol or the name of the quantity in the scene from which the shown value
-    /// follows. If the user types a value, it replaces this quantity. `None` if the scene states
-    /// the value itself.
+    /// Returns the symbol or the name of the quantity that the scene states and from which the
+    /// shown value follows. If the user types a value, the typed value replaces this quantity in
+    /// the scene. Returns `None` if the scene states the shown value itself.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
         if !is_computed {
@@ -153,9 +154,9 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Returns the texts that are compared with a search: the symbol, the symbol with spelled Greek
-    /// letters, the path, the name and the meaning. In the path, blanks replace the separators,
-    /// because the path `length` of the length L is also a word in other paths.
+    /// Returns the texts in which a search looks for words: the symbol, the symbol with spelled
+    /// Greek letters, the path, the name and the meaning. In the path, blanks replace the
+    /// separators, because the path `length` of the length L is also a word in other paths.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         vec![
@@ -168,7 +169,7 @@ impl Parameter {
     }
 }
 
-/// Greek letters in symbols, with their names, because keyboards rarely have Greek letters.
+/// Greek letters that occur in symbols, with their names, which the user can type instead.
 const GREEK: [(char, &str); 6] = [
     ('γ', "gamma"),
     ('κ', "kappa"),
@@ -186,9 +187,9 @@ fn spelled(symbol: &str) -> String {
     spelled
 }
 
-/// Returns the group of a field, which is the first part of its path. There are exceptions: the
-/// stiffness of the instrument belongs to the loading, the notice to the title, and any other
-/// single field, such as the diameter, to the form.
+/// Returns the group of a field, which is the first part of its path, with these exceptions: the
+/// stiffness of the instrument belongs to the loading, the notice to the title, and every other
+/// field whose path has only one part, such as the diameter, to the form.
 fn group_of(path: &str) -> &'static str {
     let first = match path {
         "notice" => "title",
@@ -199,8 +200,8 @@ fn group_of(path: &str) -> &'static str {
     group.unwrap_or("form")
 }
 
-/// Returns the path of the field whose value is removed if the field `path` gets a value. Modes and
-/// wavelengths replace each other, and so do rms height and rms gradient.
+/// Returns the path of the field whose value is removed when the field `path` gets a value. Of
+/// modes and wavelengths, and of rms height and rms gradient, a scene states only one each.
 pub fn replaced_by(path: &str) -> Option<&'static str> {
     match path {
         "roughness.modes" => Some("roughness.wavelengths"),
@@ -211,7 +212,7 @@ pub fn replaced_by(path: &str) -> Option<&'static str> {
     }
 }
 
-/// Returns the rows for a scene and for the measured curve beside it.
+/// Returns the rows for a scene and for the measured curve that is compared with the scene.
 pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
@@ -235,7 +236,7 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
     parameters
 }
 
-/// Returns the row of a field of the scene; `None` if the list does not show the field in this
+/// Returns the row of a field of the scene; `None` if the list has no row for the field in this
 /// scene.
 fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter> {
     let row = Parameter::new(field, field.path);
@@ -266,10 +267,10 @@ fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter>
         });
     }
     if AMPLITUDE.contains(&field.path) {
-        // The value is computed together with the scene.
+        // The explorer computes the value of this field together with the scene.
         return Some(row);
     }
-    // Any other field without a value is shown only if its value follows from other fields.
+    // Any other field without a value has a row only if its value follows from other fields.
     let written = waves(document, field)?;
     let shown = match field.path {
         "roughness.roll_off" => "none".to_owned(),
@@ -287,8 +288,8 @@ fn has_displacement_stage(scene: &Scene) -> bool {
     stages.any(|stage| matches!(stage, Move::ToDisplacement(_)))
 }
 
-/// Returns the effect to which a field belongs; `None` if there is none. The group `observe` is not
-/// an effect of the contact.
+/// Returns the effect (such as adhesion) to which a field belongs; `None` if the field belongs to
+/// no effect. The group `observe` is left out, because it has no influence on the contact.
 fn effect_of(path: &str) -> Option<Effect> {
     let mut effects = Effect::ALL.into_iter();
     effects.find(|effect| {
@@ -305,7 +306,8 @@ fn setting_of(path: &str) -> Setting {
     }
 }
 
-/// The scene states one of γ, κ and e_el/γ. Adds rows for the other two, which follow from it.
+/// Adds rows for the two of γ, κ and e_el/γ that the scene does not state. Their values follow from
+/// the one that the scene states.
 fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     let mut others = ADHESION.to_vec();
     others.retain(|path| !parameters.iter().any(|listed| listed.path == *path));
@@ -319,9 +321,9 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     }
 }
 
-/// Returns the value of a field of a self-affine spectrum that follows from other fields: the modes
-/// or the wavelengths, whichever the scene does not state. For the roll-off, it returns the longest
-/// wavelength, with which the roll-off has no effect.
+/// Returns the value of a field of a self-affine spectrum that follows from other fields. These are
+/// the modes or the wavelengths, whichever the scene does not state. For the roll-off, returns the
+/// longest wavelength, with which the roll-off has no effect.
 fn waves(document: &Document, field: &Field) -> Option<String> {
     let scene = document.scene();
     let spectrum = scene.spectrum()?;
@@ -335,8 +337,8 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
     }
 }
 
-/// Returns the rows of the measured curve: one with its name, and one for each option for reading
-/// it.
+/// Returns the rows of the measured curve: a heading with the name of its file, and one row for
+/// each option with which the file is read.
 fn curve_rows(measured: &Measured) -> Vec<Parameter> {
     let head = &curve_options::HEAD;
     let mut rows = vec![Parameter {
@@ -363,8 +365,8 @@ fn stage_rows(loading: &[Move]) -> Vec<Parameter> {
     rows
 }
 
-/// Returns the row of a loading stage. If the stage has a number, the path of the row is the path
-/// of this number.
+/// Returns the row of a loading stage. If the stage has a number, such as its force, the path of
+/// the row is the path of this number.
 fn stage_row(index: usize, stage: Move) -> Parameter {
     let Some((field, value)) = target_field(stage) else {
         return Parameter {
@@ -404,8 +406,8 @@ fn shown(field: &Field, written: &str) -> String {
     }
 }
 
-/// Returns the name of a choice in words. The fields of the choice are left out, because they have
-/// rows of their own.
+/// Returns the name of a choice in words. The fields within the choice are left out, because they
+/// have rows of their own.
 fn shown_choice(field: &Field, written: &str) -> String {
     let name = written.split('(').next().unwrap_or(written).trim();
     if name.is_empty() && matches!(field.path, "material" | "adhesion") {

@@ -1,8 +1,9 @@
-//! State of the animation, and the indentation that it shows.
+//! State of the animation of the loading, and the indentation that the animation shows.
 
 use asperity_contact::{Branch, LegRecord};
 
-/// Distance above first touch at which the animation begins, divided by the range of indentations.
+/// Distance above first touch at which the animation begins, as a share of the range of
+/// indentations.
 const LIFT: f64 = 0.12;
 
 /// Position of the animation within a loading stage.
@@ -10,8 +11,8 @@ const LIFT: f64 = 0.12;
 pub enum At {
     Start,
     Indentation(f64),
-    /// The pull-off of the loading, where the animation rests. If there is no pull-off, it is the
-    /// end of the stage.
+    /// The pull-off of the loading, to which the animation returns after it has been played to its
+    /// end. If there is no pull-off, this is the end of the stage.
     PullOff,
     /// The end of the stage. After a stage to separation, nothing is in contact.
     End,
@@ -31,8 +32,8 @@ impl Player {
         playing: true,
     };
 
-    /// Returns the state in which the animation of these loading stages rests: at the pull-off or,
-    /// if there is none, at the end.
+    /// Returns the position of the animation after it has been played to its end: the pull-off or,
+    /// if there is none, the end of the last loading stage.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
         let (leg, at) = match pull_off(legs) {
             Some((leg, _)) => (leg, At::PullOff),
@@ -45,9 +46,9 @@ impl Player {
         }
     }
 
-    /// Adapts this state to loading stages that may have changed. If its stage no longer exists,
-    /// the state moves to the end of the last stage. Otherwise it stays between the ends of its
-    /// stage. A state of rest at the pull-off moves to the new pull-off.
+    /// Adapts this position to loading stages that may have changed. If its stage no longer exists,
+    /// the position becomes the end of the last stage. Otherwise it is limited to the range of its
+    /// stage. A position at the pull-off becomes the position of the new pull-off.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         let Some(last) = legs.len().checked_sub(1) else {
             return self;
@@ -92,8 +93,8 @@ impl Player {
         }
     }
 
-    /// Returns the position that is further on by `share` of the stage, but not beyond the ends of
-    /// the stage.
+    /// Returns the position that lies further on by `share` times the length of the stage, limited
+    /// to the ends of the stage.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
         let reached = self.share(legs) + share;
         let start = start_of(legs, self.leg);
@@ -131,8 +132,8 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     range
 }
 
-/// Returns the indentation in m at which the animation begins a loading stage. The first stage
-/// begins a little above first touch.
+/// Returns the indentation in m at which the animation of a loading stage begins. The animation of
+/// the first stage begins a little above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
     let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };

@@ -1,5 +1,5 @@
-//! Prompts: a line that is typed for a purpose, possibly with a list of matches; questions; and the
-//! help.
+//! Prompts: a line that the user types, possibly with a list of matching entries; questions to the
+//! user; and the help.
 
 use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
@@ -11,17 +11,17 @@ use asperity_scene::library::{Entry, Source};
 use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
-/// A prompt, which receives all keys until it is closed.
+/// A prompt. While it is open, it receives all keys.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,
     pub line: TextLine,
-    /// Indices of the list entries that match the line, the best first.
+    /// Indices of the list entries that match the typed line, the best first.
     pub found: Vec<usize>,
     /// Index in `found` of the selected entry.
     pub selected: usize,
-    /// Corrected search: words of the list that are similar to the typed words. `None` if the list
-    /// contains the typed words.
+    /// Words of the list that are similar to the typed words, as a corrected search. `None` if the
+    /// list contains the typed words.
     pub corrected: Option<String>,
     /// Paths that begin with the typed path, if there are several.
     pub paths: Vec<String>,
@@ -32,9 +32,9 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
-    /// Target of the inverse question: a quantity and its value.
+    /// Target of an inverse question: a quantity and the value that it is to have.
     Target,
-    /// Relative error for which the number of springs is chosen.
+    /// Relative error that is to be reached by the choice of the number of springs.
     Tolerance,
     /// Names of the parameters to be fitted to the measured curve.
     Fit,
@@ -42,12 +42,13 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
-    /// Search for a scene, or the path of a scene or a study.
+    /// Words of a search for a scene in this list, or the path of a scene or a study.
     Scene(Vec<Entry>),
     Parameter {
         before: Pane,
     },
-    /// The help or the list of commands. The user searches its entries if `is_typed` is true.
+    /// The help, or the list of commands. If `is_typed` is true, the user types words to search for
+    /// entries.
     Topics {
         name: &'static str,
         topics: Vec<Topic>,
@@ -57,30 +58,30 @@ pub enum Purpose {
     Leave,
 }
 
-/// Entry of the help, or of the list of commands, parameters and scenes.
+/// Entry in the help, or in the list of commands, parameters or scenes.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
-    /// Names of keys, or name of a pane, a parameter or a scene.
+    /// Name of the entry: its keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    /// Everyday words with which a search also finds the entry.
+    /// Further, everyday words with which a search finds the entry.
     pub words: String,
     pub aim: Aim,
 }
 
-/// What happens if the user accepts an entry.
+/// What happens if the user chooses an entry.
 #[derive(Clone, Debug)]
 pub enum Aim {
     Nothing,
     Command(&'static Row),
-    /// The parameter in this row of the list is selected.
+    /// Selects the parameter in the row with this index.
     Parameter(usize),
     Open(String),
 }
 
 impl Topic {
-    /// Creates an entry of the help that can only be read.
+    /// Creates an entry of the help that does nothing if the user chooses it.
     pub fn read_only(name: &str, text: &str) -> Self {
         Topic {
             section: "What you see",
@@ -102,7 +103,7 @@ impl Topic {
         }
     }
 
-    /// Creates the entry for the parameter in this row of the list.
+    /// Creates the entry for the parameter that has this row in the list of parameters.
     pub fn of_parameter(row: usize, parameter: &Parameter) -> Self {
         Topic {
             section: "Parameters of this scene",
@@ -127,7 +128,7 @@ impl Topic {
         }
     }
 
-    /// Returns the texts that are compared with a search: each key, the name, the everyday words,
+    /// Returns the texts in which a search looks for words: each key, the name, the everyday words,
     /// the description and the section.
     fn texts(&self) -> Vec<String> {
         let mut texts: Vec<String> = self.name.split(' ').map(str::to_owned).collect();
@@ -140,8 +141,9 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt with this text in its line. `parameters` are the parameters of the scene.
-    /// If the text is a value or the name of a file, the first typed character replaces it.
+    /// Creates a prompt whose line contains this text. `parameters` are the parameters of the
+    /// scene. If the text is a value or the name of a file, the first character that the user types
+    /// replaces the text.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_replaced = matches!(
             purpose,
@@ -165,8 +167,8 @@ impl Prompt {
         prompt
     }
 
-    /// Returns the context that determines the meaning of the keys: the help, a list, a line or a
-    /// question.
+    /// Returns the context, which determines what the keys do: that of the help, a list, a line or
+    /// a question.
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Topics {
@@ -179,7 +181,7 @@ impl Prompt {
         }
     }
 
-    /// Finds the list entries that match the line, and selects the best one.
+    /// Finds the list entries that match the typed line, and selects the best one.
     pub fn search(&mut self, parameters: &[Parameter]) {
         let query = self.line.text();
         self.selected = 0;
@@ -223,9 +225,9 @@ impl Prompt {
     }
 }
 
-/// Returns the texts of a scene that are compared with a search: the number of a built-in scene,
-/// the name, the title and the notice. Built-in scenes come first in the list, so their numbers are
-/// their places in it.
+/// Returns the texts of a scene in which a search looks for words: the number of a built-in scene,
+/// the name, the title and the notice. Built-in scenes come first in the list, so the number of
+/// such a scene follows from its index.
 fn scene_texts(index: usize, entry: &Entry) -> Vec<String> {
     let number = if entry.origin == Source::BuiltIn {
         (index + 1).to_string()

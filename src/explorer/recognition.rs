@@ -1,5 +1,5 @@
-//! Recognition of measured files that the user has given in the wrong place. Whether a file is a
-//! force curve or a surface depends on what the readers find in it.
+//! Recognition of measured files that the user has named where the program expects another kind of
+//! file. A file is a force curve or a surface if the reader for this kind can read it.
 
 use asperity_data::{Remedied, Wording, path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
@@ -8,7 +8,7 @@ use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, SurfaceError, read};
 use std::path::Path;
 
-/// Content of a measured file.
+/// Kind of data that a measured file contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasuredFile {
     Curve,
@@ -30,9 +30,10 @@ impl MeasuredFile {
         }
     }
 
-    /// Returns a sentence that says what the file is, and which commands use it.
+    /// Returns a sentence that states what the file is, and which commands can use it.
     fn way(self, path: &Path) -> String {
-        // A terminal would obey control characters in the name.
+        // Control characters in the name of the file could act on the terminal, so they are
+        // replaced.
         let file = printable(&quoted(path)).into_owned();
         match self {
             MeasuredFile::Curve => format!(
@@ -47,8 +48,8 @@ impl MeasuredFile {
     }
 }
 
-/// Returns true if a file can be read as a surface. In a binary file, units and spacing may be
-/// missing, because such a file can hardly be anything else.
+/// Returns true if a file can be read as a surface. In a binary file, units, spacing and single
+/// points may be missing, because a binary file with heights can hardly be anything else.
 fn is_surface(path: &Path) -> bool {
     if read(path, &ReadOptions::default()).is_ok() {
         return true;
@@ -66,15 +67,15 @@ fn is_surface(path: &Path) -> bool {
     read(path, &assumed).is_ok()
 }
 
-/// Returns a line that says what a file is that was given as a scene; `None` if it is not a
-/// measured file.
+/// Returns a line that states what kind of measured file the user has named in place of a scene;
+/// `None` if the file is not a measured file.
 pub fn no_scene(path: &Path) -> Option<String> {
     let file = MeasuredFile::of(path)?;
     Some(format!("{}: {}", path_name(path), file.way(path)))
 }
 
-/// Returns the reason why a file cannot be read as a force curve. If it is a surface, the reason
-/// says how to use it.
+/// Returns the reason why a file cannot be read as a force curve. If the file is a surface, the
+/// reason also states which commands can use the file.
 pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match (why, MeasuredFile::of(path)) {
@@ -85,8 +86,8 @@ pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String 
     }
 }
 
-/// Returns the reason why a file cannot be read as a surface. If it is a force curve, the reason
-/// says how to use it.
+/// Returns the reason why a file cannot be read as a surface. If the file is a force curve, the
+/// reason also states which commands can use the file.
 pub fn no_surface(path: &Path, why: &SurfaceError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match MeasuredFile::of(path) {

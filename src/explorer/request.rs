@@ -4,8 +4,8 @@ use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a snapshot of the contact in a scene, after manual moves. If the scene has not been
-/// solved yet, the solver solves it first.
+/// Request for a snapshot: the state of the contact in a scene, after manual moves. If the solver
+/// has not solved the scene yet, it solves the scene first.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
@@ -16,8 +16,8 @@ pub struct Request {
 }
 
 impl Request {
-    /// Combines this request with an earlier request that has not been answered. If both are for
-    /// the same scene, the manual moves of the earlier request come first.
+    /// Combines this request with an earlier request that the solver has not answered. If both
+    /// requests are for the same scene, the manual moves of the earlier request come first.
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);
@@ -29,23 +29,23 @@ impl Request {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Begins manual loading at this position of a loading stage.
+    /// Begins manual loading with the state at this position of a loading stage.
     Take {
         leg: usize,
         at: At,
     },
     To(f64),
-    /// Moves the body by this distance in m. A positive distance presses.
+    /// Moves the body by this distance in m. A positive distance presses the body further.
     By(f64),
     ToForce(f64),
     Separate,
 }
 
-/// Request for a snapshot of the contact, with as many columns as the panes can show.
+/// Part of a request that describes the snapshot. The snapshot has as many columns as the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Position of the animation in the stage. Manual loading does not use it.
+    /// Position of the animation within its loading stage. Manual loading does not use it.
     pub at: At,
     /// Width of the profile pane in columns of dots.
     pub profile_columns: usize,
@@ -100,7 +100,7 @@ pub enum Focus {
 }
 
 impl Focus {
-    /// Returns true if the focus is a question, which the solver answers with a spring.
+    /// Returns true if only the solver can determine the spring in the focus.
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }

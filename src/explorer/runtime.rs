@@ -1,6 +1,6 @@
-//! Performs the tasks of the explorer. Sessions, demos and tests use the same code. In a session,
-//! solver and studies run on threads of their own. In demos and tests they answer at once, so that
-//! the same actions always give the same screens.
+//! Performs the tasks of the explorer, in the same way for sessions, demos and tests. In a session,
+//! the solver and the background computations (studies) have threads of their own. In demos and
+//! tests they answer at once, so that the same actions always give the same screens.
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -20,11 +20,12 @@ use asperity_scene::library::{Entry, own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Solver and studies. They answer either at once, or later by sending actions.
+/// The solver and the background computations (studies). Both answer either at once, or later by
+/// sending actions.
 pub struct Engine {
-    /// Sends a request to the solver. Returns the answers that are known at once.
+    /// Sends a request to the solver. Returns the answers that are available at once.
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
-    /// Performs these studies instead of all earlier ones. Returns the results that are known at
+    /// Performs these studies and stops all earlier ones. Returns the results that are available at
     /// once.
     perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
     /// True while the solver has not answered the last request.
@@ -46,8 +47,8 @@ impl Engine {
         }
     }
 
-    /// Creates an engine that answers at once. It performs only the studies for which `performs`
-    /// returns true.
+    /// Creates an engine in which solver and studies answer at once. It performs only the studies
+    /// for which `performs` returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         Engine {
@@ -77,19 +78,19 @@ fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
     actions
 }
 
-/// The explorer, with everything that its tasks need except the terminal.
+/// The explorer with everything that it needs to perform its tasks, except the terminal.
 pub struct Runtime {
     pub app: App,
     pub engine: Engine,
-    /// Generation of the scene in the last request.
+    /// Generation of the scene in the last request to the solver.
     pub asked: u64,
-    /// Folder to which paths are relative. It is empty if they are relative to the working folder.
+    /// Folder to which the paths of files are relative; empty for the working folder.
     pub folder: PathBuf,
 }
 
 impl Runtime {
-    /// Applies an action, and performs the tasks that follow from it. Returns the tasks that need
-    /// the terminal.
+    /// Applies an action, and performs the tasks that follow from it. Returns those tasks that only
+    /// the owner of the terminal can perform.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
         if let Action::Reply(reply) = &action
             && reply.is_answer()
@@ -105,9 +106,9 @@ impl Runtime {
         self.engine.is_waiting
     }
 
-    /// Runs the command with this name, if its keys are valid in the present context. Without a
-    /// prompt, commands that are valid in other panes run too. Returns the tasks that need the
-    /// terminal.
+    /// Runs the command with this name if it is valid in the present context. If no prompt is open,
+    /// the commands of the context [`Context::Explore`] run as well. Returns the tasks that only
+    /// the owner of the terminal can perform.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let mut command = bindings.named(name, self.app.keys());
@@ -120,8 +121,8 @@ impl Runtime {
         }
     }
 
-    /// Performs tasks, and all further tasks that follow from them. Returns the tasks that need the
-    /// terminal.
+    /// Performs tasks, and all further tasks that follow from their results. Returns those tasks
+    /// that only the owner of the terminal can perform.
     pub fn perform(&mut self, tasks: Vec<Task>) -> Vec<Task> {
         let mut waiting = VecDeque::from(tasks);
         let mut of_terminal = Vec::new();
@@ -137,7 +138,7 @@ impl Runtime {
         of_terminal
     }
 
-    /// Performs a task. Returns the actions that follow at once.
+    /// Performs a task. Returns the actions that follow from the task at once.
     pub fn answer(&mut self, task: Task) -> Vec<Action> {
         let action = match task {
             Task::Ask => return self.ask(),
@@ -161,7 +162,7 @@ impl Runtime {
         vec![action]
     }
 
-    /// Requests from the solver the state that the screen waits for. If the scene has changed, the
+    /// Requests the state of the contact for which the screen waits. If the scene has changed, the
     /// studies of the previous scene are stopped, because they would only slow down the solver.
     fn ask(&mut self) -> Vec<Action> {
         let request = request(&mut self.app);
@@ -176,8 +177,8 @@ impl Runtime {
         replies
     }
 
-    /// Returns the scenes that can be opened. In tests and demos with a folder of their own, the
-    /// scenes of the user are not included.
+    /// Returns the scenes that can be opened. Tests and demos set `folder`; then the scenes in the
+    /// user's own folder are left out.
     fn scenes(&self) -> Vec<Entry> {
         if self.folder.as_os_str().is_empty() {
             scenes(own_folder().as_deref(), Path::new("."))

@@ -3,16 +3,16 @@
 use super::text::on_one_line;
 use asperity_scene::text::nearest;
 
-/// Largest length of a query in bytes. Each of its words is searched in all texts, so a longer
-/// query would take long; no name is as long.
+/// Largest length of a query in bytes. Every word of a query is searched in all texts, so that a
+/// longer query would take a long time. No name has this length.
 const LONGEST_QUERY: usize = 256;
-/// Number of ranks that a word can have in a text.
+/// Number of ranks: each describes how well a word matches a text, from 0 (best) to 3.
 const RANKS: usize = 4;
 
 /// Returns the indices of the candidates that contain every word of a query, the best first.
-/// Equally good candidates keep their order. The texts of each candidate must be in the order of
-/// their importance. An empty query finds all candidates, and a query longer than 256 bytes finds
-/// none.
+/// Equally good candidates keep their order. The texts of each candidate must be ordered by
+/// importance, the most important first. An empty query finds all candidates, and a query longer
+/// than 256 bytes finds none.
 pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Vec<usize> {
     if query.len() > LONGEST_QUERY {
         return Vec::new();
@@ -29,8 +29,9 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// Returns a number that says how well texts match a word; the smallest is best. `None` if no text
-/// contains the word. Any match in an earlier text is better than any match in a later text.
+/// Returns a number that describes how well texts match a word; the smallest number is the best.
+/// Any match in an earlier text is better than any match in a later text. `None` if no text
+/// contains the word.
 fn cost(texts: &[String], word: &str) -> Option<usize> {
     for (number, text) in texts.iter().enumerate() {
         if let Some(word_rank) = rank(text, word) {
@@ -40,9 +41,9 @@ fn cost(texts: &[String], word: &str) -> Option<usize> {
     None
 }
 
-/// Returns the query with corrected words: each word that occurs in no candidate is replaced by the
-/// most similar word of the candidates. `None` if every word occurs, or if there is no similar
-/// word.
+/// Returns the query with corrected words: each word that no candidate contains is replaced by the
+/// most similar word of the candidates. `None` if nothing has to be corrected, or if there is no
+/// similar word.
 pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
     if query.len() > LONGEST_QUERY {
         return None;
@@ -70,9 +71,9 @@ fn words_of(texts: &[String]) -> impl Iterator<Item = &str> {
         .flat_map(|text| text.split(|c: char| !c.is_alphanumeric()))
 }
 
-/// Returns how well a text matches a word: the word is the whole text (best), the beginning of the
-/// text, the beginning of a word in the text, or inside a word. Upper and lower case matter only if
-/// the word is the whole text, as in `h` and `H`.
+/// Returns how well a text matches a word, from the best to the worst: the word is the whole text,
+/// the beginning of the text, the beginning of a word in the text, or the inside of a word. Upper
+/// and lower case matter only if the word is the whole text, as in `h` and `H`.
 fn rank(text: &str, word: &str) -> Option<usize> {
     if text == word {
         return Some(0);

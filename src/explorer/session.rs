@@ -1,4 +1,5 @@
-//! A session: the explorer in a terminal, with threads for input, signals, solver and studies.
+//! A session: the explorer in a terminal, with threads for input, signals, solver and background
+//! computations (studies).
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -33,17 +34,18 @@ use std::time::{Duration, Instant};
 /// Largest frame rate over SSH in 1/s. It is low because each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Longest time for which a frame over SSH waits for an answer of the solver.
+/// Longest time for which a frame over SSH is delayed to include an answer of the solver.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
 
-/// Time without input after which unsaved changes are written to a file. The explorer waits for the
-/// disk then. If home folders are on another computer, this takes longer than a frame.
+/// Time without input after which unsaved changes are written to a file. While the explorer writes,
+/// it waits for the disk, which takes longer than a frame if the home folder is on another
+/// computer.
 const KEEPING_PAUSE: Duration = Duration::from_secs(1);
 
-/// Largest number of input events that wait for the loop. Further input waits in the terminal.
+/// Largest number of input events that wait for the main loop. Further input waits in the terminal.
 const MOST_WAITING: usize = 64;
 
-/// Longest time for which actions are applied without drawing a frame.
+/// Longest time for which actions are applied before the next frame is drawn.
 const DRAINING: Duration = Duration::from_millis(100);
 
 pub struct Options {
@@ -51,9 +53,10 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session, to be continued. The opened scene is the first of them.
+    /// Unsaved changes of another session, with which this session continues. The opened scene is
+    /// the first scene in them.
     pub restored: Option<Kept>,
-    /// Configuration. The options above have precedence over the configuration.
+    /// Configuration. The fields `theme` and `marker` have precedence over it.
     pub config: Config,
     pub warning: Option<String>,
     /// Folder for copies of unsaved changes; `None` to make no copies.
@@ -61,7 +64,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Returns the options of a session that follows this configuration.
+    /// Returns options with which the configuration alone determines the session.
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
@@ -84,12 +87,12 @@ pub struct SessionEnd {
 /// Function that draws the state of the explorer; see [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
-/// What a thread can send to the loop of the session.
+/// What a thread can send to the main loop of the session.
 enum Incoming {
     /// Input of the user; `None` if the input has ended.
     Input(Option<Event>),
     Signal(SystemSignal),
-    /// Action with a result of the solver or of a study.
+    /// Action that carries a result of the solver or of a background computation.
     Act(Box<Action>),
 }
 
@@ -103,12 +106,13 @@ pub fn open(
 ) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
     let guard = TerminalGuard::take(options.config.mouse)?;
-    // `sender` exists as long as the session, so that `inbox` is never closed.
+    // `sender` exists as long as the session, so that `inbox` always has a sender and stays open.
     let (sender, inbox) = channel();
     let engine = start_engine(solve, &sender)?;
     let waiting = start_input(&sender)?;
-    // `guard` restores the whole terminal. The destructor of ratatui is not run: if the terminal is
-    // gone, the destructor would write to standard error, and panic if standard error is gone too.
+    // When the session ends, `guard` restores the terminal. The destructor of `Terminal` must not
+    // run: if the terminal is gone, it would write to standard error, and would panic if standard
+    // error is gone too.
     let writer = FrameWriter::new(io::stdout());
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let appearance = chosen_appearance(&options);
@@ -157,7 +161,8 @@ pub fn open(
         touched: now,
     };
     let end = catch_unwind(AssertUnwindSafe(|| session.run()));
-    // Unsaved changes are kept even after a panic, so that another session can open them.
+    // This also runs after a panic, so that the user can open the unsaved changes in another
+    // session.
     session.keep_unsaved();
     match end {
         Ok(end) => Ok(session.end(end?)),
@@ -165,8 +170,8 @@ pub fn open(
     }
 }
 
-/// Continues the unsaved changes of another session. If there are none to be continued, it returns
-/// a message that offers the newest unsaved changes.
+/// Continues with the unsaved changes of another session (`restored`). If there are none, returns a
+/// message that offers the newest unsaved changes in the folder `unsaved`.
 fn restore_or_offer(
     app: &mut App,
     restored: Option<&Kept>,
@@ -179,7 +184,7 @@ fn restore_or_offer(
     autosave::offer(unsaved?)
 }
 
-/// Starts the threads of the solver and of the studies, which send their results to the loop.
+/// Starts the threads of the solver and of the studies, which send their results to the main loop.
 fn start_engine(solve: Solve, sender: &Sender<Incoming>) -> io::Result<Engine> {
     let replies = sender.clone();
     let solver = SolverThread::start(solve, move |reply| {
@@ -194,9 +199,9 @@ fn start_engine(solve: Solve, sender: &Sender<Incoming>) -> io::Result<Engine> {
     Ok(Engine::threads(solver, studies))
 }
 
-/// Starts the threads that receive input, signals and the end of the connection. Returns a receiver
-/// with one entry for each input event that waits for the loop. If the receiver is full, further
-/// input waits in the terminal.
+/// Starts the threads that wait for input, for signals and for the loss of the terminal. Returns a
+/// receiver with one entry for each input event that waits for the main loop. If the receiver is
+/// full, further input waits in the terminal.
 fn start_input(sender: &Sender<Incoming>) -> io::Result<Receiver<()>> {
     let hang_up = sender.clone();
     terminal::watch_for_hang_up(move || {
@@ -212,8 +217,8 @@ fn start_input(sender: &Sender<Incoming>) -> io::Result<Receiver<()>> {
     Ok(waiting)
 }
 
-/// Returns the appearance. The options of the command line have precedence over the configuration,
-/// and the configuration has precedence over the environment.
+/// Returns the colours and the characters of plots. The options of the command line have precedence
+/// over the configuration, and the configuration has precedence over the environment.
 fn chosen_appearance(options: &Options) -> Appearance {
     let environment = Appearance::of_environment();
     let config = &options.config;
@@ -239,7 +244,7 @@ struct Session<'a> {
     runtime: Runtime,
     terminal: &'a mut Screen,
     guard: TerminalGuard,
-    /// True if the content of the screen is unknown, so that the next frame must draw everything.
+    /// True if the content of the screen is unknown, so that the next frame must draw all cells.
     redraw: bool,
     draw: Draw,
     remote: bool,
@@ -247,11 +252,10 @@ struct Session<'a> {
     frame_time: Duration,
     /// True if the state has changed since the last frame.
     changed: bool,
-    /// Earliest time of the next frame. Without it, a held key or a dragged mouse would fill a
-    /// connection over SSH with frames that are outdated before they arrive.
+    /// Earliest time of the next frame. Without this limit, a held key or a dragged mouse would
+    /// fill a connection over SSH with frames that are outdated before they arrive.
     due: Instant,
-    /// Time since which the session has been waiting for an answer of the solver; `None` if it is
-    /// not waiting.
+    /// Time of the request that the solver has not answered yet; `None` if there is none.
     asked: Option<Instant>,
     /// Time of the last step of the animation.
     moved: Instant,
@@ -259,7 +263,8 @@ struct Session<'a> {
     /// One entry for each input event that waits in the inbox.
     waiting: Receiver<()>,
     autosave: Option<Autosave>,
-    /// Generation of the scene and number of saves when unsaved changes were last kept.
+    /// Generation of the scene and number of saves at the time when unsaved changes were last
+    /// written.
     kept: (u64, u64),
     /// Time of the last input.
     touched: Instant,
@@ -274,8 +279,8 @@ enum Interruption {
 }
 
 impl Session<'_> {
-    /// Runs the loop of the session until it ends. Returns the number of the signal that ended it;
-    /// `None` if no signal did.
+    /// Runs the main loop of the session until the session ends. Returns the number of the signal
+    /// that ended the session; `None` if no signal did.
     fn run(&mut self) -> io::Result<Option<i32>> {
         self.runtime.perform(vec![Task::Ask]);
         while !self.runtime.app.finished {
@@ -301,8 +306,8 @@ impl Session<'_> {
                 None => {}
             }
             if playing && self.moved.elapsed() >= self.frame_time {
-                // Elapsed time alone changes nothing on the screen. A frame follows when the
-                // snapshot for the new position arrives.
+                // No frame is due yet, because elapsed time alone changes nothing on the screen. A
+                // frame is drawn when the snapshot for the new position arrives.
                 let elapsed = self.moved.elapsed().min(4 * self.frame_time);
                 self.moved = Instant::now();
                 self.act(Action::Elapse(elapsed))?;
@@ -311,14 +316,14 @@ impl Session<'_> {
         Ok(None)
     }
 
-    /// Returns the final state of the session. `signal` is the number of the signal that ended it,
-    /// if one did.
+    /// Ends the session and returns its final state. `signal` is the number of the signal that
+    /// ended the session; `None` if no signal did.
     fn end(self, signal: Option<i32>) -> SessionEnd {
         let app = self.runtime.app;
         if app.finished
             && let Some(mut autosave) = self.autosave
         {
-            // The user has already been asked about unsaved changes, so no copy is kept.
+            // The user has already decided about the unsaved changes, so their copy is removed.
             let _ = autosave.keep(&[]);
         }
         let computed = app.current().cloned();
@@ -329,9 +334,9 @@ impl Session<'_> {
         }
     }
 
-    /// Returns the earliest time of the next frame. Over SSH, a frame after a key waits a short
-    /// time for the answer of the solver. A frame without the answer would cost as many bytes, and
-    /// would delay the answer until the next frame is due.
+    /// Returns the earliest time of the next frame. Over SSH, a frame after a key is delayed a
+    /// little to include the answer of the solver. A frame without the answer would cost as many
+    /// bytes, and would delay the answer until the next frame is due.
     fn next_frame(&self) -> Instant {
         match self.asked {
             Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
@@ -344,8 +349,8 @@ impl Session<'_> {
         app.play.playing && app.is_current() && app.manual.is_none()
     }
 
-    /// Waits for input or a result. Returns `None` if a step of the animation, a frame or a copy of
-    /// unsaved changes is due first.
+    /// Waits for input or a result, and returns it. Returns `None` if before that a step of the
+    /// animation, a frame or a copy of unsaved changes is due.
     fn wait(&mut self, playing: bool) -> Option<Incoming> {
         let mut deadlines = Vec::new();
         if playing {
@@ -364,8 +369,9 @@ impl Session<'_> {
         }
     }
 
-    /// Handles what has arrived, and what arrives in the meantime. If keys arrive faster than they
-    /// can be handled, this ends after some time, so that a frame shows their effects.
+    /// Handles the first event, and then all events that arrive in the meantime. If keys arrive
+    /// faster than the explorer handles them, this ends after the time `DRAINING`, so that a frame
+    /// shows their effects.
     fn handle_all(&mut self, first: Option<Incoming>) -> io::Result<Option<Interruption>> {
         let begun = Instant::now();
         let mut next = first;
@@ -414,8 +420,9 @@ impl Session<'_> {
     fn show(&mut self) -> io::Result<()> {
         terminal::checked(self.terminal.size()?)?;
         if take(&mut self.redraw) {
-            // `clear` would ask the terminal for the position of the cursor, but another thread
-            // reads the answer. `resize` clears the screen without asking.
+            // `clear` would ask the terminal for the position of the cursor and wait for the
+            // answer, but the answer goes to the thread that reads input. `resize` also clears the
+            // screen, without asking.
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
@@ -425,12 +432,13 @@ impl Session<'_> {
     }
 
     fn act(&mut self, action: Action) -> io::Result<()> {
-        // If the window shrinks and grows back between two frames, its content is lost, although it
-        // has the same size as in the last frame.
+        // If the window shrinks and grows again between two frames, the screen loses its content,
+        // although the window has the same size as at the last frame. Therefore the next frame
+        // draws all cells.
         self.redraw |= matches!(action, Action::Resize(..));
         for task in self.runtime.act(action) {
             match task {
-                // The text is sent together with the next frame.
+                // `queue!` only adds the text to the output, which is sent with the next frame.
                 Task::Copy(text) => {
                     let copy = CopyToClipboard::to_clipboard_from(text);
                     queue!(self.terminal.backend_mut(), copy)?;
@@ -438,8 +446,8 @@ impl Session<'_> {
                 Task::Redraw => self.redraw = true,
                 Task::Suspend => {
                     self.keep_unsaved();
-                    // The signal of continuation makes the explorer read the size of the window
-                    // again.
+                    // The window may have another size afterwards. The signal that continues the
+                    // process causes the explorer to read the size again.
                     self.guard.suspend()?;
                     self.redraw = true;
                 }
@@ -454,8 +462,8 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// Returns the time at which unsaved changes are to be kept. `None` if they are already kept,
-    /// or if there are no unsaved changes and no file to be removed.
+    /// Returns the time at which unsaved changes are written to their file. `None` if they have not
+    /// changed since they were last written, or if there are none and no file has to be removed.
     fn next_keeping(&mut self) -> Option<Instant> {
         let state = self.state_of_changes();
         if state == self.kept {
@@ -469,16 +477,16 @@ impl Session<'_> {
         Some(self.touched + KEEPING_PAUSE)
     }
 
-    /// Returns the generation of the scene and the number of saves. One of them changes with every
-    /// edit and every save.
+    /// Returns the generation of the scene and the number of saves. Every edit and every save
+    /// changes at least one of these numbers.
     fn state_of_changes(&self) -> (u64, u64) {
         let edit = &self.runtime.app.edit;
         (edit.generation, edit.saves)
     }
 
-    /// Keeps the unsaved changes for another session, if they have changed since they were last
-    /// kept. This happens after a second without input, and also before the explorer ends or is
-    /// stopped. If the process is killed, or if it gets a signal while the terminal accepts no
+    /// Writes the unsaved changes to a file for another session, if they have changed since they
+    /// were last written. This happens after a second without input, and also before the explorer
+    /// ends or is stopped. If the process is killed, or gets a signal while the terminal accepts no
     /// output, the changes of the last second may be lost.
     fn keep_unsaved(&mut self) {
         let state = self.state_of_changes();

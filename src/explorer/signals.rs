@@ -1,11 +1,11 @@
-//! Signals that the explorer handles. If a signal ends the explorer, the terminal is restored
-//! first.
+//! Signals that the explorer handles. If a signal ends the explorer, the explorer restores the
+//! terminal first.
 
 use std::io;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemSignal {
-    /// A signal has asked the process to end. The value is the number of the signal.
+    /// A signal with this number asks the process to end.
     End(i32),
     /// The process continues after it was stopped.
     Continue,
@@ -13,12 +13,12 @@ pub enum SystemSignal {
     Resize,
 }
 
-/// Calls `report` when a signal asks the process to end, continues it, or announces another size of
-/// the window. `report` must return false when nobody receives the signals any more.
+/// Calls `report` when a signal asks the process to end, continues the process, or announces
+/// another size of the window. `report` returns false if the receiver of the signals has ended.
 ///
-/// The explorer may be unable to end soon after such a signal, for example if the terminal accepts
-/// no output. In this case, the attributes of the terminal are restored, and then the signal ends
-/// the process.
+/// After a signal to end, the explorer may not end soon, for example if the terminal accepts no
+/// output. Then this thread restores the attributes of the terminal, and the signal ends the
+/// process.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
@@ -41,8 +41,8 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
                 if report(SystemSignal::End(signal)) {
                     std::thread::sleep(PATIENCE);
                     if !report(SystemSignal::End(signal)) {
-                        // The explorer has ended in the meantime. Its caller decides whether the
-                        // process continues.
+                        // The explorer has ended in the meantime. The code that started it decides
+                        // whether the process continues.
                         continue;
                     }
                     let _ = crossterm::terminal::disable_raw_mode();
@@ -53,16 +53,17 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
         .map(drop)
 }
 
-/// Other systems do not have these signals.
+/// On other systems these signals do not exist, so there is nothing to watch.
 #[cfg(not(unix))]
 pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the process as the signal does by default, so that the parent process sees the signal.
+/// Ends the process in the way in which the signal ends it by default, so that the parent process
+/// can see which signal it was.
 #[cfg(unix)]
 pub fn end_by(signal: i32) {
-    // This returns only if the default action of the signal does not end the process.
+    // The call returns only if the signal does not end the process by default.
     let _ = signal_hook::low_level::emulate_default_handler(signal);
 }
 

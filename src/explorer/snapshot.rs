@@ -1,5 +1,5 @@
-//! Results of the solver. They never change, state the generation of their scene, and contain only
-//! as many columns as the panes show.
+//! Results of the solver. A result never changes. It carries the generation of its scene, and
+//! contains only as many columns as the panes show.
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::motion::PatchState;
@@ -22,10 +22,10 @@ pub struct ContactSnapshot {
     pub generation: u64,
     pub drive: Drive,
     pub line: LineFacts,
-    /// The focus of the close-up in the request.
+    /// The focus of the close-up that the request named.
     pub focus: Focus,
-    /// Point of the force curve, with indentation, force, number of springs in contact and number
-    /// of patches.
+    /// Point of the force curve that the snapshot shows, with the indentation, the force, the
+    /// number of springs in contact and the number of patches.
     pub point: CurvePoint,
     /// Half the distance between the outermost edges of the contact in m; zero if nothing is in
     /// contact.
@@ -39,22 +39,23 @@ pub struct ContactSnapshot {
     pub manual: Option<ManualPath>,
 }
 
-/// Springs and contact patches at a state. The snapshot does not own the springs, so they disappear
-/// when the solver begins another profile.
+/// Springs and contact patches of a snapshot. The snapshot does not own the springs, so they are
+/// lost when the solver begins another profile.
 #[derive(Clone, Debug, Default)]
 pub struct SpringsInContact {
     pub gaps: Weak<Vec<f64>>,
     pub patches: Vec<Patch>,
 }
 
-/// Compares only the patches. For snapshots with equal sections, equal patches mean equal springs.
+/// Compares only the patches. Snapshots are compared together with their sections, and for equal
+/// sections, equal patches mean equal springs.
 impl PartialEq for SpringsInContact {
     fn eq(&self, other: &Self) -> bool {
         self.patches == other.patches
     }
 }
 
-/// Rigid profile and elastic surface at one spring.
+/// Heights of the rigid profile and of the elastic surface at one spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
     pub spring: usize,
@@ -67,8 +68,8 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// Reads profile and contact at a position along the profile, from 0 to 1. `None` if the
-    /// profile has no springs.
+    /// Returns the heights at a position along the profile, where 0 is the left end and 1 the right
+    /// end. `None` if the profile has no springs.
     pub fn at(contact: &SectionContact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
@@ -87,8 +88,8 @@ impl Probe {
 }
 
 impl ContactSnapshot {
-    /// Returns a part of the profile and its contact, reduced to columns; `None` if the springs no
-    /// longer exist.
+    /// Returns a part of the profile with its contact, reduced to columns; `None` if the solver no
+    /// longer holds the springs.
     pub fn section(&self, part: Part) -> Option<Section> {
         let gaps = self.springs.gaps.upgrade()?;
         let contact = SectionContact {
@@ -117,26 +118,26 @@ pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
-    /// Points of the force curve since the previous snapshot, each with the index of its loading
-    /// stage.
+    /// Points added to the force curve since the previous snapshot, each with the index of its
+    /// loading stage.
     pub path: Vec<(usize, CurvePoint)>,
-    /// Loading history from separation to this state: the stages of the scene, then the turning
-    /// points of manual loading.
+    /// Loading history from separation to this state: first the stages of the scene, then the
+    /// targets at which manual loading changed its direction.
     pub loading: Vec<Move>,
     /// Number of springs that have attached or detached since the previous snapshot.
     pub changed: u64,
     /// Elastic energy in J that has been released since manual loading began.
     pub released_energy: f64,
-    /// Reason why the last move was refused; `None` if it was not refused.
+    /// Reason why the last move was refused; `None` if the move was carried out.
     pub refused: Option<String>,
 }
 
 /// Manual loading from its beginning to the present state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
-    /// Points of the path, the newest last.
+    /// Points of the force curve under manual loading, the newest last.
     pub path: Vec<CurvePoint>,
-    /// For each point of the path, the index of its loading stage.
+    /// For each point of `path`, the index of its loading stage.
     pub stages: Vec<usize>,
     pub loading: Vec<Move>,
     /// Number of springs that attached or detached in the last move.
@@ -152,8 +153,8 @@ pub struct ManualState {
 pub struct CloseUp {
     /// The visible part of the profile.
     pub section: Section,
-    /// Ends of the visible patches, each as a spring and its height in m (the white circles of Fig.
-    /// 3 of the paper).
+    /// Ends of the visible patches, each as the index of a spring and the height of this spring in
+    /// m. They are drawn like the white circles of Fig. 3 of the paper.
     pub boundaries: Vec<(usize, f64)>,
     /// The patch nearest to the middle of the close-up; `None` if nothing is in contact.
     pub patch: Option<PatchFacts>,
@@ -170,7 +171,7 @@ pub struct PatchFacts {
 /// Outcome for the value that the user is typing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// Text of the scene, which says to which scene the outcome belongs.
+    /// Text of the scene to which the outcome belongs.
     pub text: String,
     pub outcome: Outcome,
 }
@@ -184,7 +185,7 @@ impl Reply {
         }
     }
 
-    /// Returns true if this is the last reply to a request.
+    /// Returns true for a reply that answers a request; a report of progress is followed by others.
     pub fn is_answer(&self) -> bool {
         !matches!(self, Reply::Progress { .. })
     }
@@ -192,7 +193,8 @@ impl Reply {
 
 #[derive(Clone, Debug)]
 pub enum Reply {
-    /// A scene has been computed. Its first snapshot is included, unless the loading is empty.
+    /// A scene has been computed. The reply includes the first snapshot, unless the loading is
+    /// empty.
     Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
     /// Another snapshot of the scene has been computed.
     Shown(Arc<ContactSnapshot>),
@@ -204,7 +206,7 @@ pub enum Reply {
     },
     Failed {
         generation: u64,
-        /// Reason, on one line.
+        /// Reason of the failure, on one line.
         error: String,
     },
 }

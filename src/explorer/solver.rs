@@ -1,6 +1,6 @@
-//! The solver. It owns the simulation and the legs of the newest scene (a leg is a motion of the
-//! body in one direction), and answers the newest request of the explorer, on a thread of its own
-//! or at once.
+//! The solver. It holds the simulation and the legs of the newest scene (a leg is a motion of the
+//! body in one direction), and answers the newest request of the explorer. It runs on a thread of
+//! its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
 use super::manual_body::{ManualBegin, ManualBody};
@@ -22,12 +22,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Largest memory in bytes for legs. Further legs are computed again when the animation reaches
-/// them.
+/// Largest memory in bytes for the legs of a scene. Legs beyond this limit are computed again when
+/// the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
 
-/// Number of points on the curve from the highest to the lowest indentation, if the user pulls the
-/// body off.
+/// Number of points on the force curve between the highest and the lowest indentation, if the user
+/// pulls the body off manually.
 const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// Function that computes a scene, as [`Simulation::run`] does.
@@ -41,8 +41,8 @@ pub type Solve = fn(
 pub struct Solver {
     solve: Solve,
     simulation: Simulation,
-    /// Generation of the scene for which the explorer waits. The computation of any other scene
-    /// stops.
+    /// Generation of the scene for which the explorer waits. The solver stops the computation of a
+    /// scene with any other generation.
     awaited: Arc<AtomicU64>,
     newest: Newest,
 }
@@ -50,23 +50,23 @@ pub struct Solver {
 #[derive(Default)]
 struct Newest {
     generation: u64,
-    /// The scene with the observers that the explorer needs; `None` if it could not be computed.
+    /// The scene, with the observers that the explorer needs; `None` if its computation failed.
     scene: Option<CheckedScene>,
     solved: Option<Arc<SolvedScene>>,
-    /// Legs of the loading; `None` for each leg that is not kept in memory.
+    /// Legs of the loading; `None` for each leg that did not fit into memory.
     legs: Vec<Option<Leg>>,
     body: Option<ManualBody>,
-    /// Lowest and highest point of the profile in each column. They are kept, so that the next
-    /// snapshot need not compute them again.
+    /// Lowest and highest point of the profile in each column. They are stored, because the next
+    /// snapshot usually needs them again.
     profile: LineColumns,
     close_up: LineColumns,
 }
 
-/// Legs of a loading that are kept in memory, as far as memory allows.
+/// Legs of a loading. Only as many legs are stored as the memory limit allows.
 #[derive(Default)]
 struct KeptLegs {
     legs: Vec<Option<Leg>>,
-    /// Memory in bytes that all legs so far would need.
+    /// Memory in bytes that all legs so far would need if all of them were stored.
     bytes: usize,
     /// Largest force and indentation to which the contact of the first leg can be pressed.
     reach: Reach,
@@ -84,7 +84,7 @@ impl KeptLegs {
     }
 }
 
-/// State of the contact to be shown.
+/// State of the contact for a snapshot.
 struct ShownState {
     drive: Drive,
     leg: Leg,
@@ -103,14 +103,14 @@ impl Solver {
         }
     }
 
-    /// Answers a request. From now on, the explorer waits for the scene of this request.
+    /// Answers a request. Computations of scenes of other generations stop.
     pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);
     }
 
-    /// Answers a request. If the computation panics, only this request ends, and the explorer
-    /// continues.
+    /// Answers a request. If the computation panics, only this request fails, and the explorer goes
+    /// on.
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         let served = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report)));
@@ -138,8 +138,8 @@ impl Solver {
             match self.compute(generation, scene, report) {
                 Ok(()) => {}
                 Err(error) if error.is_interruption() => {
-                    // If the explorer waits for this scene again, it is computed from the
-                    // beginning.
+                    // With generation 0, a later request for this scene starts the computation from
+                    // the beginning.
                     self.newest.generation = 0;
                     return;
                 }
@@ -237,8 +237,8 @@ impl Solver {
         ManualBody::take(&leg, begin)
     }
 
-    /// Returns a leg of the loading from the exact solver. Manual loading needs it, because only
-    /// legs of the exact solver continue beyond the end of their stage.
+    /// Returns a leg of the loading, computed by the exact solver. Manual loading needs such a leg,
+    /// because only the legs of the exact solver can be continued beyond the end of their stage.
     fn exact_leg(&mut self, solved: &SolvedScene, number: usize) -> Option<Leg> {
         if solved.scene.numerics.solver == SceneSolver::Exact {
             return self.leg(number);
@@ -302,8 +302,8 @@ impl Solver {
         })
     }
 
-    /// Returns the state of the scene's loading at which the animation is. If there is no such
-    /// stage, it uses the nearest one. Manual loading ends.
+    /// Returns the state of the contact at a position of the animation, and ends manual loading. If
+    /// there is no stage with this number, the nearest stage is used.
     fn state_of_loading(&mut self, number: usize, at: At) -> Option<ShownState> {
         self.newest.body = None;
         let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
@@ -316,7 +316,8 @@ impl Solver {
         let indentation = player.indentation(legs);
         let record = legs.get(player.leg);
         // After a separation nothing is in contact, although the animation still shows the
-        // indentation of the last contact. Therefore the point is taken from the end of the curve.
+        // indentation of the last contact. Therefore the end of the curve, and not the indentation,
+        // gives the point.
         let end = if player.at == At::End && is_separated(record) {
             record.and_then(|record| record.curve.last().copied())
         } else {
@@ -334,13 +335,13 @@ impl Solver {
         })
     }
 
-    /// Returns a leg of the loading. If the leg was not kept in memory, it is computed again.
+    /// Returns a leg of the loading. If the leg is not stored in memory, it is computed again.
     fn leg(&mut self, number: usize) -> Option<Leg> {
         if self.newest.legs.get(number)?.is_none() {
             let scene = self.newest.scene.take()?;
             let computed = self.leg_of(&scene, number);
             self.newest.scene = Some(scene);
-            // Of the legs beyond the memory limit, only the one computed last is kept.
+            // Of the legs that do not fit into memory, only the one computed last is stored.
             let kept = match &computed {
                 Some(leg) => BYTES_KEPT / leg.bytes().max(1),
                 None => 0,
@@ -353,12 +354,11 @@ impl Solver {
         self.newest.legs[number].clone()
     }
 
-    /// Computes the leg of one loading stage. For this, it computes the scene up to the end of this
-    /// stage.
+    /// Computes the leg of one loading stage. For this purpose, the scene is computed from the
+    /// beginning to the end of this stage.
     fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
-        // As soon as the leg is found, the computation is interrupted with an error, which is
-        // ignored.
+        // When the leg has been found, an error ends the computation. This error is ignored.
         let _ = (self.solve)(
             &mut self.simulation,
             scene,
@@ -383,8 +383,8 @@ fn is_separated(leg: Option<&LegRecord>) -> bool {
     }
 }
 
-/// Returns true if the animation has not moved the contact in this stage yet. It is then at the
-/// start of the stage or, in the first stage, above the springs.
+/// Returns true if the animation has not moved the contact in this stage yet: the animation is at
+/// the start of the stage or, in the first stage, still above first touch.
 fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
     match at {
         At::Start => true,
@@ -393,7 +393,7 @@ fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
     }
 }
 
-/// Returns the loading history up to a position in a stage.
+/// Returns the loading history up to a position of the animation in a loading stage.
 fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
     let loading = &solved.scene.loading;
     let mut stages: Vec<Move> = loading.iter().take(number).copied().collect();
@@ -409,7 +409,7 @@ fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
     stages
 }
 
-/// Returns the direction of the last stage in the loading history up to a position in a stage;
+/// Returns the direction of the last motion before a position of the animation in a loading stage;
 /// `None` if the first stage has not begun.
 fn direction_at(solved: &SolvedScene, number: usize, at: At) -> Option<Direction> {
     let legs = &solved.outcome.history.legs;
@@ -443,8 +443,8 @@ impl SolverThread {
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
         let newest = Arc::clone(&awaited);
-        // Replies about earlier scenes are dropped here, because the explorer may already be busy
-        // with more input than it can handle.
+        // Replies about earlier scenes are dropped on this thread, because the explorer may already
+        // receive more input than it can handle.
         let mut report_awaited = move |reply: Reply| {
             if reply.generation() == newest.load(Ordering::Relaxed) {
                 report(reply);
@@ -456,16 +456,15 @@ impl SolverThread {
         Ok(SolverThread { requests, awaited })
     }
 
-    /// Sends a request to the solver. The computation of any other scene stops.
+    /// Sends a request to the solver, which stops the computation of any other scene.
     pub fn ask(&self, request: Request) {
         self.awaited.store(request.generation, Ordering::Relaxed);
-        // Sending cannot fail, because the thread ends only together with the explorer.
+        // Sending cannot fail, because the solver thread ends only together with the explorer.
         let _ = self.requests.send(request);
     }
 }
 
-/// Answers requests until the explorer ends. If several requests are waiting, it combines them and
-/// answers the newest.
+/// Answers requests until the explorer ends. Requests that are waiting are combined to one.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
         let newest = requests

@@ -1,8 +1,8 @@
-//! Studies: values that are computed after the outcome of a scene. Examples are the error of the
-//! outcome, the number of springs for a tolerance, the data of a shown pane, and the curve for a
-//! typed value. The explorer holds one value of each type, with a key that says from what it was
-//! computed. A separate thread performs the newest list of studies. A newer list stops the list
-//! before it.
+//! Studies: background computations whose values are computed after the outcome of a scene.
+//! Examples are the error of the outcome, the number of springs for a tolerance, the data of a
+//! shown pane, and the curve for a typed value. The explorer holds one value of each type, with a
+//! key that identifies the data from which it was computed. A separate thread performs the newest
+//! list of studies, and stops when a newer list arrives.
 
 use crate::explorer::advice;
 use asperity_data::Control;
@@ -16,28 +16,28 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Time for which a study waits after a change of the scene. While the user holds a key, the solver
-/// needs the whole computer.
+/// Time between the last change of the scene and the start of the studies. While the user holds a
+/// key, the scene changes all the time, and the solver needs the whole computer.
 const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
 
-/// Function that computes a value. It gets a simulation that other studies may have used before,
-/// and can report the value as far as it is known.
+/// Function that computes a value. Its simulation may have been used by other studies before. The
+/// function can report intermediate values.
 type Run = dyn FnOnce(&mut Simulation, Control<'_, Value>) -> Result<Value, String> + Send;
 
 pub struct Study {
     kind: TypeId,
     key: String,
-    /// True if a demo leaves the study out. The viewers would have to wait, or the results would
-    /// differ each time the demo plays.
+    /// True if demos leave the study out, because viewers would have to wait for it or because its
+    /// result differs each time the demo is played.
     pub is_long: bool,
     run: Box<Run>,
 }
 
 impl Study {
     /// Creates a study. Its key identifies the scene or the parameters on which its value depends.
-    /// Whenever `run` reports the value as far as it is known, the explorer shows it.
+    /// The explorer shows each intermediate value that `run` reports.
     pub fn new<T: Any + Clone + Send + Sync, E: Remedied>(
         key: impl ToString,
         is_long: bool,
@@ -66,8 +66,8 @@ impl Study {
         self.kind == TypeId::of::<T>()
     }
 
-    /// Performs the study and reports its value. As soon as `stop` returns true, nothing is
-    /// reported any more. A panic counts as a failure of the study.
+    /// Performs the study and reports its value. After `stop` has returned true, nothing is
+    /// reported. A panic counts as a failure of the study.
     pub fn perform(
         self,
         simulation: &mut Simulation,
@@ -106,8 +106,8 @@ impl Study {
     }
 }
 
-/// Returns the key of the random profiles of a scene. Texts of the scene, such as its title, do not
-/// change the key.
+/// Returns the key for studies of the random profiles of a scene. It does not depend on the texts
+/// of the scene, such as its title.
 pub fn ensemble_key(scene: &Scene) -> String {
     let scene = Scene {
         title: String::new(),
@@ -118,14 +118,14 @@ pub fn ensemble_key(scene: &Scene) -> String {
     format!("ensemble of {scene:?}")
 }
 
-/// Value of a study as far as it is known, or the end of the study.
+/// Message from a study: its intermediate value, or the result with which the study ended.
 #[derive(Clone, Debug)]
 pub struct Finding {
     kind: TypeId,
     slot: Slot,
 }
 
-/// Value as far as it is known, and the result of its study if the study has ended.
+/// Newest value of a study, possibly intermediate. If the study has ended, `end` is its result.
 #[derive(Clone, Debug)]
 struct Slot {
     key: String,
@@ -133,7 +133,7 @@ struct Slot {
     end: Option<Result<(), String>>,
 }
 
-/// Values of studies as far as they are known, at most one of each type.
+/// Newest value of each study, at most one value of each type.
 #[derive(Clone, Debug, Default)]
 pub struct Findings(HashMap<TypeId, Slot>);
 
@@ -142,19 +142,19 @@ impl Findings {
         self.0.get(&TypeId::of::<T>())
     }
 
-    /// Returns the value of this type, as far as it is known; `None` if nothing is known.
+    /// Returns the newest value of this type, possibly an intermediate one; `None` if there is no
+    /// value.
     pub fn value<T: Any>(&self) -> Option<&T> {
         self.slot::<T>()?.value.as_ref()?.downcast_ref()
     }
 
-    /// Returns true if the value of this type is complete.
+    /// Returns true if the value of this type is final.
     pub fn is_done<T: Any>(&self) -> bool {
         self.slot::<T>()
             .is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
-    /// Returns the reason why the value of this type is missing or incomplete, if its study has
-    /// failed; otherwise `None`.
+    /// Returns the reason for which the study of this type failed; `None` if it has not failed.
     pub fn failure<T: Any>(&self) -> Option<&str> {
         self.slot::<T>()?
             .end
@@ -164,8 +164,8 @@ impl Findings {
             .map(String::as_str)
     }
 
-    /// Sets a value. If `is_done` is true, the value is complete; otherwise a study with this key
-    /// completes it.
+    /// Sets a value. If `is_done` is true, the value is final; otherwise the study with this key
+    /// still has to compute the final value.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
         self.0.insert(
@@ -187,8 +187,8 @@ impl Findings {
         self.0.retain(|_, slot| keys.contains(&slot.key.as_str()));
     }
 
-    /// Stores a finding. It is ignored if its value has been removed, or if the value now depends
-    /// on another key.
+    /// Stores a message from a study. The message is ignored if the value of this type has been
+    /// removed or now has another key.
     pub fn take_in(&mut self, finding: Finding) {
         if let Some(slot) = self
             .0
@@ -200,7 +200,7 @@ impl Findings {
         }
     }
 
-    /// Returns the studies in this list that have not ended yet. From now on, their findings are
+    /// Returns the studies in this list that have not ended yet. From now on, their messages are
     /// stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
@@ -224,7 +224,7 @@ pub struct StudyThread {
 }
 
 impl StudyThread {
-    /// Starts the thread of the studies. `report` receives their findings.
+    /// Starts the thread that performs the studies. `report` receives their messages.
     pub fn start(report: impl Fn(Finding) + Send + 'static) -> std::io::Result<Self> {
         let (orders, inbox) = channel();
         let newest = Arc::new(AtomicU64::new(0));
@@ -236,21 +236,22 @@ impl StudyThread {
         Ok(StudyThread { orders, newest })
     }
 
-    /// Stops the present studies, and performs these studies instead.
+    /// Stops the studies that are being performed, and starts these studies.
     pub fn ask(&self, studies: Vec<Study>) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
         // Sending cannot fail, because the thread ends only together with the explorer.
         let _ = self.orders.send((number, studies));
     }
 
-    /// Stops the present studies because the scene has changed. The next studies wait until the
-    /// scene has not changed for some time.
+    /// Stops all studies because the scene has changed. The next studies start after the scene has
+    /// stayed unchanged for the time `QUIET`.
     pub fn stop(&self) {
         self.ask(Vec::new());
     }
 }
 
-/// Performs lists of studies until the explorer ends. Only the newest list is performed.
+/// Performs lists of studies until the explorer ends. When a newer list arrives, the present one
+/// stops.
 fn serve(newest: &AtomicU64, orders: &Receiver<(u64, Vec<Study>)>, report: &dyn Fn(Finding)) {
     let mut simulation = Simulation::default();
     let mut begin = Instant::now();

@@ -1,5 +1,5 @@
-//! The terminal. It is taken over when the explorer starts, and restored in whatever way the
-//! explorer ends.
+//! The terminal. The explorer takes it over when it starts, and restores it in whatever way it
+//! ends.
 
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
@@ -17,13 +17,13 @@ use std::io::Write;
 const MOST_CELLS: u32 = 4_000_000;
 
 /// Control sequence that makes the terminal report presses, drags and the wheel of the mouse. The
-/// sequence of crossterm would also report every other motion, and each report would be transmitted
-/// and wake the explorer for nothing.
+/// sequence of crossterm would also make it report every other motion. Each of these useless
+/// reports would be transmitted and wake the explorer.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// The terminal while the explorer uses it. It is restored when this value is dropped, and on a
-/// panic.
+/// The terminal while the explorer uses it. The terminal is restored when this value is dropped,
+/// and also on a panic.
 pub struct TerminalGuard {
     mouse: bool,
 }
@@ -31,8 +31,8 @@ pub struct TerminalGuard {
 impl TerminalGuard {
     /// Takes the terminal over. If `mouse` is true, the explorer also receives the mouse.
     pub fn take(mouse: bool) -> io::Result<Self> {
-        // The theme already obeys NO_COLOR. If crossterm obeyed it too, reverse and bold text would
-        // be lost as well.
+        // If `NO_COLOR` is set, the theme already has no colours. If crossterm obeyed `NO_COLOR` as
+        // well, it would also drop reverse and bold text.
         crossterm::style::force_color_output(true);
         let before = std::panic::take_hook();
         let drawing = std::thread::current().id();
@@ -66,8 +66,8 @@ impl TerminalGuard {
         self.enter()
     }
 
-    /// Returns the terminal to the shell and stops the process, as Ctrl-Z does in other programs.
-    /// When the shell continues the process, the terminal is taken over again.
+    /// Gives the terminal back to the shell and stops the process, as Ctrl-Z does in other
+    /// programs. When the shell continues the process, the terminal is taken over again.
     pub fn suspend(&self) -> io::Result<()> {
         give_back(self.mouse)?;
         stop_until_continued();
@@ -79,15 +79,15 @@ impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // If the terminal is gone, it cannot be restored, so the error is ignored.
         let _ = give_back(self.mouse);
-        // During a panic, the hook cannot be removed, and need not be.
+        // The hook cannot be removed during a panic, and this is not necessary.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();
         }
     }
 }
 
-/// Restores the terminal: leaves the alternate screen first, and then raw mode. In the other order,
-/// a Ctrl+C could make the system discard output that the terminal has not read yet.
+/// Restores the terminal. It leaves raw mode last: otherwise a Ctrl+C could make the system discard
+/// output that the terminal has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
     let left = execute!(
@@ -101,7 +101,7 @@ fn give_back(mouse: bool) -> io::Result<()> {
     left.and(disable_raw_mode())
 }
 
-/// Waits until the output has been sent, and then for another moment, because a pseudo-terminal
+/// Waits until the output has been sent, and then a short time longer, because a pseudo-terminal
 /// does not report when its output has been read.
 #[cfg(unix)]
 fn wait_until_written() {
@@ -110,7 +110,7 @@ fn wait_until_written() {
     std::thread::sleep(READING);
 }
 
-/// On other systems, output is written immediately.
+/// On other systems, output is written immediately, so there is nothing to wait for.
 #[cfg(not(unix))]
 fn wait_until_written() {}
 
@@ -131,21 +131,21 @@ pub fn window() -> io::Result<Size> {
     checked(Size { width, height })
 }
 
-/// Stops all processes of this job, as the terminal does for Ctrl-Z. If there is no shell that
-/// could continue them, the system does not stop them.
+/// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue the
+/// job, the system does not stop it.
 #[cfg(unix)]
 fn stop_until_continued() {
     let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
 }
 
-/// Other systems cannot stop a job.
+/// Other systems cannot stop a job, so nothing is done.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
 
 /// Calls `gone` when the connection to the terminal is lost.
 ///
-/// The signal for this event may be ignored (`nohup`). Then crossterm would read the end of its
-/// input again and again without a pause. A thread that only waits for this event costs nothing.
+/// The process may ignore the signal for this event (`nohup`). Then crossterm would read the end of
+/// its input again and again without a pause. Therefore a thread waits for the event.
 #[cfg(unix)]
 pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -166,14 +166,14 @@ pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()>
         .map(drop)
 }
 
-/// On other systems, reading the input returns an error at its end.
+/// On other systems, reading the input returns an error at its end, so nothing has to be watched.
 #[cfg(not(unix))]
 pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
 /// Writer that collects a whole frame and writes it at once, as a synchronised update. A frame that
-/// changes nothing is not written.
+/// does not change the screen is not written.
 pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
     out: W,
@@ -188,8 +188,8 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
-/// Returns true if a frame changes the screen. It may consist only of sequences that reset styles
-/// and hide the cursor, which ratatui writes even if it draws nothing.
+/// Returns true if a frame changes the screen. Even if ratatui draws nothing, it writes sequences
+/// that reset styles and hide the cursor; a frame with only such sequences changes nothing.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {

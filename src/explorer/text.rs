@@ -1,8 +1,8 @@
-//! Text within a number of columns: broken into lines between words, composed of whole parts, or
-//! shortened with `…`.
+//! Text that has to fit into a number of columns. It is broken into lines between words, composed
+//! of parts that stay whole, or shortened with `…`.
 //!
 //! ratatui can break lines too. But if a word has wide characters or begins with a combining mark,
-//! as may happen in titles and typed values, ratatui writes beyond its area and panics.
+//! ratatui writes beyond its area and panics. Titles and typed values may contain such words.
 
 use asperity_data::belong_together;
 use ratatui::style::Style;
@@ -12,8 +12,8 @@ use ratatui::text::{Line, Span, StyledGrapheme};
 pub type Part = Vec<Span<'static>>;
 
 /// Breaks a line into lines of at most this number of columns. A word that is wider than a line is
-/// broken anywhere. A number is not broken between its groups of digits or before its unit, unless
-/// it is wider than a line.
+/// broken anywhere. The digits of a number and its unit are kept together unless they are wider
+/// than a line.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let room = usize::from(columns);
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
@@ -53,7 +53,7 @@ fn is_blank(grapheme: &StyledGrapheme<'_>) -> bool {
     grapheme.symbol.trim().is_empty()
 }
 
-/// Returns the width in columns.
+/// Returns the width of the graphemes in columns.
 fn width(graphemes: &[StyledGrapheme<'_>]) -> usize {
     graphemes
         .iter()
@@ -125,8 +125,8 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     clipped.style(line.style)
 }
 
-/// Distributes parts over as many lines as needed. `between` separates two parts of the same line.
-/// A part that is wider than a line is left out.
+/// Distributes parts over as many lines as needed. `between` is written between two parts of a
+/// line. A part that is wider than a line is left out.
 pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {

@@ -16,7 +16,7 @@ pub struct TextLine {
     input: Input,
     /// True if the text is selected, so that the next typed character replaces it.
     selected: bool,
-    /// Message if the last insertion left something out.
+    /// Message that the last insertion was incomplete; `None` if it was complete.
     left_out: Option<&'static str>,
 }
 
@@ -49,7 +49,8 @@ impl TextLine {
         self.input.value()
     }
 
-    /// Returns the text before the cursor, the character under the cursor, and the text after it.
+    /// Returns the text before the cursor, the character under the cursor, and the text after this
+    /// character.
     fn parts(&self) -> (String, String, String) {
         let mut characters = self.text().chars();
         let before = characters.by_ref().take(self.input.cursor()).collect();
@@ -57,13 +58,14 @@ impl TextLine {
         (before, under, characters.collect())
     }
 
-    /// Returns a message if the last insertion left something out; otherwise `None`.
+    /// Returns a message if the last insertion was incomplete; otherwise `None`.
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out
     }
 
-    /// Inserts a text before the cursor, or replaces the selected text by it. Control characters
-    /// are left out, and also the end of the text if the line would become too long.
+    /// Inserts a text before the cursor. If the present text is selected, the inserted text
+    /// replaces it. Control characters are left out, and also the end of the text if the line would
+    /// become too long.
     pub fn insert(&mut self, text: &str) {
         let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
         if self.selected && !inserted.is_empty() {
@@ -82,8 +84,8 @@ impl TextLine {
         };
     }
 
-    /// Moves the cursor or deletes text. If the text is selected, deleting removes all of it.
-    /// Afterwards nothing is selected.
+    /// Moves the cursor or deletes text. If the text is selected, a deletion removes all of it.
+    /// Afterwards the text is not selected.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
@@ -97,8 +99,9 @@ impl TextLine {
         self.left_out = None;
     }
 
-    /// Returns the text in at most this number of columns. If it is too long, its middle is left
-    /// out, because the exponent and the unit at its end are more important than the digits there.
+    /// Returns the text in at most this number of columns. If the text is too long, its middle is
+    /// left out, because the exponent and the unit at the end of a number are more important than
+    /// the digits in its middle.
     fn shortened(&self, columns: usize) -> String {
         let characters: Vec<char> = self.text().chars().collect();
         let kept = columns.saturating_sub(1);

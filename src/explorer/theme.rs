@@ -1,5 +1,5 @@
-//! The style of each meaning, such as loading. Characters show the same meanings, so that colours
-//! are not necessary.
+//! Colours and text styles for each kind of content, such as loading. Characters distinguish the
+//! same kinds, so that colours are not necessary.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -100,7 +100,8 @@ impl Theme {
             Selected, Surface, Text, Title,
         };
         match (self, meaning) {
-            // Only the contact is red. Marks and errors are bold instead.
+            // In every theme with colours, only the contact is red. Marks and errors have no colour
+            // and are bold instead.
             (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => {
                 Color::Reset
             }
@@ -137,7 +138,7 @@ impl Theme {
     }
 }
 
-/// Values of an option through which a key cycles.
+/// Option with several values. A key switches from each value to the next one.
 pub trait Cycle: ValueEnum + PartialEq + 'static {
     /// Returns the next value. The first value follows the last one.
     fn next(self) -> Self {

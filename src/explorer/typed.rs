@@ -1,4 +1,5 @@
-//! Values that the user is typing. A number without a unit gets the unit that its row shows.
+//! Values that the user is typing. A number without a unit gets the unit that the row of the
+//! parameter shows.
 
 use crate::explorer::app::App;
 use crate::explorer::curve_options::OPTIONS;
@@ -8,11 +9,11 @@ use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::fields::target_field;
 use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
 
-/// Force in N that determines the prefix of a typed force, if neither the loading nor the curve has
-/// a force.
+/// Force in N that determines the prefix of the unit of a typed force, if neither the loading nor
+/// the computed curve contains a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// Returns a value in the form that is shown to the user. A value that follows from other values
+/// Returns a value as the list of parameters shows it. A value that follows from other values
 /// begins with `=`.
 pub fn shown(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
@@ -23,14 +24,15 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
         .and_then(|written| written.parse::<f64>().ok());
     match written {
         Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
-        // Without roughness there is no κ. Before the scene is computed, κ is unknown.
+        // The governing parameters are known, so there is no κ because the profile has no
+        // roughness.
         None if app.governing().is_some() => "none".to_owned(),
         None => "= …".to_owned(),
     }
 }
 
-/// Returns the unit of a typed force. Its prefix suits the largest force of the loading or, if the
-/// loading has no force, the largest force of the computed curve.
+/// Returns the unit for a force that is typed without a unit. Its prefix suits the largest force of
+/// the loading or, if the loading has no force, the largest force of the computed curve.
 pub fn unit_of_force(app: &App) -> String {
     let of_loading = pressing_force(&app.edit.document.scene().loading);
     let of_curve = app
@@ -47,8 +49,8 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// Adds the unit of the row to a typed value that has no unit. In the row of a stage without a
-/// number, a typed number is a force.
+/// Adds the unit of the row to a typed value that has no unit. In the row of a loading stage
+/// without a number, a typed number becomes a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     if let Setting::CurveOption(index) = parameter.setting
         && let Some(measured) = &app.edit.measured
@@ -63,8 +65,8 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
 }
 
-/// Returns what a typed number without a unit means: `50 mJ/m²` for `50`. `None` if the text
-/// contains a unit, or if the quantity has no unit.
+/// Returns a typed number without a unit together with the unit that it gets: `50 mJ/m²` for `50`.
+/// `None` if the text contains a unit, or if the quantity has no unit.
 pub fn understood(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();
@@ -80,7 +82,7 @@ pub fn understood(app: &App) -> Option<String> {
     Some(quantity.in_words)
 }
 
-/// A typed quantity, as the explorer understands it.
+/// A typed quantity, as the explorer has understood it.
 struct Quantity {
     unit: &'static str,
     in_words: String,

@@ -1,5 +1,5 @@
-//! Effect of each action on the state. This file does not use the terminal, files or the solver.
-//! Work outside of the state is returned as tasks.
+//! Effect of each action on the state of the explorer. This file does not use the terminal, files
+//! or the solver. Work that needs them is returned as tasks.
 
 use super::action::Action;
 use super::action::Task;
@@ -14,8 +14,8 @@ use super::snapshot::Reply;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::sync::Arc;
 
-/// Applies an action and returns the tasks that follow from it. If the screen now shows another
-/// state, this includes a request to the solver.
+/// Applies an action and returns the tasks that follow from it. If the screen now waits for another
+/// state of the contact, a request to the solver is one of these tasks.
 pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
     if app.asked.is_some_and(|asked| asked != awaited(app)) {
@@ -49,15 +49,15 @@ fn apply(app: &mut App, action: Action) {
         Action::CurveRead(wanted, read) => measured::show_read(app, &wanted, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
-    // The list of parameters has changed during a search, so the search is repeated in the new
-    // list.
+    // The list of parameters has changed while the user searches in it. Therefore the search is
+    // repeated in the new list.
     let has_other_rows = app.edit.parameters.len() != rows;
     if has_other_rows && let Some(prompt) = &mut app.prompt {
         prompt.search(&app.edit.parameters);
     }
 }
 
-/// Runs the command that belongs to a key. If there is none, types the character of the key.
+/// Runs the command for a key. If there is no such command, types the character of the key.
 fn pressed(app: &mut App, key: &KeyEvent) {
     if let Some(command) = app.config.bindings.command(key, app.keys()) {
         return run(app, command);
@@ -84,7 +84,7 @@ fn run(app: &mut App, command: KeyCommand) {
     }
 }
 
-/// Stores a reply of the solver. It is ignored if the scene has changed since the request.
+/// Stores a reply of the solver. The reply is ignored if the scene has changed since the request.
 fn replied(app: &mut App, reply: Reply) {
     if reply.generation() != app.edit.generation {
         return;
@@ -108,15 +108,15 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// Returns the request for the state that the screen waits for. Waiting manual moves become part of
-/// the request.
+/// Returns the request for the state for which the screen waits. The manual moves that wait for the
+/// solver become part of the request.
 pub fn request(app: &mut App) -> Request {
     let moves = match &mut app.manual {
         Some(manual) => std::mem::take(&mut manual.moves),
         None => Vec::new(),
     };
-    // The moves in this request no longer count as waiting. A further move before the answer
-    // therefore leads to another request.
+    // `moves` are part of this request, so they no longer wait. If the user adds another move
+    // before the answer, the awaited state differs again, and another request follows.
     app.asked = Some(awaited(app));
     Request {
         generation: app.edit.generation,
@@ -126,8 +126,8 @@ pub fn request(app: &mut App) -> Request {
     }
 }
 
-/// Returns the state that the screen waits for: the generation of the scene, the requested
-/// snapshot, and the number of waiting manual moves.
+/// Returns the state for which the screen waits: the generation of the scene, the requested
+/// snapshot, and the number of manual moves that wait for the solver.
 fn awaited(app: &App) -> Awaited {
     let moves = app.manual.as_ref().map_or(0, |manual| manual.moves.len());
     (app.edit.generation, snapshot_request(app), moves)

@@ -23,10 +23,10 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
 
-/// Writes a regular file; the path is relative to `folder`. Pipes are refused, because writing
-/// could wait for ever. A scene file without an extension gets the extension `.ron`, unless the
-/// path already leads to something other than a file. Returns the file with its final name, and the
-/// result.
+/// Writes a regular file; its path is relative to `folder`. Pipes are refused, because writing
+/// could wait for ever. A scene file without an extension gets the extension `.ron`, unless its
+/// path leads to something other than a file, such as a folder. Returns the file with its final
+/// name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let is_scene = file.content == Content::Scene;
     if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
@@ -39,8 +39,8 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     Action::Written(file, result)
 }
 
-/// Returns true if the path leads to a file, or if nothing exists there and it does not end like
-/// the path of a folder.
+/// Returns true if the path leads to a file, or if nothing exists at the path and the path does not
+/// end like the path of a folder.
 fn can_be_file(path: &Path) -> bool {
     let ends_as_folder = path.to_string_lossy().ends_with(is_separator);
     path.is_file() || !path.exists() && !ends_as_folder
@@ -48,7 +48,7 @@ fn can_be_file(path: &Path) -> bool {
 
 fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteError> {
     let path = folder.join(&file.path);
-    // When the first scene is saved in the folder of the user's own scenes, this folder is created.
+    // This folder is created when the user first saves a scene of their own.
     if let Some(own) = own_folder()
         && path.parent() == Some(&own)
     {
@@ -98,8 +98,9 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
     asperity_report::write(out, &*report, format, &provenance)
 }
 
-/// Returns the selected pane as a report. For a picture, the report is the figure of the pane.
-/// Otherwise it is the result of the pane or, if there is none, the curves of the figure.
+/// Returns the content of the selected pane as a report. For a picture, the report is the figure of
+/// the pane. For data, it is the result of the pane or, if the pane has no result, the curves of
+/// its figure.
 fn exported(app: &App, format: Format) -> Exported<'_> {
     if !format.is_picture() {
         let result = (panes::row(app.view.pane).report)(app);
@@ -115,7 +116,8 @@ fn exported(app: &App, format: Format) -> Exported<'_> {
     Some((OPEN_COMMAND.into(), Box::new(drawn)))
 }
 
-/// Table of a pane together with its scene. It is the JSON of a result that has no other JSON.
+/// Table of a pane together with its scene. It is written as JSON if the result of the pane has no
+/// JSON of its own.
 struct SceneTable<'a> {
     scene: &'a Scene,
     table: &'a dyn Report,
@@ -137,8 +139,7 @@ struct SceneRows<'a> {
     rows: Table<'a>,
 }
 
-/// Returns the selected pane as a figure. If the list of parameters is selected, it is the force
-/// curve.
+/// Returns the figure of the selected pane. For the list of parameters, returns the force curve.
 fn figure(app: &App) -> Option<Figure> {
     let pane = if app.view.pane == Pane::Parameters {
         Pane::Force

@@ -6,8 +6,8 @@ use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
 use std::ops::Range;
 
-/// Range in which the largest number of a linear axis must lie, so that the numbers at the ticks
-/// have few digits.
+/// If the largest number on a linear axis lies in this range, the ticks show plain numbers.
+/// Otherwise the numbers would have many digits, so that a power of ten is added to the unit.
 const SHORT: Range<f64> = 1e-3..1e6;
 
 /// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers
@@ -70,7 +70,7 @@ impl ChartAxis {
         let highest = self.scale.number(self.span.high).abs();
         let largest = lowest.max(highest);
         if self.scale == AxisScale::Logarithmic {
-            // A smaller prefix may allow plain numbers instead of powers of ten.
+            // With a smaller prefix, the ticks may have plain numbers instead of powers of ten.
             for thousands in 0..6 {
                 let (divisor, unit) = prefixed(&self.unit, largest / 1000_f64.powi(thousands));
                 if are_plain(self.span, divisor) {
@@ -89,8 +89,8 @@ impl ChartAxis {
         (10_f64.powi(power), unit.trim_end().to_owned())
     }
 
-    /// Returns the axis for numbers that are divided by `unit`. `symbol` is the symbol of this
-    /// unit.
+    /// Returns the axis for numbers that are divided by the quantity `unit`, such as F_a,max.
+    /// `symbol` is the symbol of this quantity.
     pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
         let divided = |coordinate: f64| self.scale.coordinate(self.scale.number(coordinate) / unit);
         ChartAxis {
@@ -167,8 +167,8 @@ impl ChartAxis {
             });
             return named.collect();
         }
-        // A single number does not show the scale, so up to two more ticks are tried until two
-        // ticks have a number.
+        // A single number does not show the scale. Therefore up to two more ticks are requested,
+        // until at least two ticks have a number.
         for count in most..=most + 2 {
             let ticks = self.ticks_with_numbers(count);
             let labelled = ticks.iter().filter(|tick| tick.label.is_some());
@@ -186,8 +186,8 @@ impl ChartAxis {
     }
 }
 
-/// Position in a chart: the horizontal and the vertical position, each from 0 (left or lower end of
-/// the axis) to 1 (right or upper end).
+/// Position in a chart, horizontal and vertical. Each is a share of the axis, from 0 at the left or
+/// lower end to 1 at the right or upper end.
 pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
@@ -197,8 +197,9 @@ pub(super) struct Axes<'a> {
 }
 
 impl Axes<'_> {
-    /// Returns the position of a point in the chart. A point outside the chart gets the nearest
-    /// position on the border. `None` if x or y has no coordinate, such as 0 on a logarithmic axis.
+    /// Returns the position of a point (x, y) in the chart. A point outside the chart gets the
+    /// nearest position on the border. `None` if x or y has no coordinate, as 0 has none on a
+    /// logarithmic axis.
     pub(super) fn place(self, point: (f64, f64)) -> Option<Share> {
         let (_, y) = point;
         if !self.y.share(y).is_finite() {
@@ -207,8 +208,9 @@ impl Axes<'_> {
         self.place_at_end(point)
     }
 
-    /// Returns the position of a point in the chart. A y without a coordinate, such as 0 on a
-    /// logarithmic axis, gets the end of the vertical axis. `None` if x has no coordinate.
+    /// Returns the position of a point (x, y) in the chart. If y has no coordinate, as 0 has none
+    /// on a logarithmic axis, the position is at the end of the vertical axis. `None` if x has no
+    /// coordinate.
     pub(super) fn place_at_end(self, point: (f64, f64)) -> Option<Share> {
         let (x, y) = point;
         let across = self.x.share(x);
@@ -220,8 +222,8 @@ impl Axes<'_> {
         Some((across.clamp(0.0, 1.0), up))
     }
 
-    /// Returns the positions of points as runs. A run is a list of successive points. A point
-    /// without a position, such as 0 on a logarithmic axis, ends a run.
+    /// Returns the positions of points, divided into runs of successive points. A point without a
+    /// position, such as 0 on a logarithmic axis, ends a run.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
         let mut runs = Vec::new();
         let mut run = Vec::new();
@@ -239,8 +241,8 @@ impl Axes<'_> {
     }
 
     /// Returns the positions along a line that passes through the lowest and the highest point of
-    /// each column. In each column the line begins with the point that is nearer to the end of the
-    /// previous column. A column outside the chart begins a new run.
+    /// each column. In each column, the line first goes to the point that is nearer to its end in
+    /// the previous column. A column outside the chart begins a new run of positions.
     pub(super) fn envelope(self, x: (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
         let (from, to) = x;
         let mut points = Vec::with_capacity(2 * columns.len());

@@ -96,7 +96,7 @@ impl Figure {
     }
 
     /// Returns the figure with only the charts that have these letters, in the order of `letters`.
-    /// For example, `ac` keeps the first and the third chart.
+    /// For example, `ac` selects the first and the third chart.
     ///
     /// # Errors
     /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists
@@ -131,7 +131,7 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend of all charts. Layers of the same name share an entry.
+    /// Returns the entries of the legend of all charts. Layers with the same name share an entry.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -169,9 +169,10 @@ impl Chart {
         self
     }
 
-    /// Divides the numbers on one or both axes, and the data of the layers, by a unit. For example,
-    /// this shows F/F_a,max instead of F. Each unit has a value and a symbol; `None` leaves the
-    /// axis as it is. The values of heat maps are not changed.
+    /// Divides the numbers on one or both axes, and the data of the layers, by a quantity. For
+    /// example, the chart then shows F/F_a,max instead of F. Each argument has the value and the
+    /// symbol of the quantity; `None` leaves the axis as it is. The values of heat maps are not
+    /// changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         let mut x_unit = 1.0;
         if let Some((unit, symbol)) = x {
@@ -207,10 +208,10 @@ impl Chart {
     }
 }
 
-/// Set of data in a chart, such as a curve, with its name in the legend.
+/// Set of data in a chart, such as a curve. Its name is shown in the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name in the legend. A layer with an empty name has no entry.
+    /// Name that the legend shows. A layer with an empty name is not in the legend.
     pub name: Label,
     /// Meaning of the data, such as a loading, which determines their colour.
     pub ink: Ink,
@@ -237,8 +238,8 @@ impl Shape {
         }
     }
 
-    /// Returns the points (x, y) of a curve. For a [`Shape::Envelope`], it returns the lowest and
-    /// the highest point of each column. For other shapes it returns an empty list.
+    /// Returns the points (x, y) of a curve. For a [`Shape::Envelope`], returns the lowest and the
+    /// highest point of each column. For any other shape, returns an empty list.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -482,7 +483,7 @@ impl HeatMap {
     }
 }
 
-/// Entry of a legend: a name, and a sample of each line, area or marker of this name.
+/// Entry of a legend: a name, preceded by the lines, areas or markers of the layers with this name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
@@ -490,7 +491,7 @@ pub struct Entry {
     pub samples: Vec<(Ink, Sample)>,
 }
 
-/// Picture that a legend shows before a name.
+/// Small picture in a legend that shows how a layer is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// Line, marker, or a line with a marker on it.
@@ -508,8 +509,8 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Returns the legend entries for the layers of these charts. Layers of the same name share an
-    /// entry.
+    /// Returns the legend entries for the layers of these charts. Layers with the same name share
+    /// an entry.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries = Vec::new();
         for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
@@ -526,7 +527,7 @@ impl Entry {
             };
             add_entry(&mut entries, name, *ink, sample);
         }
-        // Entries with areas come last, because an area belongs to a line.
+        // Entries with areas come last, because an area usually accompanies a line.
         entries.sort_by_key(|entry| {
             entry
                 .samples
@@ -552,8 +553,8 @@ fn add_entries_of_map(entries: &mut Vec<Entry>, map: &HeatMap) {
     }
 }
 
-/// Adds a sample to the entry of this name, or makes a new entry. If the name is empty, nothing is
-/// added.
+/// Adds a sample (small picture of a layer) to the legend entry with this name, or adds a new
+/// entry. Does nothing if the name is empty.
 fn add_entry(entries: &mut Vec<Entry>, name: &Label, ink: Ink, sample: Sample) {
     if name.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! Colours of figures and screenshots.
+//! Colours of figures and of screens that are saved as pictures.
 
 /// Colour as red, green and blue, each from 0 to 255.
 pub type Rgb = [u8; 3];
@@ -28,8 +28,8 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Light colours on a dark background. People with red-green colour blindness can distinguish
-    /// them.
+    /// Light colours on a dark background, which people with red-green colour blindness can
+    /// distinguish.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -39,8 +39,8 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on a white background. People with red-green colour blindness can distinguish
-    /// them.
+    /// Dark colours on a white background, which people with red-green colour blindness can
+    /// distinguish.
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -52,7 +52,7 @@ impl Palette {
 }
 
 /// Meaning of a line, an area or a text in a chart. For example, `Loading` marks the curve of a
-/// loading. The output format determines the colour of each ink.
+/// loading. The colour of an ink depends on the output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -71,10 +71,11 @@ pub enum Ink {
     Unloading,
     /// Force curve along which the user moves the body by hand, in the explorer.
     Manual,
-    /// Earlier curve that stays visible in the background for comparison with the present curve.
+    /// Earlier curve that stays in the background, so that it can be compared with the present
+    /// curve.
     Kept,
-    /// One of several curves that are kept for comparison. The value is the index of this curve,
-    /// from 0.
+    /// One of several curves that the user keeps for comparison. The value is the index of this
+    /// curve, from 0.
     Compared(usize),
     /// State of the contact that the user selected with the cursor.
     Cursor,
@@ -98,7 +99,7 @@ impl Ink {
             Ink::Manual => ansi[6],
             Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
             // Blue, red, black, green, magenta. Neighbouring colours differ in lightness, so that
-            // they also differ in grey.
+            // they can be distinguished in a print without colours.
             Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
         }
     }
@@ -120,8 +121,8 @@ const VIRIDIS: [Rgb; 9] = rgb([
     0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725,
 ]);
 
-/// The scale RdBu of ColorBrewer in reverse order (Brewer and Harrower, 2003). People with
-/// red-green colour blindness can read it.
+/// Nine colours of the scale RdBu of ColorBrewer (Brewer and Harrower, 2003), in reverse order.
+/// People with red-green colour blindness can read this scale.
 const BLUE_TO_RED: [Rgb; 9] = rgb([
     0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
 ]);
@@ -130,8 +131,8 @@ impl Shades {
     /// Number of bands into which an SVG figure divides the colour scale. Each band has one colour.
     pub const BANDS: usize = 64;
 
-    /// Returns the colour of a band. The bands are the [`Self::BANDS`] parts of the colour scale,
-    /// with indices from 0 at the lowest values.
+    /// Returns the colour of a band. The colour scale is divided into [`Self::BANDS`] bands, and
+    /// band 0 has the lowest values.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }

@@ -3,12 +3,12 @@
 /// Point in coordinates of the grid.
 type Point = (f64, f64);
 
-/// Corner of a square of the grid.
+/// Corner of a grid square.
 #[derive(Clone, Copy)]
 struct Corner {
     x: f64,
     y: f64,
-    /// Value of the field minus the value along the line.
+    /// Value of the field minus the value that it has along the line.
     excess: f64,
 }
 
@@ -39,8 +39,8 @@ pub(super) fn contour(
                     excess: value? - level,
                 })
             };
-            // The corners follow each other around the square, so that successive corners share an
-            // edge.
+            // The corners are ordered around the square, so that two successive corners are the
+            // ends of an edge.
             let corners = [
                 corner(column - 1, row - 1),
                 corner(column, row - 1),
@@ -66,8 +66,8 @@ fn add_pieces(pieces: &mut Vec<[Point; 2]>, square: [Corner; 4]) {
         [from, to] => pieces.push([from, to]),
         [south, east, north, west] => {
             let sum = square.iter().map(|corner| corner.excess).sum::<f64>();
-            // The line cuts off the two corners that do not lie on the same side of the level as
-            // the mean.
+            // The line crosses all four edges. The two corners on the same side of the level as the
+            // mean of the corners are connected, and the line cuts off the other two corners.
             if (sum < 0.0) == a.is_low() {
                 pieces.extend([[south, east], [north, west]]);
             } else {
@@ -118,7 +118,7 @@ mod tests {
         for (x, y) in pieces.concat() {
             assert!((x + y - 2.5).abs() < 1e-12, "{x} {y}");
         }
-        // The line runs from border to border.
+        // The line runs from one border of the grid to another.
         let mut ends = loose(&pieces);
         ends.sort_by(|one, other| one.0.total_cmp(&other.0));
         assert_eq!(ends, [(0.0, 2.5), (2.5, 0.0)]);
@@ -139,8 +139,8 @@ mod tests {
                 .iter()
                 .all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15)
         );
-        // The missing point is a corner of squares that the line crosses, so the line is open
-        // there.
+        // The line crosses squares that have the missing point as a corner, so that the line is
+        // open there.
         hill[4 * 9 + 6] = None;
         assert_eq!(loose(&contour(&places, &places, &hill, 2.0)).len(), 2);
     }
@@ -152,8 +152,8 @@ mod tests {
             let lines = contour(&[0.0, 1.0], &[0.0, 1.0], &saddle(other), 0.0);
             assert_eq!(lines.len(), 2);
             let line = lines.iter().find(|line| line.contains(&expected)).unwrap();
-            // If the middle is high, the high corners are connected, and each line cuts off a low
-            // corner.
+            // If the middle of the square is high, the two high corners are connected. The pieces
+            // of the line then cut off the low corners.
             let cuts_low = line.iter().any(|point| point.0 == 1.0);
             assert_eq!(cuts_low, other > 1.0, "{lines:?}");
         }

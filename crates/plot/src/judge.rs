@@ -1,11 +1,11 @@
-//! Checks of drawn pictures in tests: lists of their elements, and properties that every figure
-//! must have.
+//! Checks of drawn pictures for tests: functions that list the elements of a picture, and checks of
+//! properties that every figure must have.
 
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns the tags of an SVG document and all its text. Each tag is a text with the name and the
-/// attributes of the element. Panics if the document is not well-formed.
+/// Returns the tags of an SVG document, each as a text with the name and the attributes of the
+/// element, and the text of the document. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let mut elements = Vec::new();
@@ -22,8 +22,8 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
     (elements, text)
 }
 
-/// Returns the elements of an SVG document that have this name, such as `rect`. Each is a text with
-/// the name and the attributes of the element.
+/// Returns the elements of an SVG document that have the name `tag`, such as `rect`. Each element
+/// is a text with its name and its attributes.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
     let (mut elements, _) = parsed(svg);
     elements.retain(|element| element.split(' ').next() == Some(tag));
@@ -64,7 +64,7 @@ fn plain_words(elements: &str) -> String {
         .replace("&amp;", "&")
 }
 
-/// Approximate extent of a text, in px from the upper left corner of the picture.
+/// Approximate rectangle around a text, in px from the upper left corner of the picture.
 #[derive(Debug, PartialEq)]
 struct TextBox {
     left: f64,

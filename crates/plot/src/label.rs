@@ -16,7 +16,7 @@ pub(crate) enum Face {
     Exponent,
 }
 
-/// Blank at which no line is broken. It is drawn as an ordinary blank.
+/// Blank at which a line must not be broken. It is drawn as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
 /// Text in a figure, which can contain italic symbols, indices and exponents. `to_string` returns
@@ -156,8 +156,8 @@ impl Label {
     }
 }
 
-/// Letters of a line while a label is divided into lines, and their total width divided by the font
-/// size.
+/// Letters of one line, while a label is divided into lines. `width` is the total width of the
+/// letters, divided by the font size.
 #[derive(Default)]
 struct Line {
     letters: Vec<(Face, char)>,
@@ -255,8 +255,8 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Chooses the SI prefix with which numbers up to `largest` have few digits. Returns the divisor of
-/// the numbers, and the unit with the prefix. For example, 0.02 N gives 1e-3 and `mN`.
+/// Chooses the SI prefix with which numbers up to `largest` have few digits. Returns the number by
+/// which they are divided, and the unit with the prefix. For example, 0.02 N gives 1e-3 and `mN`.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -266,14 +266,14 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if !has_prefixes || !is_positive {
         return (1.0, unit.into());
     }
-    // The small factor lets 999.9999999 nm count as 1 µm.
+    // Due to the small factor, 999.9999999 nm gives the prefix of 1 µm.
     let power = (largest * (1.0 + 1e-9)).log10().floor() as i32;
     let power = (3 * power.div_euclid(3)).clamp(LEAST_POWER, LARGEST_POWER);
     let prefix = si_prefix(power).unwrap_or_default();
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// Writes a number with as many decimals as a multiple of `step` needs.
+/// Writes a number with the decimals that are needed to write multiples of `step`.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
@@ -296,8 +296,8 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     statement(name, symbol, &text)
 }
 
-/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or `Hurst
-/// exponent 0.3` if `symbol` is empty.
+/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or
+/// `Hurst exponent 0.3` if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     if symbol.is_empty() {

@@ -1,6 +1,6 @@
-//! SVG documents as a PDF file of one page with the size of the document. The outlines are the same
-//! as in [`super::png::tree`]. Text remains text in embedded fonts, so that viewers can search it
-//! and editors can change it.
+//! Converts SVG documents to PDF files of one page, which is as large as the document. The outlines
+//! are the same as in [`super::png::tree`]. Text remains text in embedded fonts, so that viewers
+//! can search it and editors can change it.
 
 use super::chart::Figure;
 use super::pdf_font::PdfFont;
@@ -20,13 +20,13 @@ use std::collections::BTreeSet;
 use std::io;
 use std::io::Write;
 
-/// Number of points (1/72 inch) of a page for each px (1/96 inch) of an SVG document.
+/// Number of points (1/72 inch) of the page for each px (1/96 inch) of the SVG document.
 const POINTS: f32 = 0.75;
 /// Width in px by which adjacent cells overlap. Without this overlap, viewers show a thin line of
 /// paper between the cells.
 const OVERLAP: f32 = 0.2;
-/// Largest distance of a glyph from a line of text at which the glyph still belongs to the line,
-/// divided by the font size.
+/// If the distance of a glyph from a line of text is at most this number times the font size, the
+/// glyph belongs to the line.
 const SAME: f32 = 1e-3;
 
 impl Figure {
@@ -90,8 +90,8 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// Drawing operators of a page, with the opacities (in per cent) and the fonts that these operators
-/// name.
+/// Drawing operators of a page, with the opacities (in per cent) and the fonts that occur in the
+/// operators.
 struct Page<'a> {
     content: Content,
     opacities: BTreeSet<u8>,
@@ -99,7 +99,7 @@ struct Page<'a> {
     fonts: Vec<PdfFont>,
 }
 
-/// Beginning of a run. A run is a sequence of glyphs on one base line, with one font and one font
+/// Beginning of a run. A run is a sequence of glyphs on one base line, in one font and one font
 /// size.
 #[derive(Clone, Copy)]
 struct RunStart {
@@ -109,8 +109,8 @@ struct RunStart {
 
 impl RunStart {
     /// Returns the distance of a glyph from the beginning of the run along the base line, divided
-    /// by the font size. `matrix` places the glyph on the page. `None` if the glyph is not on this
-    /// line, or has another size or direction.
+    /// by the font size. `matrix` places the glyph on the page. Returns `None` if the glyph is not
+    /// on the base line of the run, or differs from the run in size or direction.
     fn distance_to(self, matrix: Transform) -> Option<f32> {
         let begin = self.matrix;
         let dx = (matrix.tx - begin.tx) / self.size;
@@ -150,7 +150,7 @@ impl Page<'_> {
         }
     }
 
-    /// Shows the glyphs of a text as runs.
+    /// Writes the glyphs of a text into the page, divided into runs.
     fn letters(&mut self, span: &Span, to_page: Transform) {
         let mut rest = span.positioned_glyphs.as_slice();
         while let Some(first) = rest.first() {
@@ -180,7 +180,8 @@ impl Page<'_> {
             let mut items = shown.items();
             let mut reached = 0.0;
             for (glyph, distance) in run.iter().zip(distances) {
-                // PDF moves a glyph to the left by this number of thousandths of the font size.
+                // The operator of PDF moves the next glyph to the left by this number, which is in
+                // thousandths of the font size.
                 let adjusted = 1000.0 * (reached - distance);
                 if adjusted.abs() > 0.5 {
                     items.adjust(adjusted);
@@ -251,7 +252,7 @@ impl Page<'_> {
                 PathSegment::MoveTo(to) => self.content.move_to(to.x, to.y),
                 PathSegment::LineTo(to) => self.content.line_to(to.x, to.y),
                 PathSegment::QuadTo(by, to) => {
-                    // PDF has no quadratic curves, so this is the cubic curve of the same shape.
+                    // PDF has no quadratic curves. This cubic curve has the same shape.
                     let near =
                         |end: Point| (end.x + (by.x - end.x) / 1.5, end.y + (by.y - end.y) / 1.5);
                     let (x1, y1) = near(last);
@@ -275,7 +276,7 @@ impl Page<'_> {
     }
 }
 
-/// Returns the matrix that places the em square of a glyph on the page.
+/// Returns the matrix that places a glyph on the page. Its argument is a glyph of font size 1.
 fn glyph_matrix(glyph: &PositionedGlyph, to_page: Transform, em: f32) -> Transform {
     to_page
         .pre_concat(glyph.outline_transform())
@@ -321,7 +322,7 @@ mod tests {
             .unwrap()
     }
 
-    /// Returns the drawing operators in a PDF file, which are its first stream.
+    /// Returns the drawing operators of a PDF file. They are in the first stream of the file.
     fn inflated(file: &[u8]) -> String {
         let (from, to) = (find(file, b"\nstream\n") + 8, find(file, b"\nendstream"));
         let mut content = String::new();
@@ -367,8 +368,8 @@ mod tests {
         );
     }
 
-    /// Returns the text of a PDF file, with one line for each run. The letters come from the table
-    /// of glyphs in the file.
+    /// Returns the text of a PDF file, with one line for each run. The table of glyphs in the file
+    /// gives the letters of each glyph.
     fn read(file: &[u8]) -> String {
         let text = String::from_utf8_lossy(file);
         let number = |hex: &str| u32::from_str_radix(hex, 16).unwrap();
@@ -445,8 +446,8 @@ mod tests {
         let file = pdf(&tree(&document(&elements)).unwrap(), "").unwrap();
         assert_eq!(read(&file), "κ = √µN\nforce \nF\n (µN)");
         let content = inflated(&file);
-        // Letters are not drawn as outlines, and a label that is written upwards is turned by 90
-        // degrees.
+        // The page contains no curves, so letters are not drawn as outlines. The label that is
+        // written upwards is turned by 90 degrees.
         assert!(
             !content.contains(" c\n") && content.contains(" -15.118111 -15.118111 "),
             "{content}"

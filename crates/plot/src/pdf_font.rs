@@ -12,17 +12,16 @@ use std::io;
 use std::io::Write;
 use ttf_parser::{Face, GlyphId};
 
-/// Number of PDF objects that describe a font.
+/// Number of PDF objects that describe one font.
 const OBJECTS: i32 = 5;
-/// Character collection Identity: the glyph numbers in the PDF file are the glyph numbers of the
-/// font.
+/// With the character collection Identity, the glyph numbers in the PDF file are those of the font.
 const IDENTITY: SystemInfo<'_> = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
-/// Width of vertical stems, in thousandths of the font size. A viewer uses it to choose a
-/// substitute for the font.
+/// Width of vertical stems of letters, in thousandths of the font size. If a viewer has to replace
+/// the font, it uses this width to choose another font.
 const STEM: f32 = 80.0;
 
 pub(super) struct PdfFont {
@@ -42,7 +41,7 @@ struct ShownGlyph {
 }
 
 impl PdfFont {
-    /// Reads a font from the fonts of a document; `None` if the font cannot be read.
+    /// Reads the font `id` from `fonts`; `None` if the font cannot be read.
     pub(super) fn new(fonts: &Database, id: ID) -> Option<PdfFont> {
         let face = fonts.face(id)?;
         let name = face.post_script_name.clone();
@@ -67,13 +66,13 @@ impl PdfFont {
         self.units_per_em
     }
 
-    /// Returns the name of the font with this index on its page.
+    /// Returns the name that the page uses for the font with this index.
     pub(super) fn name(&self, index: usize) -> String {
         format!("f{index}")
     }
 
-    /// Returns the first of the object numbers of the font with this index. `first` is the first
-    /// object number of all fonts.
+    /// Returns the first object number of the font with this index. `first` is the smallest object
+    /// number of all fonts.
     pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
         Ref::new(first + OBJECTS * index as i32)
     }
@@ -103,7 +102,7 @@ impl PdfFont {
         1000.0 * f32::from(advance.unwrap_or(0)) / self.units_per_em
     }
 
-    /// Writes the PDF objects of the font. `first` is the first object number of all fonts, and
+    /// Writes the PDF objects of the font. `first` is the smallest object number of all fonts, and
     /// `index` the index of this font on the page.
     pub(super) fn write(&self, pdf: &mut Pdf, first: i32, index: usize) -> io::Result<()> {
         let reference = self.reference(first, index);

@@ -1,4 +1,4 @@
-//! SVG documents as PNG files, drawn with embedded fonts. Equal documents give equal pixels on
+//! Converts SVG documents to PNG files, with embedded fonts. Equal documents give equal pixels on
 //! every computer.
 
 use super::chart::Figure;
@@ -9,13 +9,13 @@ use resvg::usvg::{Options, Tree};
 use std::io;
 use std::sync::Arc;
 
-/// Upright and oblique font. Both have the same Latin, Greek, Cyrillic and mathematical characters;
-/// see LICENSE in the same folder.
+/// The upright and the oblique font. Both contain the same Latin, Greek, Cyrillic and mathematical
+/// characters. LICENSE in the folder `font` states their licence.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("font/sans.ttf"),
     include_bytes!("font/sans-oblique.ttf"),
 ];
-/// Number of pixels for each px (1/96 inch) of a document.
+/// Number of pixels for each px (1/96 inch) of a document, if the figure has no given width.
 const SCALE: f32 = 2.0;
 /// Number of pixels for each px (1/96 inch) of a figure with a given width, which gives 600 pixels
 /// per inch.
@@ -64,7 +64,8 @@ fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let Some(mut pixmap) = Pixmap::new(width as u32, height as u32) else {
         return Err(too_many_pixels(width, height));
     };
-    // The white background also fills the last pixels where the document covers them only in part.
+    // The document may cover the last pixels only in part, so that the white background shows
+    // there.
     pixmap.fill(Color::WHITE);
     resvg::render(
         &tree,

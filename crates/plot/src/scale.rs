@@ -10,7 +10,7 @@ pub struct Span {
     pub high: f64,
 }
 
-/// Width of a range, divided by its largest coordinate, below which the range counts as a single
+/// A range counts as a single coordinate if its width is below this number times its largest
 /// coordinate.
 const NO_SPREAD: f64 = 1e-9;
 

@@ -5,8 +5,8 @@ use super::scale::Span;
 use asperity_data::AxisScale;
 use std::ops::RangeInclusive;
 
-/// Range of coordinates in which a logarithmic axis shows plain numbers instead of powers of ten.
-/// It corresponds to numbers from about 0.0003 to 30 000.
+/// If the coordinates of a logarithmic axis lie in this range, the axis shows plain numbers instead
+/// of powers of ten. The numbers are then between about 0.0003 and 30 000.
 const PLAIN: RangeInclusive<f64> = -3.5..=4.5;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -17,9 +17,9 @@ pub struct Tick {
     pub label: Option<Label>,
 }
 
-/// Returns the ticks in a range of coordinates. About `most` ticks have a label. The numbers of the
-/// labels are divided by `divisor`, the factor of the prefix of the unit. On a linear axis, the
-/// distance between ticks is at least `least`.
+/// Returns the ticks in a range of coordinates. About `most` of them have a label. The numbers in
+/// the labels are divided by `divisor`, which belongs to the prefix of the unit. On a linear axis,
+/// the distance between ticks is at least `least`.
 pub(super) fn ticks(
     scale: AxisScale,
     span: Span,
@@ -57,8 +57,8 @@ pub(super) fn are_plain(span: Span, divisor: f64) -> bool {
     span.low - shift >= *PLAIN.start() && span.high - shift <= *PLAIN.end()
 }
 
-/// Distance between labelled ticks, and the number of parts into which minor ticks divide this
-/// distance.
+/// Distance between two ticks with labels, and number of parts into which the minor ticks between
+/// them divide this distance.
 #[derive(Clone, Copy)]
 struct Step {
     width: f64,
@@ -141,8 +141,8 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             });
         }
     }
-    // If the range is narrow, it may contain fewer than two of these numbers. Then it gets the
-    // numbers of a linear axis.
+    // A narrow range may contain fewer than two of these labelled numbers. In this case, the ticks
+    // are at the numbers that a linear axis would show.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
         let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most, 0.0);
         return numbers
@@ -156,7 +156,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
     ticks
 }
 
-/// Returns the label of the number `digit` (1 to 9) times ten to the power `decade`.
+/// Returns the label of the number `digit` · 10^`decade`, where `digit` is from 1 to 9.
 fn logarithmic_label(digit: i32, decade: i32, is_plain: bool) -> Label {
     if is_plain {
         let power = 10_f64.powi(decade);

@@ -31,8 +31,8 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload
-    /// falls below a stated share of F_a,max.
+    /// Returns an object for each boundary. The boundary is the κ or e_el/γ at which the adhesion
+    /// force without a preload falls below a stated share of F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let boundaries: Vec<Value> = self
             .found
@@ -72,7 +72,7 @@ impl Report for Boundaries {
     }
 }
 
-/// Returns the row of a boundary in the table of the text.
+/// Returns the row for a boundary in the table of the text report.
 fn row(boundary: &AdhesionBoundary) -> Vec<String> {
     let Crossing {
         value,
@@ -96,7 +96,7 @@ fn row(boundary: &AdhesionBoundary) -> Vec<String> {
     row
 }
 
-/// Returns the JSON object of a boundary. The symbols of the axes are names of entries.
+/// Returns the JSON object of a boundary. Its keys for the axes are the symbols of these axes.
 fn boundary_object(boundaries: &Boundaries, boundary: &AdhesionBoundary) -> Value {
     let mut object = Map::new();
     for (axis, value) in boundaries.others.iter().zip(&boundary.others) {
@@ -122,8 +122,8 @@ fn boundary_object(boundaries: &Boundaries, boundary: &AdhesionBoundary) -> Valu
     Value::Object(object)
 }
 
-/// Returns the end of the studied range beyond which the boundary lies; `None` if the boundary does
-/// not lie on this side of the range.
+/// Returns the end of the studied range beyond which the boundary lies. `None` if the boundary does
+/// not lie on the side `side` of the range.
 fn beyond(boundary: &AdhesionBoundary, side: Ordering) -> Option<f64> {
     (boundary.crossing.side == side).then_some(boundary.crossing.value)
 }
@@ -133,7 +133,7 @@ mod tests {
     use super::*;
     use asperity_study::Quantity;
 
-    /// The names of both turning points fit into the columns of an array of NumPy.
+    /// The names of both turning points fit into the columns of a NumPy array.
     #[test]
     fn boundaries_of_both_protocols_can_be_an_array() {
         let boundary = |protocol| AdhesionBoundary {

@@ -7,8 +7,9 @@ use asperity_study::checks::{Case, Verdict};
 use serde::Serialize;
 
 impl Report for [Verdict] {
-    /// Returns a table with a row for each [`Check`](asperity_study::checks::Check). Then follow
-    /// what each [`Case`] shows and its evidence, and the reasons why checks failed.
+    /// Returns a table with a row for each [`Check`](asperity_study::checks::Check). Below the
+    /// table are the statement and the evidence of each [`Case`], and the reasons why checks have
+    /// failed.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         add_verdicts(&mut sheet, self);
@@ -72,7 +73,7 @@ fn add_claims(sheet: &mut Sheet, verdicts: &[Verdict]) {
     sheet.table(&rows);
 }
 
-/// Adds the reasons why checks failed. If all checks pass, nothing is added.
+/// Adds the reasons why checks have failed. Adds nothing if all checks pass.
 fn add_failures(sheet: &mut Sheet, verdicts: &[Verdict]) {
     let mut rows = Vec::new();
     for verdict in verdicts {
@@ -121,11 +122,12 @@ struct CheckJson<'a> {
     holds: &'static str,
     evidence: [String; 1],
     error_of: &'static str,
-    /// Error that was measured; `None` if it could not be measured or is not finite.
+    /// Error that the check has found; `None` if the check found no error or one that is not
+    /// finite.
     error: Option<f64>,
     bound: f64,
     passes: bool,
-    /// Reason why the error could not be measured.
+    /// Reason why the check could not determine the error; `None` if it could.
     fault: Option<&'a str>,
     seconds: f64,
 }

@@ -1,4 +1,4 @@
-//! Cost of accuracy as text, JSON, a table and a work–precision diagram.
+//! Report on the cost of accuracy as text, JSON, a table and a work–precision diagram.
 
 use crate::reference::model_sentence;
 use crate::report::{Json, Report};
@@ -11,7 +11,7 @@ use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, Row};
 use asperity_study::half_space::Reference;
 use serde::Serialize;
 
-/// Headings of the columns of errors, in the order of [`CostTable::QUANTITIES`].
+/// Headings of the columns with errors, in the order of [`CostTable::QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
 /// Report on the cost of accuracy of a scene: computing time and relative errors for many settings,
@@ -25,14 +25,15 @@ pub struct CostReport<'a> {
     answer: Vec<String>,
     #[serde(flatten)]
     table: &'a CostTable,
-    /// Comparison of the scene with three dimensions, from which the error of the model follows.
+    /// Comparison of the scene with an elastic half-space, which gives the error of the model.
     #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<&'a Reference>,
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured times and errors of a scene. If `reference`, the comparison
-    /// with three dimensions, is given, the report also has the error of the model.
+    /// Makes a report on the measured times and errors of a scene. `reference` is the comparison of
+    /// the scene with an elastic half-space; if it is given, the report also states the error of
+    /// the model.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -48,7 +49,7 @@ impl<'a> CostReport<'a> {
         }
     }
 
-    /// Adds tables of the relative errors, one for each kind of setting.
+    /// Adds tables of the relative errors, with one table for each kind of setting.
     fn add_errors(&self, sheet: &mut Sheet) {
         sheet.heading(
             "Relative errors, with the observed order of convergence since the row before",
@@ -90,8 +91,8 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their
-    /// computing times.
+    /// Returns text that states, for errors of 1 % and 0.1 %, the necessary number of springs and
+    /// the computing time.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         for sentence in &self.answer {
@@ -146,7 +147,8 @@ impl Report for CostReport<'_> {
     }
 }
 
-/// Returns text that states whether an error is resolved; empty for an unknown error.
+/// Returns `true` or `false` as text, depending on whether an error is resolved; empty for an
+/// unknown error.
 fn is_resolved(figure: Option<ErrorFigure>) -> &'static str {
     match figure {
         Some(figure) if figure.resolved => "true",
@@ -155,8 +157,8 @@ fn is_resolved(figure: Option<ErrorFigure>) -> &'static str {
     }
 }
 
-/// Returns the heading of the table of errors with one kind of setting. `springs` is the number of
-/// springs of the first row.
+/// Returns the heading of the table of errors for one kind of setting. `springs` is the number of
+/// springs in the first row.
 fn heading(knob: Knob, springs: u64) -> String {
     let name = knob.name();
     if knob != Knob::Step {
@@ -166,7 +168,7 @@ fn heading(knob: Knob, springs: u64) -> String {
     format!("With {name}, compared with the exact solver on the same {springs} springs, edges Grid")
 }
 
-/// Adds a table of the errors with one kind of setting.
+/// Adds a table of the errors for one kind of setting.
 fn add_rows(sheet: &mut Sheet, knob: Knob, rows: &[&Row]) {
     let setting = if knob == Knob::Step {
         "step"
@@ -182,8 +184,8 @@ fn add_rows(sheet: &mut Sheet, knob: Knob, rows: &[&Row]) {
     sheet.table(&table);
 }
 
-/// Returns sentences on the reference solution, to which the errors refer, and on the errors of
-/// this solution.
+/// Returns sentences on the reference solution, from which the errors are counted, and on the own
+/// errors of this solution.
 fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
     let springs = grouped(reference.springs);
@@ -196,7 +198,7 @@ fn counted_from(table: &CostTable) -> String {
     }
     let mut own_errors = Vec::new();
     for (error, name) in reference.errors.into_iter().zip(ERRORS) {
-        // If the adhesion force of the reference is known in closed form, it has no error.
+        // If the adhesion force of the reference is known in closed form, this force has no error.
         let is_exact = reference.closed_form && name == ERRORS[0];
         if let Some(error) = error
             && !is_exact
@@ -215,7 +217,7 @@ fn counted_from(table: &CostTable) -> String {
     )
 }
 
-/// Returns the row of a setting for the table of the text.
+/// Returns the row of a setting in the table of the text report.
 fn cells(row: &Row) -> [String; 6] {
     let setting = match row.knob {
         Knob::Step => format_quantity(row.setting, "m"),
@@ -229,7 +231,7 @@ fn cells(row: &Row) -> [String; 6] {
     [setting, time, force, curve, energy, contact]
 }
 
-/// Returns an error with its order of convergence; empty for an unknown error.
+/// Returns an error with its order of convergence as text; empty for an unknown error.
 fn error_cell(figure: Option<ErrorFigure>) -> String {
     let Some(figure) = figure else {
         return String::new();

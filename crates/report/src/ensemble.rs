@@ -1,4 +1,4 @@
-//! Results on random profiles: the main numbers of a scene as text and JSON, the caption of a
+//! Results on random profiles: the main results of a scene as text and JSON, the caption of a
 //! figure, and a table of the profiles.
 
 use crate::report::{Json, Report};
@@ -12,7 +12,7 @@ use asperity_study::{Ensemble, Quantity, RegimeCounts, Results, Statistics};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Names of the numbers of [`Ensemble::NUMBERS`] in the text.
+/// Names of the quantities [`Ensemble::NUMBERS`] in the text report.
 pub(crate) const NAMES: [&str; 5] = [
     "adhesion force F_a",
     "share F_a/F_a,max",
@@ -21,8 +21,8 @@ pub(crate) const NAMES: [&str; 5] = [
     "dissipated energy",
 ];
 
-/// Returns random profiles in words, given their number and the seed of the first one:
-/// `16 random profiles, seeds 5 to 20`.
+/// Returns words for random profiles. `count` is their number, and `first` the seed of the first
+/// one: `16 random profiles, seeds 5 to 20`.
 pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     if count == 1 {
         return format!("One random profile, seed {first}");
@@ -32,7 +32,8 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     format!("{count} random profiles, seeds {first} to {last}")
 }
 
-/// Returns a value of a quantity as text with this number of digits. A share is in per cent.
+/// Returns a value of a quantity as text with this number of digits. The value of a share is
+/// written in per cent.
 pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     if quantity.bounds() == (0.0, 1.0) {
         percent(value, digits)
@@ -41,7 +42,7 @@ pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     }
 }
 
-/// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the
+/// Adds the main results of a scene: median, quartiles and range over its random profiles, and the
 /// regimes of the profiles.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     let seed = ensemble.results().plan().seed;
@@ -75,7 +76,7 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     }
 }
 
-/// Returns in words the number of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
+/// Returns the number of profiles in each regime as text: `pressure-sensitive 12, non-adhesive 4`.
 fn regimes_in_words(counts: RegimeCounts) -> String {
     let regimes: Vec<String> = counts
         .present()
@@ -84,8 +85,8 @@ fn regimes_in_words(counts: RegimeCounts) -> String {
     regimes.join(", ")
 }
 
-/// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None`
-/// without an adhesion force.
+/// Returns the median and the quartiles of the adhesion force over random profiles, as the caption
+/// of a figure; `None` if there is no adhesion force.
 pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let force = Quantity::AdhesionForce;
     let [lower, median, upper] = ensemble.statistics(force)?.quartiles;
@@ -167,8 +168,8 @@ impl StatisticsJson {
     }
 }
 
-/// An ensemble, the results of a scene on several random profiles, as a report. The table has a row
-/// for each profile.
+/// Report on an ensemble, which is the results of a scene on several random profiles. The table has
+/// a row for each profile.
 impl Report for Ensemble {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleJson::new(self)))
@@ -197,16 +198,17 @@ impl Report for Ensemble {
 #[derive(Serialize)]
 struct ResultsJson<'a> {
     scene: &'a Scene,
-    /// Values on each axis of the study. The key is the path of the field of the axis.
+    /// Values on each axis of the study. Each key is the path of the field that varies along the
+    /// axis.
     axes: BTreeMap<&'a str, &'a [f64]>,
     profiles: u64,
-    /// Premises of the model that profiles do not meet, over all cells.
+    /// Premises of the model that some of the profiles do not meet, over all cells of the study.
     warnings: Vec<String>,
     records: Table<'a>,
 }
 
-/// Results of a parameter study in memory as a report. The table has a row for each combination of
-/// values on the axes of the study, on each random profile.
+/// Report on the results of a parameter study that are in memory. The table has a row for each
+/// combination of values on the axes of the study and for each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let plan = self.plan();

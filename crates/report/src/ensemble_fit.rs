@@ -1,4 +1,4 @@
-//! Work of adhesion of a rough body, found from many curves, as text, JSON, a table and a figure.
+//! Work of adhesion of a rough body from many measured curves, as text, JSON, a table and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -12,15 +12,16 @@ use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, Summar
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
 
-/// Relative change of the rms height for which the report states the change of the work of
-/// adhesion.
+/// Relative change of the rms height. The report states by how much this change would alter the
+/// work of adhesion.
 const HEIGHT_CHANGE: f64 = 0.05;
 
-/// Change of the Hurst exponent for which the report states the change of the work of adhesion.
+/// Change of the Hurst exponent. The report states by how much this change would alter the work of
+/// adhesion.
 const HURST_CHANGE: f64 = 0.05;
 
-/// Range in which the scatter of the curves, divided by the scatter of the random profiles, is
-/// usual.
+/// Usual range of a ratio: the scatter of the measured curves divided by the scatter of the
+/// computed curves of random profiles.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
 const INDEPENDENT: &str = "Each curve counts as a place with a profile of its own: places closer than the contact or the \
@@ -97,8 +98,8 @@ impl Report for EnsembleFitReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a chart of the work of adhesion of each curve with its interval. A band behind shows
-    /// the interval of all curves together.
+    /// Returns a chart of the work of adhesion of each curve, with its interval. A band behind the
+    /// curves shows the interval that follows from all curves together.
     fn figure(&self) -> Option<Figure> {
         let low = self.lowest_drawn();
         let note = match self.fit.work_at_most {
@@ -124,19 +125,19 @@ impl Report for EnsembleFitReport<'_> {
 struct EnsembleFitJson<'a> {
     #[serde(flatten)]
     fit: &'a EnsembleFit,
-    /// Premises of the model that random profiles with the found values do not meet.
+    /// Premises of the model that random profiles with the fitted values do not meet.
     warnings: Vec<String>,
 }
 
 impl EnsembleFitReport<'_> {
-    /// Returns the premises of the model that random profiles with the found values do not meet,
-    /// with one text for each premise.
+    /// Returns the premises of the model that random profiles with the fitted values do not meet.
+    /// There is one text for each premise.
     pub fn warning_texts(&self) -> Vec<String> {
         counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
     }
 
-    /// Adds the work of adhesion and the modulus, and states how many curves and profiles they
-    /// follow from.
+    /// Adds the work of adhesion and the modulus, and the numbers of curves and profiles from which
+    /// they follow.
     fn add_values(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let count = fit.curves.len();
@@ -212,7 +213,7 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Adds the effect of errors of the roughness, which the curves cannot show.
+    /// Adds the effect of errors of the roughness. The curves themselves cannot show such errors.
     fn add_effect_of_roughness(&self, sheet: &mut Sheet) {
         let mut errors = Note::new("The interval leaves out errors of the roughness.");
         if let Some(shifts) = self.fit.roughness {
@@ -232,7 +233,7 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Adds a table with the result of each curve by itself.
+    /// Adds a table with the results that follow from each curve alone.
     fn add_curves(&self, sheet: &mut Sheet) {
         let header = [
             "curve",
@@ -274,8 +275,9 @@ impl EnsembleFitReport<'_> {
         ));
     }
 
-    /// Returns sentences on the summaries (numbers of a curve) in which the measured curves differ
-    /// from the random profiles; `None` if the profiles describe the curves.
+    /// Returns sentences on the summaries (numbers that describe a curve) in which the measured
+    /// curves differ from the computed curves; `None` if the random profiles describe the measured
+    /// curves.
     fn not_described(&self) -> Option<String> {
         let deviations = self.fit.deviations.iter();
         let deviating: Vec<String> = deviations
@@ -303,8 +305,8 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Returns sentences on curves that are farther from the random profiles than all but about one
-    /// in a thousand; `None` without such a curve.
+    /// Returns sentences on foreign curves, which are farther from the random profiles than all but
+    /// about one in a thousand computed curves; `None` if there is no such curve.
     fn foreign(&self) -> Option<String> {
         let foreign = self.fit.curves.iter().filter(|curve| curve.foreign);
         let names: Vec<&str> = foreign.map(|curve| curve.name.as_str()).collect();
@@ -318,9 +320,9 @@ impl EnsembleFitReport<'_> {
         ))
     }
 
-    /// Returns the lower end in J/m² of the interval of all curves as it is drawn. The axis is
-    /// logarithmic and cannot show 0, so an interval from 0 is drawn from the lowest end of the
-    /// curves.
+    /// Returns the lower end in J/m² of the interval of all curves, as the chart shows it. The axis
+    /// is logarithmic and cannot show 0. Therefore an interval that begins at 0 is drawn from the
+    /// lowest end of the intervals of single curves.
     fn lowest_drawn(&self) -> f64 {
         let work = self.fit.work;
         if work.low > 0.0 {
@@ -338,8 +340,8 @@ impl EnsembleFitReport<'_> {
         ChartAxis::new(AxisScale::Linear, span, "number of the curve", "", "1")
     }
 
-    /// Returns the axis of the work of adhesion. `low` is the drawn lower end in J/m² of the
-    /// interval of all curves.
+    /// Returns the axis of the work of adhesion. `low` is the lower end in J/m² at which the
+    /// interval of all curves is drawn.
     fn work_axis(&self, low: f64) -> ChartAxis {
         let mut ends = Vec::with_capacity(2 * self.fit.curves.len() + 2);
         for curve in &self.fit.curves {
@@ -352,8 +354,9 @@ impl EnsembleFitReport<'_> {
         ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²")
     }
 
-    /// Returns the layers of the chart: interval and value of all curves, and those of each curve.
-    /// `low` is the drawn lower end in J/m² of the interval of all curves.
+    /// Returns the layers of the chart: the interval and the value that follow from all curves, and
+    /// those of each single curve. `low` is the lower end in J/m² at which the interval of all
+    /// curves is drawn.
     fn layers(&self, low: f64) -> Vec<Layer> {
         let IntervalEstimate { value, high, .. } = self.fit.work;
         let left = 0.5;
@@ -392,14 +395,14 @@ fn relative_change(change: f64) -> String {
     format!("{:+.0} %", 100.0 * change.exp_m1())
 }
 
-/// Returns text such as `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
+/// Returns an estimate with its interval as text: `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(estimate: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(estimate.value, 3, unit);
     let interval = format_range((estimate.low, estimate.high), 3, unit);
     format!("{value}, {interval} (95 %)")
 }
 
-/// Returns the row of a curve in the table of the text.
+/// Returns the row of a curve in the table of the text report.
 fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     let pull_off_force = curve
         .pull_off_force
@@ -416,7 +419,7 @@ fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     ]
 }
 
-/// Returns text such as `pull-off force larger by 12 % (3.1 standard errors)`.
+/// Returns a deviation as text: `pull-off force larger by 12 % (3.1 standard errors)`.
 fn deviation_in_words(deviation: &SummaryDeviation) -> String {
     let direction = if deviation.logarithm > 0.0 {
         "larger"

@@ -3,8 +3,8 @@
 
 use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 
-/// Distance from the end or from the smallest force of a loading or unloading, as a share of its
-/// range of indentations, within which a point counts as this end or this smallest force.
+/// A point counts as an end of a loading or unloading, or as the point with its smallest force, if
+/// the distance between the two indentations is at most this share of the range of indentations.
 const NEAR: f64 = 0.01;
 
 /// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or
@@ -74,8 +74,8 @@ mod tests {
             .history
     }
 
-    /// Returns the events along a branch in the order of their first occurrence. On a rough profile
-    /// some events occur several times.
+    /// Returns the events along a branch, each once, in the order in which they first occur. On a
+    /// rough profile some events occur several times.
     fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
         let points = legs[branch.stages.clone()]

@@ -1,4 +1,5 @@
-//! Answers to the question at which number a quantity reaches a target, as text, JSON and a table.
+//! Answers to an inverse question (at which number does a quantity reach a target?) as text, JSON
+//! and a table.
 
 use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
@@ -12,7 +13,8 @@ use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found, Quantity};
 use serde::Serialize;
 
-/// Largest number of profiles with several crossings that are listed. Further profiles are counted.
+/// Largest number of profiles with several crossings that the report lists. Of the others, the
+/// report states only the number.
 const MOST_LISTED: usize = 8;
 
 /// Report on a search in a scene: which value of a number, such as the preload, gives a wanted
@@ -49,29 +51,30 @@ pub fn found_in_words(found: &Found) -> String {
     }
 }
 
-/// Returns true if the quantity is larger than the target at all searched numbers.
+/// Returns true if the quantity is larger than the target at all numbers of the searched range.
 fn reaches_everywhere(answer: &Answer) -> bool {
     answer.crossings.is_empty() && answer.reached == [true; 2]
 }
 
-/// Returns true if the quantity is smaller than the target at all searched numbers.
+/// Returns true if the quantity is smaller than the target at all numbers of the searched range.
 fn reaches_nowhere(answer: &Answer) -> bool {
     answer.crossings.is_empty() && answer.reached == [false; 2]
 }
 
-/// Parts of the sentences of an answer.
+/// Words from which the sentences of an answer are composed.
 struct SearchWords {
-    /// Number that is sought.
+    /// Name of the number that is sought, such as the preload.
     name: String,
     quantity: String,
     /// Wanted value of the quantity: `F_a/F_a,max = 80 %`.
     target: String,
     /// Range of the searched numbers.
     searched: String,
-    /// Range of the quantity at the searched numbers; empty if the quantity has no value there.
+    /// Range of the values of the quantity in the searched range; empty if the quantity has no
+    /// value there.
     reachable: String,
-    /// Sentence, after a blank, on the profiles on which a crossing may be missed; empty if there
-    /// are none.
+    /// Sentence on the profiles on which the search may have missed a crossing, with a blank before
+    /// it; empty if there are no such profiles.
     missed: String,
 }
 
@@ -93,7 +96,8 @@ impl SearchWords {
         }
     }
 
-    /// Returns the answer if the target is reached at every preload of the searched range.
+    /// Returns the answer for the case that the target is reached at every preload of the searched
+    /// range.
     fn at_any_preload(&self, found: &Found) -> String {
         let SearchWords {
             quantity,
@@ -108,7 +112,7 @@ impl SearchWords {
         )
     }
 
-    /// Returns the answer if the quantity reaches the target on no profile.
+    /// Returns the answer for the case that the quantity reaches the target on no profile.
     fn nowhere(&self, found: &Found) -> String {
         let SearchWords {
             name,
@@ -129,7 +133,8 @@ impl SearchWords {
         )
     }
 
-    /// Returns the answer if the quantity reaches the target on less than half of the profiles.
+    /// Returns the answer for the case that the quantity reaches the target on less than half of
+    /// the profiles.
     fn on_too_few(&self, found: &Found, with_value: usize) -> String {
         let SearchWords {
             name,
@@ -150,7 +155,7 @@ impl SearchWords {
         )
     }
 
-    /// Returns the answer on a single profile.
+    /// Returns the answer for a single profile.
     fn on_one(&self, answer: &Answer, value: &str) -> String {
         let SearchWords { name, target, .. } = self;
         let at_least = match (answer.may_miss, answer.crossings.len()) {
@@ -161,7 +166,7 @@ impl SearchWords {
         format!("{name} = {value} for {target}{at_least}.")
     }
 
-    /// Returns the answer on several profiles, if at least half of them reach the target.
+    /// Returns the answer for several profiles, of which at least half reach the target.
     fn on_several(&self, found: &Found, median: &str) -> String {
         let SearchWords {
             name,
@@ -196,8 +201,8 @@ fn quartiles_in_words(found: &Found) -> String {
     }
 }
 
-/// Returns a sentence, after a blank, on the profiles on which a crossing may be missed; empty if
-/// there are none.
+/// Returns a sentence on the profiles on which the search may have missed a crossing, with a blank
+/// before it; empty if there are no such profiles.
 fn missed_in_words(found: &Found) -> String {
     let answers = found.answers.iter();
     let count = answers.filter(|answer| answer.may_miss).count();
@@ -231,8 +236,8 @@ fn values_in_words(quantity: Quantity, range: (f64, f64)) -> String {
     one_unit([least, most].map(|value| rounded(quantity, value, 4)))
 }
 
-/// Returns words on the numbers at which the quantity was computed; empty if the crossings follow
-/// from a proof.
+/// Returns words on the numbers at which the quantity was computed. They are left out for a profile
+/// on which a proof, and not a trial of numbers, gives the crossings.
 fn computed_in_words(found: &Found) -> String {
     let waves = if found.question.is_of_whole_waves() {
         ", only where a whole number of waves fits on the length"
@@ -262,8 +267,9 @@ fn computed_in_words(found: &Found) -> String {
 }
 
 impl FindReport<'_> {
-    /// Returns words such as `On 3 of 16 profiles` for the number of profiles whose answers have a
-    /// property. Returns `None` if no profile has the property, or if there is only one profile.
+    /// Returns words such as `On 3 of 16 profiles`, where 3 is the number of profiles whose answers
+    /// have a property. Returns `None` if no answer has the property, or if there is only one
+    /// profile.
     fn on_profiles(&self, has_property: impl Fn(&Answer) -> bool) -> Option<String> {
         let answers = self.found.answers.iter();
         let count = answers.filter(|answer| has_property(answer)).count();
@@ -280,7 +286,7 @@ impl FindReport<'_> {
         let is_like_first =
             |answer: &Answer| answer.crossings.is_empty() && answer.reached == answers[0].reached;
         if answers.iter().all(is_like_first) {
-            // All profiles agree, and the main sentence of the answer already says so.
+            // If the answers on all profiles are alike, the main sentence already states this.
             return Vec::new();
         }
         let question = &self.found.question;
@@ -316,8 +322,8 @@ impl FindReport<'_> {
         sentences
     }
 
-    /// Adds the profiles on which the quantity crosses the target more than once, or falls below it
-    /// again. If there are none, nothing is added.
+    /// Adds the profiles on which the quantity crosses the target more than once, upwards or
+    /// downwards. Adds nothing if there are no such profiles.
     fn add_several_crossings(&self, sheet: &mut Sheet) {
         let answers = self.found.answers.iter();
         let several: Vec<&Answer> = answers
@@ -407,9 +413,10 @@ impl Report for FindReport<'_> {
         Some(Box::new(FindJson::new(self.scene, self.found)))
     }
 
-    /// Returns a table with a row for each profile: the number that was found, how often the result
-    /// crosses the wanted value in the searched range, 1 if it may cross it more often and
-    /// otherwise 0, and the smallest and largest result in this range.
+    /// Returns a table with a row for each profile. Its columns are the number that was found, how
+    /// often the result crosses the wanted value in the searched range, 1 if the search may have
+    /// missed further crossings and otherwise 0, and the smallest and the largest result in this
+    /// range.
     fn table(&self) -> Option<Table<'_>> {
         let answers = &self.found.answers;
         let values = self.found.values();
@@ -428,7 +435,8 @@ impl Report for FindReport<'_> {
     }
 }
 
-/// JSON object of a search, in SI units. A list has an entry for each profile.
+/// JSON object of the answer to an inverse question, in SI units. Each list has an entry for each
+/// profile.
 #[derive(Serialize)]
 struct FindJson<'a> {
     scene: &'a Scene,
@@ -437,7 +445,7 @@ struct FindJson<'a> {
     unit: &'static str,
     quantity: Quantity,
     target: f64,
-    /// Median of the number over the profiles.
+    /// Median over the profiles of the number that was sought.
     value: Option<f64>,
     profiles: u64,
     unreached: usize,
@@ -447,7 +455,8 @@ struct FindJson<'a> {
     crossings: Vec<usize>,
     at_least: Vec<bool>,
     all_crossings: Vec<&'a [f64]>,
-    /// Number of profiles that need no preload; `None` if no preload is sought.
+    /// Number of profiles that reach the target at first touch, without a preload; `None` if the
+    /// sought number is not a preload.
     at_first_touch: Option<usize>,
     reachable: Option<(f64, f64)>,
     searched: (f64, f64),

@@ -1,4 +1,4 @@
-//! Result of a fit as text, JSON, a table and a figure with residuals.
+//! Report on a fit to one measured curve, as text, JSON, a table and a figure with residuals.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
-/// Ratio of the proposed end of a range to the end of the searched range, if the best value lies at
-/// the end.
+/// If the best value lies at the end of the searched range, the report proposes a range whose end
+/// is farther by this factor.
 const FARTHER: f64 = 1000.0;
 
 /// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
@@ -37,14 +37,14 @@ pub struct FitReport<'a> {
     pub wording: Wording,
 }
 
-/// Fit in SI units, with facts about its curve.
+/// JSON object of a fit in SI units, with features of the measured curve.
 #[derive(Serialize)]
 struct FitJson<'a> {
     #[serde(flatten)]
     fit: &'a FitResult,
     described: bool,
     noise: f64,
-    /// Numbers that follow from the curve without the scene.
+    /// Numbers that follow from the measured curve alone, without the scene.
     curve: CurveFeatures,
     drag: Option<DragForce>,
     /// Work of adhesion in J/m² that the drag during the retraction would add to γ, if the drag had
@@ -54,7 +54,7 @@ struct FitJson<'a> {
     pull_off_work: Option<f64>,
     points_used: usize,
     points_left_out: usize,
-    /// Sentences on the assumptions made when the curve was read.
+    /// Sentences on the assumptions that were made when the curve was read.
     reading: Vec<String>,
 }
 
@@ -191,7 +191,8 @@ impl FitReport<'_> {
         Some(format!("{described} {reason} The intervals {intervals}."))
     }
 
-    /// Returns the assumptions made when the curve was read and when it was fitted.
+    /// Returns the assumptions that were made when the curve was read and when the scene was
+    /// fitted.
     fn assumptions(&self) -> impl Iterator<Item = String> {
         let notes = self.curve.statements.iter().chain(&self.fit.assumptions);
         notes.map(|note| note.in_words(self.wording))
@@ -227,8 +228,9 @@ impl FitReport<'_> {
         }
     }
 
-    /// Returns a sentence on a parameter whose best value lies at the end of its range; `None` for
-    /// any other parameter, and for one that the curve does not determine at all.
+    /// Returns a sentence on a parameter whose best value lies at the end of its range. Returns
+    /// `None` for any other parameter, and for a parameter that the curve does not determine at
+    /// all.
     fn sentence_at_end(&self, fitted: &FittedParameter) -> Option<String> {
         let end = fitted.at_end?;
         if matches!(self.fit.reason, Some(Reason::Stiffness(..))) {
@@ -251,7 +253,7 @@ impl FitReport<'_> {
         Some(note.in_words(self.wording))
     }
 
-    /// Adds sentences on the residual and on the misfit, both over the same points.
+    /// Adds sentences on the residual and on the misfit. Both are computed from the same points.
     fn add_residual(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let agreement = fit.agreement;
@@ -282,8 +284,8 @@ impl FitReport<'_> {
         ));
     }
 
-    /// Adds the upper bound of the work of adhesion, and the pull-off force with the work of
-    /// adhesion of a sphere with this force.
+    /// Adds the upper bound of the work of adhesion, the pull-off force, and the work of adhesion
+    /// of a smooth sphere with this pull-off force.
     fn add_adhesion(&self, sheet: &mut Sheet) {
         if let Some(work) = self.fit.work_at_most {
             let work = format_rounded(work, 2, "J/m²");
@@ -305,7 +307,7 @@ impl FitReport<'_> {
         sheet.paragraph(&format!("Pull-off force of the curve {force}{work}."));
     }
 
-    /// Adds the effect that the drag would have on the work of adhesion.
+    /// Adds how much work of adhesion the drag would have simulated, if it had not been subtracted.
     fn add_drag(&self, sheet: &mut Sheet) {
         let Some(work) = self.drag_work() else {
             return;
@@ -316,13 +318,14 @@ impl FitReport<'_> {
         ));
     }
 
-    /// Returns the work of adhesion in J/m² that the drag during the retraction would add; `None`
-    /// without a drag, or for a body that is not a smooth sphere.
+    /// Returns the work of adhesion in J/m² that the drag during the retraction would add to γ.
+    /// `None` if there is no drag, or if the body is not a smooth sphere.
     fn drag_work(&self) -> Option<f64> {
         self.pull_off_work(-self.curve.drag?.pulled)
     }
 
-    /// Adds the largest correlation, and the parameters that cannot be determined separately.
+    /// Adds the largest correlation between parameters, and the parameters that the curve cannot
+    /// determine separately.
     fn add_correlations(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let strongest = fit
@@ -337,7 +340,7 @@ impl FitReport<'_> {
             ));
         }
         for &(first, second) in &fit.not_distinguished {
-            // Another sentence states the upper bound of the work of adhesion.
+            // For the work of adhesion, `add_adhesion` already states the upper bound.
             let is_work = first == Parameter::Work && second == Parameter::Work;
             let is_at_end = first == second
                 && fit
@@ -363,7 +366,7 @@ impl FitReport<'_> {
 }
 
 /// Returns a fitted value with the half-width of its interval, such as `γ = 50 ± 2 mJ/m²`, or its
-/// bound. The text has no place for a line break.
+/// bound. The blanks in this text are no-break spaces, so that no line break can divide it.
 fn with_half_width(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
     if let Some(bound) = fitted.bound() {
@@ -381,8 +384,8 @@ fn vertical_axis(points: &[(f64, f64)], name: &str, symbol: &str, unit: &str) ->
     ChartAxis::new(AxisScale::Linear, span, name, symbol, unit)
 }
 
-/// Returns a sentence on two parameters that the curve does not separate. If both are the same, the
-/// sentence is on one parameter that the curve does not determine.
+/// Returns a sentence on two parameters that the curve does not determine separately. If the two
+/// are the same, the sentence states that the curve does not determine this parameter.
 fn separation(first: Parameter, second: Parameter) -> String {
     let remedy = Parameter::remedy(first, second);
     let first = first.row().symbol;

@@ -1,5 +1,5 @@
-//! Results of fits to many curves: a row for each curve as text, JSON and a table, and the
-//! distribution of the values as a figure.
+//! Reports on fits to many curves. Text, JSON and the table have a row for each curve, and the
+//! figure shows the distribution of the fitted values.
 
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
@@ -29,9 +29,9 @@ pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
     /// For each free parameter its value and the lower and upper end of its 95 % interval, in SI
-    /// units; empty if the curve was not fitted. If the fit finds only a bound of the parameter, at
-    /// an end of the searched range, the bound is the lower or the upper end, and the other two are
-    /// `None`.
+    /// units; empty if the curve was not fitted. A fit may find only a bound of the parameter, at
+    /// an end of the searched range. This bound is then the lower or the upper end, and the other
+    /// two numbers are `None`.
     pub parameters: Vec<[Option<f64>; 3]>,
     /// Numbers of the curve and of its fit in the order of `FACTS`, in SI units; `None` for an
     /// unknown number.
@@ -42,7 +42,8 @@ pub struct CurveRow {
     pub described: Option<bool>,
     /// [Grade](asperity_experiment::Grade) of the fit in words; empty if the curve was not fitted.
     pub description: String,
-    /// Reason why the model does not describe the curve within its noise; empty if there is none.
+    /// Reason why the model does not describe the curve within its noise; empty if the model
+    /// describes the curve.
     pub reason: String,
     /// Premises of the model that the scene with the fitted values does not meet.
     pub warnings: Vec<RowWarning>,
@@ -70,7 +71,7 @@ impl RowWarning {
         }
     }
 
-    /// Returns the text of a cell of a table with these warnings: `name: text | name: text`.
+    /// Returns these warnings as the text of one cell of a table: `name: text | name: text`.
     fn cell(warnings: &[RowWarning]) -> String {
         let texts: Vec<String> = warnings
             .iter()
@@ -79,7 +80,8 @@ impl RowWarning {
         texts.join(Self::SEPARATOR)
     }
 
-    /// Reads the warnings in a cell of a table; `None` if the cell has another form.
+    /// Reads the warnings that [`Self::cell`] wrote into a cell; `None` if the cell has another
+    /// form.
     fn in_cell(cell: &str) -> Option<Vec<RowWarning>> {
         let mut warnings = Vec::new();
         if cell.is_empty() {
@@ -111,12 +113,13 @@ pub const FACTS: [&str; 9] = [
     "fall_in_pause",
 ];
 
-/// Endings of the names of the columns of a parameter: its value and both ends of its interval.
+/// Endings of the names of the columns of a parameter: the first for its value, the others for the
+/// ends of its interval.
 const ENDINGS: [&str; 3] = ["", "_low", "_high"];
 
 impl CurveRow {
-    /// Fits the scene to one curve and makes its row. If the curve was not read or the fit fails,
-    /// [`Self::error`] has the reason.
+    /// Fits the scene to one curve and makes the row of this curve. If the curve was not read or its
+    /// fit fails, [`Self::error`] states the reason.
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,
@@ -208,7 +211,8 @@ impl CurveRow {
             return None;
         };
         let mut parameters = Vec::new();
-        // A curve that was not fitted has empty cells, and its list of parameters is empty.
+        // The cells of a curve that was not fitted are empty, so the list of its parameters stays
+        // empty.
         if error.is_empty() {
             for parameter in numbers_of(values)?.chunks_exact(ENDINGS.len()) {
                 parameters.push([parameter[0], parameter[1], parameter[2]]);
@@ -228,8 +232,8 @@ impl CurveRow {
     }
 }
 
-/// Returns the numbers in the cells of a CSV line; `None` for an empty cell. The result is `None`
-/// if a cell is neither a number nor empty.
+/// Returns the numbers in the cells of a CSV line, with `None` for each empty cell. If a cell is
+/// neither a number nor empty, the whole result is `None`.
 fn numbers_of(cells: &[String]) -> Option<Vec<Option<f64>>> {
     let mut numbers = Vec::with_capacity(cells.len());
     for cell in cells {
@@ -242,7 +246,8 @@ fn numbers_of(cells: &[String]) -> Option<Vec<Option<f64>>> {
     Some(numbers)
 }
 
-/// Returns the cells of a CSV line by RFC 4180; `None` if a quotation mark is open at the end.
+/// Returns the cells of a CSV line, as RFC 4180 defines them; `None` if a quotation mark is not
+/// closed.
 fn cells_of(line: &str) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut cell = String::new();
@@ -284,7 +289,7 @@ struct Distribution {
 }
 
 impl Distribution {
-    /// Returns the distribution of some values; `None` without values.
+    /// Returns the distribution of some values; `None` if there are no values.
     fn new(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         Some(Distribution {
@@ -293,8 +298,8 @@ impl Distribution {
         })
     }
 
-    /// Returns a sentence on the distribution of a parameter. `curves` describes the curves in
-    /// words.
+    /// Returns a sentence on the distribution of a parameter. `curves` states in words over which
+    /// curves.
     fn sentence(&self, parameter: Parameter, curves: &str) -> String {
         let row = parameter.row();
         let [lower, median, upper] = self.quartiles;
@@ -318,28 +323,29 @@ struct FirstParameter {
 }
 
 impl FirstParameter {
-    /// Returns all values, with the described curves first.
+    /// Returns the values on all curves, beginning with the curves that the model describes.
     fn all(&self) -> Vec<f64> {
         [self.described.as_slice(), &self.others].concat()
     }
 }
 
 impl FitsReport<'_> {
-    /// Returns the rows of the curves that were not read or not fitted. [`CurveRow::error`] of each
-    /// has the reason.
+    /// Returns the rows of the curves that were not read or not fitted. The field
+    /// [`CurveRow::error`] of such a row states the reason.
     pub fn failures(&self) -> impl Iterator<Item = &CurveRow> {
         self.rows.iter().filter(|row| !row.error.is_empty())
     }
 
-    /// Returns in words the files of [`Self::failures`], each with its reason.
+    /// Returns for each of the [`Self::failures`] a text with the file and the reason.
     fn failures_in_words(&self) -> Vec<String> {
         self.failures()
             .map(|row| format!("{}: {}", row.file, row.error))
             .collect()
     }
 
-    /// Returns an error message if no curve was fitted: each file with its reason. Returns `None`
-    /// if at least one curve was fitted, whether the model describes it or not.
+    /// Returns an error message if no curve was fitted. The message states each file with its
+    /// reason. Returns `None` if at least one curve was fitted, whether the model describes it or
+    /// not.
     pub fn failure(&self) -> Option<String> {
         let reasons = self.failures_in_words();
         if reasons.len() < self.rows.len() {
@@ -353,8 +359,8 @@ impl FitsReport<'_> {
         Some(format!("no curve was fitted: {message}"))
     }
 
-    /// Returns a sentence for each reason why the model does not describe some of the curves, with
-    /// the files of these curves.
+    /// Returns a sentence for each reason why the model does not describe curves. The sentence
+    /// names the files of the curves to which the reason applies.
     fn reasons(&self) -> Vec<String> {
         let mut files_by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
         for row in self.rows {
@@ -383,9 +389,9 @@ impl FitsReport<'_> {
         sentences
     }
 
-    /// Returns the premises of the model that the scenes fitted to some of the curves do not meet.
-    /// There is one text for each premise, with the number of these curves. The values in the text
-    /// are those of the first of these curves.
+    /// Returns the premises of the model that some of the fitted scenes do not meet, with one text
+    /// for each premise. The text states the number of curves with such a scene, and the values for
+    /// the first of these curves.
     pub fn warning_texts(&self) -> Vec<String> {
         let mut first_of_kind: Vec<&RowWarning> = Vec::new();
         let mut counts: Vec<u64> = Vec::new();
@@ -433,8 +439,8 @@ impl FitsReport<'_> {
         values
     }
 
-    /// Returns sentences on the first parameter, over the described curves and over all curves, and
-    /// on the curves without a fit.
+    /// Returns sentences on the first free parameter (its distribution over the curves that the
+    /// model describes, and over all fitted curves) and on the curves that were not fitted.
     fn summary(&self) -> Vec<String> {
         let Some(&parameter) = self.free.first() else {
             return Vec::new();
@@ -468,7 +474,8 @@ impl FitsReport<'_> {
         sentences
     }
 
-    /// Returns the row of a curve in the table of the text, which has only the first parameter.
+    /// Returns the row of a curve in the table of the text report. Of the parameters, the table has
+    /// only the first.
     fn text_row(&self, row: &CurveRow) -> [String; 4] {
         let mut value = String::new();
         let mut interval = String::new();
@@ -559,8 +566,8 @@ impl Report for FitsReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a histogram of the first parameter. Bars of curves that the model does not describe
-    /// are stacked on the bars of the described curves.
+    /// Returns a histogram of the first free parameter. For the curves that the model does not
+    /// describe, further bars are stacked on the bars of the described curves.
     fn figure(&self) -> Option<Figure> {
         let row = self.free.first()?.row();
         let values = self.first_parameter();
@@ -596,14 +603,14 @@ impl Report for FitsReport<'_> {
     }
 }
 
-/// Range of a bar of a histogram along the horizontal and along the vertical axis.
+/// Range of a bar of a histogram along the horizontal axis, and range along the vertical axis.
 type Bar = ((f64, f64), (f64, f64));
 
 /// Histogram of the first parameter over the curves.
 struct Histogram {
     described: Vec<Bar>,
-    /// Bars of the curves that the model does not describe, stacked on those of the described
-    /// curves.
+    /// Bars of the curves that the model does not describe. They are stacked on the bars of the
+    /// described curves.
     others: Vec<Bar>,
     /// Largest number of curves in a bar, at least 1.
     most: f64,
@@ -612,7 +619,7 @@ struct Histogram {
 impl Histogram {
     fn new(values: &FirstParameter) -> Self {
         let all = values.all();
-        // If all values are equal, they are in the middle of the range.
+        // If all values are equal, `Span::around` returns a range with these values in its middle.
         let Span { low, high } = Span::around(all.iter().copied(), 0.0);
         let (fewest, most) = BARS;
         let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(fewest, most);
@@ -661,7 +668,7 @@ struct FitsJson<'a> {
     /// Distribution over the curves that the model describes.
     described: Option<DistributionJson>,
     all: Option<DistributionJson>,
-    /// Premises of the model that the scenes fitted to some of the curves do not meet.
+    /// Premises of the model that some of the fitted scenes do not meet.
     warnings: Vec<String>,
     curves: Option<Table<'a>>,
     scene: &'a Scene,
@@ -723,8 +730,8 @@ mod tests {
         }
     }
 
-    /// Returns the table of a report, written in every format; `None` for a format that it does not
-    /// have.
+    /// Returns a report written in each of six formats; `None` for a format that this report does
+    /// not have.
     fn written(report: &FitsReport<'_>) -> [Option<Vec<u8>>; 6] {
         use crate::report::Format::{Csv, Json, Pdf, Png, Svg, Text};
         [Text, Json, Csv, Svg, Png, Pdf].map(|format| {
@@ -735,7 +742,7 @@ mod tests {
         })
     }
 
-    /// Every mixture of curves that are described, not described and not fitted can be written in
+    /// Every mixture of curves that are described, not described or not fitted can be written in
     /// all formats. If no curve is fitted, there are no pictures, and the error message names the
     /// files.
     #[test]
@@ -809,8 +816,8 @@ mod tests {
         }
     }
 
-    /// Each premise is stated only once, with the number of fitted curves and the values of the
-    /// first one.
+    /// Each premise is stated only once, with the number of fitted curves for which it is not met,
+    /// and with the values of the first of these curves.
     #[test]
     fn premises_are_counted_over_the_fitted_curves() {
         let failed = CurveRow {
@@ -886,7 +893,7 @@ mod tests {
         assert_eq!(report.failure().as_deref(), Some(expected));
     }
 
-    /// A row can be read from its line of the table. A damaged line is refused.
+    /// A row can be read from its line in the CSV table. A damaged line is refused.
     #[test]
     fn rows_come_back_from_the_table() {
         let failed = CurveRow {

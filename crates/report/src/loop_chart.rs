@@ -1,4 +1,4 @@
-//! Charts of force loops, used both in figures of scenes and in the explorer.
+//! Charts of force loops. Figures of scenes and the explorer both use them.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
@@ -8,7 +8,8 @@ use asperity_plot::{
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
-/// Two quantities of a force loop that a chart shows. A loop is the curve of loading and unloading.
+/// Two quantities of a force loop that a chart shows over each other. A force loop is the curve of
+/// loading and unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -44,15 +45,17 @@ pub struct LoopUnits {
     quantities: LoopQuantities,
     /// Loading stiffness, N/m; `None` for a rigid instrument.
     stiffness: Option<f64>,
-    /// Rms height h in m as the unit of the indentation; `None` for SI units.
+    /// Rms height h in m, if the indentation is shown in units of h; `None` for SI units.
     indentation: Option<f64>,
-    /// Ideal adhesion force F_a,max in N as the unit of the force; `None` for SI units.
+    /// Ideal adhesion force F_a,max in N, if the force is shown in units of F_a,max; `None` for SI
+    /// units.
     force: Option<f64>,
-    /// Length L in m as the unit of lengths along the profile; `None` for SI units.
+    /// Length L in m, if lengths along the profile are shown in units of L; `None` for SI units.
     length: Option<f64>,
 }
 
-/// Quantity of a point of the force curve. It may be divided by a parameter of the scene.
+/// Quantity that every point of a force curve has. The chart may show it divided by a parameter of
+/// the scene.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
@@ -95,14 +98,14 @@ impl Quantity {
         }
     }
 
-    /// Returns the number on the axis at a point of a curve. `stiffness` is that of the instrument
-    /// in N/m.
+    /// Returns the number that the axis shows for a point of a curve. `stiffness` is the stiffness
+    /// of the instrument in N/m.
     fn number(&self, point: &CurvePoint, stiffness: f64) -> f64 {
         let value = (self.value)(point, stiffness);
         value / self.divisor.map_or(1.0, |divisor| divisor.value)
     }
 
-    /// Returns the axis of the quantity.
+    /// Returns an axis for the quantity, over the range `span`.
     fn axis(&self, span: Span) -> ChartAxis {
         let symbol = self.symbol();
         let axis = ChartAxis::new(AxisScale::Linear, span, self.name, &symbol, self.unit());
@@ -144,7 +147,8 @@ impl LoopUnits {
         }
     }
 
-    /// Returns the numbers on the horizontal and the vertical axis at a point of a force curve.
+    /// Returns the numbers on the horizontal and the vertical axis that belong to a point of a
+    /// force curve.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
         let [across, up] = self.quantities();
@@ -246,13 +250,13 @@ impl LoopUnits {
         }
     }
 
-    /// Returns the horizontal and the vertical axis around these points.
+    /// Returns the horizontal and the vertical axis of a chart that contains these points.
     fn axes(&self, places: &[(f64, f64)]) -> [ChartAxis; 2] {
         let [across, up] = self.quantities();
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let mut y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         if up.symbol != "F" {
-            // A length or a number of patches is never negative.
+            // The vertical quantity is a length or a number of patches, which is never negative.
             y.low = 0.0;
         }
         [across.axis(x), up.axis(y)]
@@ -278,24 +282,24 @@ pub struct ForceLoop<'a> {
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name of the loop in the legend; `None` for the two names `loading` and `unloading`.
     pub name: Option<Label>,
-    /// True if the legend has the names of the marked points without their forces.
+    /// True if the names of the marked points in the legend are written without the forces.
     pub without_forces: bool,
-    /// Ink of the whole loop; `None` for [`Ink::Loading`] on loading and [`Ink::Unloading`] on
-    /// unloading.
+    /// Ink of the whole loop. With `None`, the loading has [`Ink::Loading`], and the unloading has
+    /// [`Ink::Unloading`].
     pub ink: Option<Ink>,
-    /// Stroke of loading and unloading; `None` for a dotted loading and an unloading with the
-    /// stroke [`Self::unloading`].
+    /// Stroke of loading and unloading. With `None`, the loading is dotted, and the unloading has
+    /// the stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading if [`Self::stroke`] is `None`; `None` for a solid line.
+    /// Stroke of the unloading if [`Self::stroke`] is `None`. With `None`, this is a solid line.
     pub unloading: Option<Stroke>,
 }
 
-/// Part of a force loop that is drawn as one line.
+/// Part of a force loop that the chart shows as one line.
 struct LoopLine {
     direction: Direction,
     /// Points in the units of the axes.
     places: Vec<(f64, f64)>,
-    /// True for a jump of the instrument, which is drawn in another way.
+    /// True if this part is a jump of the instrument, which the chart shows in another style.
     jumps: bool,
 }
 
@@ -324,8 +328,8 @@ impl<'a> ForceLoop<'a> {
         }
     }
 
-    /// Returns the lines of the curves. A curve over the displacement of an instrument consists of
-    /// several lines: steady parts and jumps.
+    /// Returns the lines of the loop. Over the displacement of an instrument, a curve is divided
+    /// into several lines, because steady parts and jumps are drawn in different styles.
     fn lines(&self, units: LoopUnits) -> Vec<LoopLine> {
         let units = LoopUnits {
             stiffness: self.stiffness.or(units.stiffness),
@@ -392,8 +396,8 @@ impl<'a> ForceLoop<'a> {
         layers
     }
 
-    /// Returns the name in the legend of the lines of a direction; empty for lines without an entry
-    /// in the legend.
+    /// Returns the name in the legend for the lines of a direction; empty if these lines are not in
+    /// the legend.
     fn legend_name(&self, direction: Direction) -> Label {
         let Some(name) = &self.name else {
             return Label::plain(match direction {
@@ -401,7 +405,8 @@ impl<'a> ForceLoop<'a> {
                 Direction::Unloading => "unloading",
             });
         };
-        // A loop with a name has only one entry in the legend, with a sample of one direction.
+        // If the loop has a name, only one direction has an entry in the legend: the unloading or, if
+        // there is none, the loading.
         let unloads = self
             .curves
             .iter()
@@ -427,7 +432,7 @@ impl<'a> ForceLoop<'a> {
 }
 
 impl LoopLine {
-    /// Returns the line of a part of a curve over the displacement of the instrument.
+    /// Returns the line for a part of a curve over the displacement of the instrument.
     fn of_displacements(
         direction: Direction,
         part: &[DisplacementPoint],
@@ -450,8 +455,8 @@ impl LoopLine {
     }
 }
 
-/// Returns one chart of all `loops`, with axes for the quantities `units`. A loop that is later in
-/// the list is drawn over the earlier ones.
+/// Returns one chart of all `loops`, with axes for the quantities `units`. Each loop is drawn over
+/// the loops before it.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let mut places = Vec::new();
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
@@ -465,8 +470,8 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Returns a figure with one chart of the force curves of computed scenes, which are given with
-/// their titles.
+/// Returns a figure in which one chart shows the force curves of all computed scenes. Each scene is
+/// given with its title.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         let force_loop = ForceLoop::new(&outcome.history.legs);
@@ -483,7 +488,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
         });
     }
     let mut chart = loop_chart(&loops, units);
-    // The legend explains the stroke of loading and the marked points once for all loops.
+    // The legend explains the stroke of loading and the marked points only once for all loops.
     let loading = Shape::line(Vec::new(), Stroke::Dotted);
     chart
         .layers
@@ -500,8 +505,8 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     Figure::of_chart("", chart)
 }
 
-/// Returns a figure with a chart for the force curve of each computed scene. The scenes are given
-/// with their titles.
+/// Returns a figure with a chart for each computed scene, which shows the force curve of this
+/// scene. Each scene is given with its title.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let mut figures = Vec::with_capacity(scenes.len());
     for (title, outcome) in scenes {
@@ -521,8 +526,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(figures)
 }
 
-/// Returns the marker with which charts of force curves show a marked point, such as ▼ for the
-/// pull-off.
+/// Returns the marker for a marked point in charts of force curves, such as ▼ for the pull-off.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,
@@ -532,7 +536,7 @@ pub fn sign(mark: Mark) -> Sign {
     }
 }
 
-/// Returns the name of a marked point with its force in N: `pull-off F_a = 2 µN`.
+/// Returns the name of a marked point with the force at this point in N: `pull-off F_a = 2 µN`.
 fn mark_name(mark: Mark, force: f64) -> Label {
     let value = match mark {
         Mark::Preload => value_label("", "F_n", "N", force),

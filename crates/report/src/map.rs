@@ -14,8 +14,8 @@ struct ComputedCell<'a> {
 }
 
 impl Report for Grid {
-    /// Returns a table with a row for each computed combination of values on the axes of a study. A
-    /// row has these values, the number of profiles, the most frequent regime (once for the turn at
+    /// Returns a table with a row for each cell of the map that has been computed. A row has the
+    /// values on the axes, the number of profiles, the most frequent regime (once for the turn at
     /// first touch, once for the turn at zero force), and the statistics of each quantity over the
     /// profiles, in SI units.
     fn table(&self) -> Option<Table<'_>> {

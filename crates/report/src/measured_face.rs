@@ -1,5 +1,5 @@
-//! Measured surfaces of one body, taken as samples of the same roughness, with facts about their
-//! files and warnings about their analysis.
+//! Measured surfaces of one body, which are analysed together as samples of the same roughness,
+//! with facts about their files and warnings about the analysis.
 
 use crate::words::plural;
 use asperity_data::{NamedHeight, Note, Warning, format_quantity, grouped, path_name, printable};
@@ -65,7 +65,8 @@ impl SurfaceFile {
         }
     }
 
-    /// Returns the name of the file, with the name of the measurement if the file contains several.
+    /// Returns the name of the file. If the file contains several measurements, the name of the
+    /// measurement is added.
     fn name(&self) -> String {
         let path = path_name(&self.path);
         if self.name.is_empty() {
@@ -96,7 +97,8 @@ impl SurfaceFile {
         format!("{name} ({format}): {kind} of {counts} points, {lengths}{cropped}{interpolated}")
     }
 
-    /// Returns the share of interpolated points, after a comma; empty if no point was interpolated.
+    /// Returns the share of interpolated points as text that begins with a comma; empty if no point
+    /// was interpolated.
     fn interpolated_in_words(&self) -> String {
         if self.interpolated == 0 {
             return String::new();
@@ -106,8 +108,8 @@ impl SurfaceFile {
         format!(", {percent:.2} % interpolated")
     }
 
-    /// Returns how many points, columns or rows were left out, after a comma; empty if nothing was
-    /// left out.
+    /// Returns how many points, columns or rows were left out, as text that begins with a comma;
+    /// empty if nothing was left out.
     fn cropped_in_words(&self) -> String {
         match self.cropped[..] {
             [0] | [0, 0] => return String::new(),
@@ -135,8 +137,8 @@ pub struct MeasuredFace {
 }
 
 impl MeasuredFace {
-    /// Returns a warning if the rms heights of the files differ much. The files should be samples
-    /// of one roughness.
+    /// Returns a warning if the rms heights of the files differ much, because the files should be
+    /// samples of one roughness.
     fn far_apart(&self) -> Option<Warning> {
         let heights = || self.analysis.rms_heights.iter().zip(&self.files);
         let (least, flattest) = heights().min_by(|first, second| first.0.total_cmp(second.0))?;
@@ -221,8 +223,8 @@ mod tests {
     use super::*;
     use asperity_surface::{AnalysisOptions, analyse};
 
-    /// Returns the names of the warnings about a map. `heights` are in m, and each row has
-    /// `columns` points at the distance `spacing` in m.
+    /// Returns the names of the warnings for a map with these heights in m. Each row of the map has
+    /// `columns` points, at the distance `spacing` in m.
     fn names(heights: &[f64], columns: usize, spacing: f64) -> Vec<&'static str> {
         let surface = Topography::from_map(heights, columns, [spacing; 2]).unwrap();
         let options = AnalysisOptions::default();
@@ -254,7 +256,7 @@ mod tests {
     fn lengths_that_no_instrument_measures_are_named() {
         let heights = waves();
         assert!(!names(&heights, 64, 1e-7).contains(&"improbable_lengths"));
-        // Heights in µm are read as m, and the map is 6.4 m long.
+        // The heights in µm are taken as heights in m, and the map is 6.4 m long.
         let in_metres: Vec<f64> = heights.iter().map(|z| 1e6 * z).collect();
         assert!(names(&in_metres, 64, 0.1).contains(&"improbable_lengths"));
         // The rms height is about 10 mm on a map of 6.4 cm.

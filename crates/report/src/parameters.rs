@@ -1,12 +1,12 @@
-//! The box in a figure with the numbers that define the scenes of the figure.
+//! Text for the box of a figure that states the parameters of its scenes.
 
 use asperity_plot::{Label, statement};
 use asperity_scene::Scene;
 use asperity_scene::fields::{Statement, statements};
 
-/// Returns the numbers that define scenes, such as the rms height, as lines for the box of
-/// parameters in a figure. The first line has the numbers that all scenes share. Further lines have
-/// the other numbers of each scene with a name.
+/// Returns the parameters that define scenes, such as the rms height, as lines for the box of
+/// parameters in a figure. The first line has the parameters that are equal in all scenes. Each
+/// further line has the name of a scene and its other parameters.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
     let statements_of_scenes: Vec<Vec<Statement>> =
         scenes.iter().map(|(_, scene)| statements(scene)).collect();
@@ -30,7 +30,7 @@ pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
     lines
 }
 
-/// Returns statements as one line; `None` without statements.
+/// Returns statements as one line; `None` if there are no statements.
 fn line<'a>(statements: impl Iterator<Item = &'a Statement>) -> Option<Label> {
     let labels = statements.map(|stated| {
         let field = stated.field;

@@ -11,10 +11,11 @@ use asperity_study::{Results, Staircase, Statistics};
 use serde::Serialize;
 use std::ops::Range;
 
-/// Largest number of rows of a table in the text. Tables in files have all rows.
+/// Largest number of rows of a table in the text report. Tables in files have all rows.
 const MOST_ROWS: usize = 32;
 
-/// Ratio of the largest to the smallest adhesion force from which their scale is logarithmic.
+/// The axis of adhesion forces is logarithmic if the ratio of the largest to the smallest force is
+/// at least this number.
 const LOGARITHMIC_RATIO: f64 = 30.0;
 
 /// Largest number of decades of a logarithmic axis of adhesion forces.
@@ -24,24 +25,23 @@ const MOST_DECADES: f64 = 6.0;
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
     pub title: &'a str,
-    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
+    /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Values computed so far for each preload on each profile: the quantities
-    /// [`Results::OF_PRELOADS`].
+    /// Quantities [`Results::OF_PRELOADS`] computed so far, for each preload and each profile.
     pub results: &'a Results,
-    /// Adhesion force of the first profile as a function of the preload. If it is `None`, there is
-    /// no figure.
+    /// Adhesion force of the first profile as a function of the preload; `None` for a report
+    /// without a figure.
     pub staircase: Option<&'a Staircase>,
-    /// True for a table with a row for each preload of the [`Self::staircase`]; false for a row for
-    /// each preload on each profile.
+    /// True if the table has a row for each preload of the [`Self::staircase`]; false if it has a
+    /// row for each preload and each profile.
     pub curves: bool,
 }
 
 impl<'a> PreloadReport<'a> {
-    /// Returns the figure with the [`preload_chart`] and the [`distribution`] at the largest
-    /// preload; `None` without a [`Self::staircase`]. If `has_values` is true, the legend has the
-    /// values of F_a(d=0) and F_a(F=0).
+    /// Returns the figure: the [`preload_chart`], and the [`distribution`] of the adhesion force at
+    /// the largest preload. `None` if there is no [`Self::staircase`]. If `has_values` is true, the
+    /// legend states the values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let staircase = self.staircase?;
         let spread = self.results.spread_of_adhesion();
@@ -53,7 +53,8 @@ impl<'a> PreloadReport<'a> {
         Some(preload_figure(self.title, chart, beside))
     }
 
-    /// Returns true if there are several random profiles, whose statistics are reported.
+    /// Returns true if there are several random profiles, so that the report states their
+    /// statistics.
     fn is_mean(&self) -> bool {
         self.results.plan().lines > 1
     }
@@ -64,7 +65,7 @@ impl<'a> PreloadReport<'a> {
         plan.scene.seed().map(|_| plan.seed_of(line))
     }
 
-    /// Returns the staircase if the user asked for its curve as a table.
+    /// Returns the staircase if the user has asked for a table of the staircase.
     fn listed_staircase(&self) -> Option<&'a Staircase> {
         self.staircase.filter(|_| self.curves)
     }
@@ -156,8 +157,8 @@ impl Report for PreloadReport<'_> {
         Some(Box::new(PreloadJson::new(self)))
     }
 
-    /// Returns a table with a row for each preload on each profile, or for each preload of the
-    /// [`Self::staircase`] if [`Self::curves`] is true.
+    /// Returns a table with a row for each preload and each profile or, if [`Self::curves`] is
+    /// true, for each preload of the [`Self::staircase`].
     fn table(&self) -> Option<Table<'_>> {
         if let Some(staircase) = self.listed_staircase() {
             return Some(curve_table(self.results, staircase));
@@ -172,7 +173,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// JSON object of the adhesion force against the preload, in SI units.
+/// JSON object of the adhesion force as a function of the preload, in SI units.
 #[derive(Serialize)]
 struct PreloadJson<'a> {
     warnings: Vec<String>,
@@ -203,7 +204,8 @@ struct StaircaseJson<'a> {
     preloads: Table<'a>,
 }
 
-/// Force at which a loading without a preload turns, and the adhesion force of the unloading.
+/// Turning point of a loading without a preload: the force in N at which the loading turns, and the
+/// adhesion force in N of the following unloading.
 #[derive(Serialize)]
 struct TurnJson {
     force: f64,
@@ -259,8 +261,8 @@ impl<'a> StaircaseJson<'a> {
     }
 }
 
-/// Returns a figure with `chart`, a [`preload_chart`], on the left and `beside`, a
-/// [`distribution`], on the right.
+/// Returns a figure of two charts. On the left is `chart`, which is a [`preload_chart`], and on the
+/// right `beside`, which is a [`distribution`].
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);
@@ -277,17 +279,18 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
     }
 }
 
-/// Row of the table of the curves of [`preload_chart`], for one preload.
+/// Row for one preload in the table of the curves of [`preload_chart`].
 #[derive(Clone, Copy)]
 struct StaircaseRow {
     preload: f64,
     adhesion_force: f64,
-    /// Statistics over the profiles; `None` if they are not known at this preload.
+    /// Statistics over the profiles; `None` if they were not computed at this preload.
     statistics: Option<Statistics>,
 }
 
 /// Returns the curves of [`preload_chart`] as a table. It has a row for each preload of the
-/// staircase, with the statistics that are known at this preload.
+/// staircase. The row contains the statistics over the profiles if they were computed at this
+/// preload.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let mut rows = Vec::with_capacity(staircase.forces.len());
@@ -327,7 +330,7 @@ fn largest_share(statistics: &Statistics) -> f64 {
     statistics.share_of_largest().unwrap_or(0.0)
 }
 
-/// Returns a table of the unloadings from all preloads on the profiles `lines`. If `has_seeds` is
+/// Returns a table of the unloadings of the profiles `lines` from all preloads. If `has_seeds` is
 /// true, the first column has the seeds of the profiles.
 pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: bool) -> Table<'_> {
     let plan = results.plan();
@@ -349,7 +352,7 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: boo
     table.done()
 }
 
-/// Unloading from a turning point, in SI units. A value is `None` if it is unknown.
+/// Unloading from a turning point, in SI units. A value that is not known is `None`.
 pub(crate) struct Unloading {
     pub(crate) turning_force: Option<f64>,
     pub(crate) turning_indentation: Option<f64>,
@@ -395,7 +398,7 @@ fn value_or_dash(value: Option<f64>, unit: &str) -> String {
 
 /// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
 /// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
-/// If `has_values` is true, the legend has the values of F_a(d=0) and F_a(F=0).
+/// If `has_values` is true, the legend states the values of F_a(d=0) and F_a(F=0).
 pub fn preload_chart(
     staircase: &Staircase,
     spread: &[(f64, Statistics)],
@@ -445,8 +448,8 @@ fn spread_layers(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<Lay
     ]
 }
 
-/// Returns the corners of the statistics as a function of the preload, drawn as a staircase: each
-/// value is constant up to the next preload.
+/// Returns the corners of the statistics as functions of the preload. They are drawn as a
+/// staircase, in which each value is constant up to the next preload.
 fn steps(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<(f64, Statistics)> {
     // The loading that turns at first touch has no preload and is left out.
     let (touch, _) = staircase.touch;
@@ -475,13 +478,13 @@ fn preload_axis(staircase: &Staircase) -> ChartAxis {
     ChartAxis::new(scale, span, "preload", "F_n", "N")
 }
 
-/// Turning point of a loading without a preload, marked in the chart.
+/// Turning point of a loading without a preload. The chart marks it.
 struct Turn {
     symbol: &'static str,
     protocol: &'static str,
-    /// Force at which the loading turns, N.
+    /// Force in N at which the loading turns.
     force: f64,
-    /// Adhesion force after this turn, N.
+    /// Adhesion force in N of the unloading from this turning point.
     adhesion_force: f64,
     sign: Sign,
     ink: Ink,
@@ -569,8 +572,9 @@ fn force_axis(scale_of_preloads: AxisScale, forces: &[f64]) -> ChartAxis {
 }
 
 /// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the
-/// computed preload nearest to `preload` in N; `None` for fewer than two profiles. If `forces`, an
-/// axis of adhesion forces, is given, it is the vertical axis of the chart.
+/// computed preload nearest to `preload` in N. `None` if there are fewer than two profiles.
+/// `forces` is an axis of adhesion forces that becomes the vertical axis of the chart; with `None`,
+/// the chart makes its own.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut sorted) = results.forces_near(preload)?;
     if sorted.len() < 2 {
@@ -579,7 +583,7 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>)
     let own = sorted[0];
     sorted.sort_by(f64::total_cmp);
 
-    // Returns the share in per cent of the given number of profiles with the smallest forces.
+    // Returns the share of a number of profiles among all profiles, in per cent.
     let share = |profiles: usize| 100.0 * profiles as f64 / sorted.len() as f64;
     let mut steps = Vec::with_capacity(2 * sorted.len());
     for (index, &force) in sorted.iter().enumerate() {

@@ -1,24 +1,25 @@
-//! Origin of a result, written into its file: version, command, measured files and scene.
+//! Origin of a result: version, command, measured files and scene. It is written into the file of
+//! the result.
 //!
-//! CSV begins with these lines, each after `# `. SVG has the same lines as metadata. JSON begins
-//! with version and command.
+//! In CSV, the lines of the origin come first, each after `# `. In SVG, the same lines are
+//! metadata. In JSON, the first entries are the version and the command.
 
 use asperity_data::{path_name, printable, sha256_of};
 use asperity_scene::text::to_ron;
 use asperity_scene::{Document, Scene};
 use std::path::{Path, PathBuf};
 
-/// Beginning of a line that names a measured file.
+/// Beginning of a line with the SHA-256 and the name of a measured file.
 const HASH: &str = "sha256: ";
 
-/// Number of hexadecimal digits of a SHA-256 that a message shows.
+/// Number of hexadecimal digits of a SHA-256 that an error message shows.
 const SHOWN_DIGITS: usize = 12;
 
 /// Beginning of the line with the command.
 const COMMAND: &str = "command: ";
 
-/// Returns the first lines of a table, which say how to compute it again: version, command,
-/// measured files with their SHA-256, and scene. `folder` is the folder of the scene, and
+/// Returns the first lines of a table, from which the table can be computed again: version,
+/// command, measured files with their SHA-256, and scene. `folder` is the folder of the scene, and
 /// `destination` is the folder of the table.
 ///
 /// # Errors
@@ -38,8 +39,8 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Returns lines for the metadata of a figure, which say how to compute it again: version, command,
-/// and the scenes that have a name.
+/// Returns lines for the metadata of a figure, from which the figure can be computed again:
+/// version, command, and all scenes that have a name.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let mut text = version_and_command(command, "");
     for (name, scene) in scenes {
@@ -52,8 +53,8 @@ pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     text
 }
 
-/// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the
-/// version, and `command`.
+/// Returns the keys and texts of two entries of a JSON object, taken from lines of
+/// [`scene_provenance`]: `program` with the version, and `command`.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let program = provenance.lines().next();
     let command = provenance
@@ -69,8 +70,8 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     entries
 }
 
-/// Returns the first lines of a table without a scene: version, command, and measured files with
-/// their SHA-256. `destination` is the folder of the table.
+/// Returns the first lines of a table that was computed without a scene: version, command, and
+/// measured files with their SHA-256. `destination` is the folder of the table.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read.
@@ -108,7 +109,7 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{command}\n")
 }
 
-/// Checks that the measured files of a scene are the same as when the table with this scene was
+/// Checks that the measured files of a scene have not changed since the table with this scene was
 /// written.
 ///
 /// # Errors
@@ -138,7 +139,7 @@ pub fn check_measured_files(document: &Document) -> Result<(), String> {
     Ok(())
 }
 
-/// Measured file in the first lines of a table.
+/// Measured file that is named in the first lines of a table.
 struct RecordedFile<'a> {
     name: String,
     sha256: &'a str,
@@ -157,8 +158,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the path by which a table in the folder `destination` names a file. `file` is the path
-/// relative to `folder`. If the folders differ, the result is an absolute path.
+/// Returns the path with which a table in the folder `destination` names a file. `file` is the path
+/// of the file relative to `folder`. If the two folders differ, the returned path is absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     if is_same_folder(folder, destination) {
         return file.to_owned();

@@ -1,5 +1,6 @@
-//! Comparison of a scene on profiles with the same scene in three dimensions, as text, JSON, a
-//! table and a figure.
+//! Comparison of two computations of a scene, with profiles and in three dimensions, as text, JSON,
+//! a table and a figure. In three dimensions, rough square surfaces (called squares) touch an
+//! elastic half-space.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -21,7 +22,7 @@ use serde::Serialize;
 use std::time::{Duration, Instant};
 
 /// Report on the comparison of two computations of a rough contact: with profiles, as this program
-/// does, and in three dimensions.
+/// usually does, and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
     pub title: &'a str,
@@ -34,7 +35,8 @@ pub struct ReferenceReport<'a> {
     pub wording: Wording,
 }
 
-/// Returns the ratio of both models with the half-width of its interval, as text: `0.84 ± 0.05`.
+/// Returns the ratio of the results of the two models, with the half-width of its interval, as
+/// text: `0.84 ± 0.05`.
 fn ratio(compared: &Compared) -> String {
     let ratio = decimals(compared.ratio);
     match compared.error {
@@ -51,23 +53,24 @@ fn decimals(value: f64) -> String {
     }
 }
 
-/// Computing time in s from which a comparison is announced as long.
+/// A comparison that is estimated to take at least this time in s is announced as long.
 const LONG: f64 = 10.0;
 
-/// Smallest computed share of the squares from which the remaining time is estimated.
+/// The remaining time is estimated from the progress after this share of the squares has been
+/// computed.
 const LEAST_SHARE: f64 = 0.02;
 
-/// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes
-/// the contact of a number of random rough squares.
+/// Progress of a comparison of a scene with three dimensions, in words. Such a comparison computes
+/// the contact of several random rough squares.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
     maps: u64,
     done: u64,
     lines_done: u64,
-    /// Estimated share of the computation of the squares that is done.
+    /// Estimated share of the computation of the squares that is finished.
     share: f64,
-    /// Estimated time of all squares, s.
+    /// Estimated time in s that the computation of all squares takes.
     seconds: f64,
 }
 
@@ -86,7 +89,7 @@ impl Default for ReferenceProgress {
 
 impl ReferenceProgress {
     /// Returns a line of text on an event of the comparison, such as a finished square. The second
-    /// value is true if the line announces a comparison of at least 10 s.
+    /// value is true if the line announces a comparison that takes at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         let line = match *event {
             ReferenceEvent::Begins {
@@ -116,8 +119,8 @@ impl ReferenceProgress {
                 self.squares_in_words()
             }
             ReferenceEvent::Loaded { share } => {
-                // The number of loads is an estimate, so the sum of the shares may exceed 1 before
-                // the end.
+                // The number of loads is estimated in advance. Therefore the sum of the shares may
+                // exceed 1 before the end.
                 self.share = (self.share + share).min(0.99);
                 self.squares_in_words()
             }
@@ -129,7 +132,7 @@ impl ReferenceProgress {
         (line, false)
     }
 
-    /// Returns in words how many squares are finished, the share of the computation that is done,
+    /// Returns in words how many squares are finished, which share of the computation is finished,
     /// and the remaining time.
     fn squares_in_words(&self) -> String {
         let share_of_squares = self.done as f64 / self.maps.max(1) as f64;
@@ -146,7 +149,7 @@ impl ReferenceProgress {
         format!("{done} of {squares}, {share}, {left} left")
     }
 
-    /// Returns in words how many finished squares are lost if the comparison is stopped now.
+    /// Returns in words how many finished squares are lost if the user stops the comparison now.
     pub fn lost(&self) -> String {
         if self.maps == 0 {
             return "stopped before the first square".to_owned();
@@ -161,9 +164,9 @@ fn in_words(seconds: f64) -> String {
 }
 
 /// Returns in a few words the progress of the computation of force loops of random rough squares in
-/// three dimensions. After the first results the words have the ratio of the result with profiles
-/// to the result in three dimensions. The result is the adhesion force, or the indentation if
-/// `is_adhesive` is false.
+/// three dimensions. After the first results, the words state a ratio: the result with profiles
+/// divided by the result in three dimensions. The result is the adhesion force, or the indentation
+/// if `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let maps = loops.maps;
     let Some(compared) = loops.headline() else {
@@ -182,9 +185,10 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     format!("{symbol} line/three dimensions {ratio}{squares}")
 }
 
-/// Returns a sentence with the ratio of the mean over random profiles to the mean in three
-/// dimensions, and with the error of the model that follows from this ratio. The means are of the
-/// adhesion force, or of the indentation without adhesion. Returns `None` if the ratio is unknown.
+/// Returns a sentence with a ratio and the error of the model that follows from the ratio. The
+/// ratio is the mean over random profiles divided by the mean in three dimensions. The means are of
+/// the adhesion force, or of the indentation without adhesion. Returns `None` if the ratio is
+/// unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let ratio = ratio(reference.headline()?);
     let quantity = if reference.adhesion_force.is_some() {
@@ -218,8 +222,9 @@ fn error_sentence(reference: &Reference) -> String {
     }
 }
 
-/// Returns in words the difference between line and three dimensions with its interval and the
-/// compared waves: `line against three dimensions, +4 ± 45 %`; `None` if the difference is unknown.
+/// Returns in words the difference between the results with profiles and in three dimensions, with
+/// its interval and with the compared waves: `line against three dimensions, +4 ± 45 %`. Returns
+/// `None` if the difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
@@ -254,8 +259,8 @@ pub fn model_words(reference: &Reference) -> String {
     }
 }
 
-/// Returns which waves are compared, if the squares leave out some waves of the scene, for example
-/// `, of waves 4 to 8 of 4 to 3 200`; otherwise empty.
+/// Returns which waves are compared, for example `, of waves 4 to 8 of 4 to 3 200`, if the squares
+/// do not have all waves of the scene; otherwise an empty text.
 pub fn omitted_waves(reference: &Reference) -> String {
     let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
         return String::new();
@@ -270,17 +275,19 @@ fn percent_or_unknown(share: Option<f64>) -> String {
     share.map_or_else(|| "not known".to_owned(), |share| percent(share, 2))
 }
 
-/// Returns the headings of a table with both models.
+/// Returns the headings of a table that compares both models.
 fn header() -> [String; 4] {
     ["", "line", "three dimensions", "ratio"].map(String::from)
 }
 
-/// Returns the headings of a table with both models and the error of the grid of the squares.
+/// Returns the headings of a table that compares both models and states the error of the grid of
+/// the squares.
 fn header_with_grid() -> [String; 5] {
     ["", "line", "three dimensions", "ratio", "grid"].map(String::from)
 }
 
-/// Returns the row of a quantity in a table with both models and the error of the grid.
+/// Returns the row of a quantity in a table that compares both models and states the error of the
+/// grid.
 fn compared_row(name: String, compared: &Compared, unit: &str) -> [String; 5] {
     [
         name,
@@ -291,7 +298,7 @@ fn compared_row(name: String, compared: &Compared, unit: &str) -> [String; 5] {
     ]
 }
 
-/// Returns the row of a quantity in the table of the roughness of lines and squares.
+/// Returns the row of a quantity in the table of the roughness of profiles and squares.
 fn roughness_row(name: &str, line: f64, half_space: f64, unit: &str) -> [String; 4] {
     [
         name.to_owned(),
@@ -302,7 +309,7 @@ fn roughness_row(name: &str, line: f64, half_space: f64, unit: &str) -> [String;
 }
 
 impl ReferenceReport<'_> {
-    /// Returns sentences that state what is compared.
+    /// Returns sentences that state which bodies and which waves are compared.
     fn compared(&self) -> String {
         let options = &self.reference.options;
         let cells = options.cells;
@@ -327,8 +334,8 @@ impl ReferenceReport<'_> {
         sentences
     }
 
-    /// Returns a sentence on the part of the loading that is compared; `None` if the whole loading
-    /// of the scene is compared.
+    /// Returns a sentence on the part of the loading that is compared; `None` if this is the whole
+    /// loading of the scene.
     fn compared_loading(&self) -> Option<String> {
         let reference = self.reference;
         if reference.compared_loading[..] == self.scene.loading[..] {
@@ -348,7 +355,8 @@ impl ReferenceReport<'_> {
         ))
     }
 
-    /// Adds a table of the roughness of lines and squares.
+    /// Adds a table of the roughness of the equivalent lines (profiles) and of the square surfaces
+    /// on the half-space.
     fn add_roughness(&self, sheet: &mut Sheet) {
         let Some(roughness) = self.reference.roughness else {
             return;
@@ -394,8 +402,8 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Adds a table of the loading without adhesion, and a sentence on the forces that are left
-    /// out.
+    /// Adds a table of the loading without adhesion, and a sentence on the forces that are not
+    /// compared.
     fn add_loading(&self, sheet: &mut Sheet) {
         sheet.heading(
             "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
@@ -416,7 +424,7 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Adds a table of the adhesion in both models. For a scene without adhesion nothing is added.
+    /// Adds a table of the adhesion in both models. Adds nothing for a scene without adhesion.
     fn add_adhesion(&self, sheet: &mut Sheet) {
         let reference = self.reference;
         let quantities = [
@@ -443,8 +451,8 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Returns a sentence on the forces at which too few grid cells are in contact; `None` if there
-    /// is no such force.
+    /// Returns a sentence on the forces that are not compared, because too few grid cells are in
+    /// contact; `None` if there are no such forces.
     fn left_out(&self) -> Option<String> {
         let left_out = &self.reference.left_out;
         let finer_grid = left_out.first()?.grid;
@@ -485,7 +493,8 @@ impl ReferenceReport<'_> {
         (rows, self.largest_error())
     }
 
-    /// Returns an error as text, with the compared waves if some are left out.
+    /// Returns an error as text. If some waves of the scene are not compared, the text also states
+    /// the compared waves.
     fn with_waves(&self, error: Option<f64>) -> String {
         let words = percent_or_unknown(error);
         if error.is_none() {
@@ -552,9 +561,9 @@ impl Report for ReferenceReport<'_> {
         Some(Box::new(ReferenceJson::new(self)))
     }
 
-    /// Returns a table of the loading without adhesion. A row has a force, then indentation and
-    /// stiffness at this force: the mean over profiles, the mean in three dimensions, and the ratio
-    /// of these means.
+    /// Returns a table of the loading without adhesion, with a row for each force. For the
+    /// indentation and the stiffness at this force, a row has the mean over profiles, the mean in
+    /// three dimensions, and the ratio of these means.
     fn table(&self) -> Option<Table<'_>> {
         let table = Table::of(|| self.reference.loading.iter())
             .real("force", |loaded| loaded.force)
@@ -576,8 +585,8 @@ impl Report for ReferenceReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at
-    /// each force, in both models.
+    /// Returns a chart of the loading without adhesion. For both models, it shows the mean and the
+    /// quartiles of the indentation at each force.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
         let mut forces = Vec::new();
@@ -616,7 +625,7 @@ fn logarithmic_axis(values: &[f64], name: &str, symbol: &str, unit: &str) -> Cha
     ChartAxis::new(scale, Span::around(coordinates, 0.05), name, symbol, unit)
 }
 
-/// Style in which the indentation of one model is drawn over the force.
+/// Style in which the chart shows the indentation of one model over the force.
 struct LayersOfModel {
     name: &'static str,
     ink: Ink,
@@ -649,7 +658,7 @@ impl LayersOfModel {
     }
 }
 
-/// JSON object of a comparison, in SI units.
+/// JSON object of a comparison of profiles with three dimensions, in SI units.
 #[derive(Serialize)]
 struct ReferenceJson<'a> {
     scene: &'a Scene,
@@ -674,7 +683,7 @@ struct ReferenceJson<'a> {
     seconds_of_square: f64,
 }
 
-/// Numbers of one model, or ratios between both models.
+/// Numbers of one model, or ratios of the numbers of both models.
 #[derive(Serialize)]
 struct ModelJson<V> {
     #[serde(flatten)]
@@ -685,22 +694,22 @@ struct ModelJson<V> {
     loading: Vec<LoadedJson<V>>,
 }
 
-/// Numbers or ratios at one force of the loading without adhesion.
+/// Numbers of one model, or ratios of both models, at one force of the loading without adhesion.
 #[derive(Serialize)]
 struct LoadedJson<V> {
     force: f64,
     indentation: V,
     stiffness: V,
-    /// Mean area of contact of the squares, m².
+    /// Mean area of contact of the squares in m².
     #[serde(skip_serializing_if = "Option::is_none")]
     contact_area: Option<f64>,
-    /// Error of the grid of the squares. The outer `None` leaves out the entry, the inner `None` is
-    /// an unknown error.
+    /// Relative error due to the grid of the squares. The outer `None` leaves out the entry in the
+    /// JSON object, and the inner `None` is an unknown error.
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<Option<f64>>,
 }
 
-/// Ratio of the means of both models.
+/// Ratio of the means that the two models give.
 #[derive(Serialize)]
 struct RatioJson {
     value: f64,
@@ -719,8 +728,8 @@ impl RatioJson {
 }
 
 impl<V> ModelJson<V> {
-    /// Collects one number from each comparison. Roughness, areas and errors of the grid are not
-    /// set.
+    /// Collects one number from each comparison of a quantity. The roughness, the areas of contact
+    /// and the errors of the grid are not set.
     fn new(reference: &Reference, number: fn(&Compared) -> V) -> Self {
         let mut loading = Vec::with_capacity(reference.loading.len());
         for loaded in &reference.loading {
@@ -741,7 +750,7 @@ impl<V> ModelJson<V> {
         }
     }
 
-    /// Adds the error of the grid of the squares at each force.
+    /// Adds, at each force, the error due to the grid of the squares.
     fn with_grid(mut self, reference: &Reference) -> Self {
         for (point, loaded) in self.loading.iter_mut().zip(&reference.loading) {
             point.grid = Some(loaded.grid());
@@ -749,7 +758,7 @@ impl<V> ModelJson<V> {
         self
     }
 
-    /// Adds the area of contact of the squares at each force.
+    /// Adds, at each force, the area of contact of the squares.
     fn with_area(mut self, reference: &Reference) -> Self {
         for (point, loaded) in self.loading.iter_mut().zip(&reference.loading) {
             point.contact_area = Some(loaded.area);
@@ -846,8 +855,8 @@ mod tests {
         assert_eq!(figure.charts[0].layers.len(), 4);
     }
 
-    /// All errors of the budget state which waves are compared. Forces with few cells in contact
-    /// are left out.
+    /// All errors of the budget state which waves are compared. Forces at which few cells are in
+    /// contact are not compared.
     #[test]
     fn what_is_left_out_is_said() {
         let document = open("pressure-sensitive").unwrap();

@@ -1,5 +1,5 @@
-//! A result in up to four forms (text, JSON, table, figure), and the formats in which these forms
-//! are written.
+//! A result has up to four forms: text, JSON, table and figure. A format says how a form is written
+//! into a file.
 
 use crate::provenance::entries;
 use asperity_data::{Kind, Table, path_name, printable, write_json};
@@ -36,8 +36,8 @@ pub trait Report {
 
 /// Value that can be written as JSON.
 pub trait Json {
-    /// Writes the value as JSON. If the value is an object, the keys and texts of `head` become its
-    /// first entries.
+    /// Writes the value as JSON. If the value is an object, its first entries are the keys and
+    /// texts of `head`.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -47,8 +47,8 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure as a report. A figure with a single chart can also be written as a table of the points
-/// of its curves.
+/// Report that consists of a figure. If the figure has a single chart, the points of its curves can
+/// also be written as a table.
 impl Report for Figure {
     /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of
     /// several charts.
@@ -73,7 +73,7 @@ impl Report for Figure {
     }
 }
 
-/// Point of a curve of a chart, with the name of the curve.
+/// Point on a curve of a chart, with the name of the curve.
 struct PointOfCurve {
     /// Name of the curve.
     curve: String,
@@ -95,8 +95,8 @@ fn column_name(axis: &ChartAxis) -> String {
     format!("{} ({})", axis.symbol_or_name(), axis.unit)
 }
 
-/// Writes a report in a format. `provenance` has the lines of
-/// [`scene_provenance`](crate::scene_provenance), which only CSV, SVG and JSON contain.
+/// Writes a report in a format. `provenance` contains the lines of
+/// [`scene_provenance`](crate::scene_provenance). They are written only into CSV, SVG and JSON.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be
@@ -153,7 +153,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats, of which a given result may lack some.
+    /// All formats. A given result may lack the forms that some of them need.
     pub const ALL: [Format; 7] = [
         Format::Text,
         Format::Json,
@@ -188,8 +188,9 @@ impl Format {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// Returns the format of a result: the format of the extension of `file`, otherwise `chosen` by
-    /// the user, otherwise `usual`. `formats` are the formats that the result has.
+    /// Returns the format in which a result is written: the format of the extension of `file`;
+    /// without an extension, the format `chosen` by the user; otherwise `usual`. `formats` are the
+    /// formats that the result has.
     ///
     /// # Errors
     /// Returns an error if the chosen format or the format of the extension is not among `formats`,
@@ -231,7 +232,7 @@ impl Format {
     }
 }
 
-/// Returns the index in `allowed` of the extension of a file; `None` for a name without an
+/// Returns the index in `allowed` of the extension of a file; `None` if the name of the file has no
 /// extension.
 ///
 /// # Errors
@@ -299,8 +300,8 @@ mod tests {
         assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
     }
 
-    /// The figures are of every kind, of usual scenes and of scenes without adhesion, roughness or
-    /// contact.
+    /// The test has figures of every kind, of usual scenes and of scenes without adhesion,
+    /// roughness or contact.
     #[test]
     fn every_figure_lies_within_its_picture() {
         use crate::preloads::PreloadReport;

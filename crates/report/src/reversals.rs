@@ -12,10 +12,10 @@ use asperity_scene::theory::ReversalMap;
 use asperity_study::{Results, Staircase};
 use serde::Serialize;
 
-/// Largest number of rows of a table in the text.
+/// Largest number of rows of a table in the text report.
 const MOST_ROWS: usize = 16;
 
-/// Largest number of cells along either axis of a map in a figure.
+/// Largest number of cells of a heat map along each of its axes.
 const MOST_CELLS: usize = 128;
 
 /// Report on the unloadings of one profile from many turning points, and on the Everett function. A
@@ -29,11 +29,11 @@ pub struct ReversalReport<'a> {
     pub scene: &'a Scene,
     /// Force F(d_r, d) along the unloading from each turning point d_r.
     pub map: &'a ReversalMap,
-    /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`];
+    /// Adhesion force as a function of the preload, with the quantities [`Results::OF_PRELOADS`];
     /// `None` if no preload presses the bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force of one profile as a function of the preload, for the figure. `None` leaves
-    /// this curve out.
+    /// Adhesion force of one profile as a function of the preload, for the figure; `None` for a
+    /// figure without this curve.
     pub staircase: Option<&'a Staircase>,
     /// Premises of the model that the deepest loading does not meet.
     pub warnings: &'a [Warning],
@@ -67,8 +67,8 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// Returns, for each turning point, the force and the Everett function at the indentations up
-    /// to this turning point.
+    /// Returns for each turning point the force and the Everett function at all indentations that
+    /// are not above this turning point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(ReversalJson::new(self)))
     }
@@ -77,8 +77,8 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a figure with a heat map of the Everett function. If [`Self::staircase`] is given, a
-    /// chart of the adhesion force over the preload comes first.
+    /// Returns a figure with a heat map of the Everett function. If there is a [`Self::staircase`],
+    /// the figure begins with a chart of the adhesion force over the preload.
     fn figure(&self) -> Option<Figure> {
         let mut charts = Vec::new();
         if let Some(staircase) = self.staircase {
@@ -106,9 +106,10 @@ struct ReversalJson<'a> {
     reversals: Table<'a>,
     indentations: &'a [f64],
     step: f64,
-    /// For each turning point, the forces in N of the unloading at the indentations.
+    /// For each turning point, the forces in N at the indentations of the unloading.
     forces: Vec<&'a [f64]>,
-    /// For each turning point, the Everett function in N at the indentations.
+    /// For each turning point, the values in N of the Everett function at the indentations of the
+    /// unloading.
     everett: Vec<Vec<Option<f64>>>,
 }
 
@@ -202,8 +203,9 @@ pub fn everett_chart(map: &ReversalMap) -> Chart {
     }
 }
 
-/// Returns the indices of the turning points or indentations of a fine map that are drawn. More
-/// cells could not be distinguished in the figure.
+/// Returns the indices of the turning points, or of the indentations, that a heat map shows. If
+/// there are more than [`MOST_CELLS`], some are left out, because the figure could not show them
+/// separately.
 fn drawn_indices(count: usize) -> Vec<usize> {
     let step = count.div_ceil(MOST_CELLS).max(1);
     (0..count).step_by(step).collect()

@@ -1,5 +1,5 @@
-//! Results of a computed scene as JSON, its force curve as a table and a figure, and the table of a
-//! profile.
+//! Results of a computed scene as text and JSON, its force curve as a table and a figure, and the
+//! table of a profile.
 
 use crate::ensemble::{EnsembleJson, caption};
 use crate::loop_chart::{LoopUnits, force_figure};
@@ -26,8 +26,8 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// Way in which the number of springs was chosen so that the error is within a tolerance;
-    /// `None` if no tolerance was given.
+    /// Choice of the number of springs with which the error is within a tolerance; `None` if no
+    /// tolerance was given.
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is
     /// unknown.
@@ -43,8 +43,8 @@ pub struct RunReport<'a> {
 }
 
 impl<'a> RunReport<'a> {
-    /// Returns the estimate of the error; `None` if a premise of the model does not hold, because
-    /// the error is unknown then.
+    /// Returns the estimate of the error; `None` if a premise of the model is not met, because the
+    /// error is then unknown.
     fn known_estimate(&self) -> Option<&'a Estimate> {
         let mut warnings = self.outcome.warnings.iter();
         if warnings.any(Warning::leaves_errors_unknown) {
@@ -72,7 +72,7 @@ impl Report for RunReport<'_> {
         Some(Box::new(RunJson::new(self)))
     }
 
-    /// Returns the force curve as a table. For a scene with an instrument it also has the
+    /// Returns the force curve as a table. If the scene has an instrument, the table also has the
     /// displacement of the instrument.
     fn table(&self) -> Option<Table<'_>> {
         let stiffness = self
@@ -138,12 +138,13 @@ struct RunJson<'a> {
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
     dissipated_energy: Option<f64>,
-    /// Loop area ∮F dD in J. The outer `None` leaves out the entry for a scene without an
-    /// instrument, the inner `None` is an unknown area.
+    /// Loop area ∮F dD in J. The outer `None` leaves out the entry in the JSON object, for a scene
+    /// without an instrument. The inner `None` is an unknown area.
     #[serde(skip_serializing_if = "Option::is_none")]
     loop_area: Option<Option<f64>>,
-    /// Displacement of the instrument at pull-off in m. The outer `None` leaves out the entry for a
-    /// scene without an instrument, the inner `None` is a loading without a pull-off.
+    /// Displacement in m of the instrument at pull-off. The outer `None` leaves out the entry in
+    /// the JSON object, for a scene without an instrument. The inner `None` belongs to a loading
+    /// without a pull-off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pull_off_displacement: Option<Option<f64>>,
     tabor_number: Option<f64>,
@@ -259,9 +260,9 @@ impl<'a> HistogramJson<'a> {
 /// Report on a force curve along which the user moved the body by hand in the explorer.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene of the body. The loading in the scene is replaced by [`Self::loading`].
+    /// Scene of the body. [`Self::loading`] takes the place of the loading in this scene.
     pub scene: &'a Scene,
-    /// Stages of the loading, which begins at separation.
+    /// Stages of the manual loading, beginning at separation.
     pub loading: &'a [Move],
     /// Points of the force curve along the stages of [`Self::loading`].
     pub path: &'a [CurvePoint],
@@ -307,7 +308,7 @@ struct CurveRow<'a> {
     /// Index of the loading stage.
     stage: u64,
     point: &'a CurvePoint,
-    /// Displacement of the instrument, m.
+    /// Displacement of the instrument in m.
     displacement: f64,
 }
 
@@ -325,7 +326,7 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
         .real("stored_energy", |row| row.point.stored_energy)
 }
 
-/// A profile as a report. The table has a row for each spring, with the position x and the height z
+/// Report on a profile. Its table has a row for each spring, with the position x and the height z
 /// in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {

@@ -1,4 +1,5 @@
-//! Figures of the contact: the profile in contact, and the contact patches at each indentation.
+//! Figures of the contact: the profile at the largest force, and the contact patches at each
+//! indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
 use asperity_contact::motion::Leg;
@@ -16,11 +17,10 @@ const ROWS: usize = 160;
 /// Largest number of loading stages whose contact patches are drawn.
 const MOST_STAGES: usize = 4;
 
-/// Width of a gap between two contact patches, as a share of the profile, below which the gap is
-/// not drawn.
+/// A gap between two contact patches that is narrower than this share of the profile is not drawn.
 const LEAST_GAP: f64 = 5e-4;
 
-/// Size of the frame of a chart of contact patches, px.
+/// Width and height in px of the frame of a chart of contact patches.
 const PATCHES: (f64, f64) = (400.0, 300.0);
 
 /// Contact patches, and the indentation in m at which they exist.
@@ -40,21 +40,22 @@ impl Patches {
     }
 }
 
-/// Contact patches of a scene, collected while its loading is computed, from which figures are
-/// drawn.
+/// Contact patches of a scene, from which figures are drawn. They are collected while the loading
+/// of the scene is computed.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
     /// Largest force of the loading stages so far in N, with the patches at this force.
     preload: Option<(f64, Patches)>,
     stages: Vec<(Direction, Vec<Patches>)>,
-    /// Number of loading stages with contact that exceed [`MOST_STAGES`].
+    /// Number of loading stages with contact that are not drawn, because there are more than
+    /// [`MOST_STAGES`].
     left_out: usize,
 }
 
 impl ContactSets {
-    /// Begins a collection without patches. [`Self::patches_figure`] needs `over_indentation` to be
-    /// true.
+    /// Begins a collection without patches. [`Self::patches_figure`] is only possible if
+    /// `over_indentation` is true.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets {
             over_indentation,
@@ -62,8 +63,8 @@ impl ContactSets {
         }
     }
 
-    /// Adds the patches of a loading stage that was just computed. `record` has the force curve of
-    /// this stage, and `leg` returns the patches at any indentation of this stage.
+    /// Adds the patches of a loading stage that has just been computed. `record` contains the force
+    /// curve of this stage, and `leg` returns the patches at any of its indentations.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         if let Some((_, point)) = Branch::preload(slice::from_ref(record)) {
             let preload = self.preload.as_ref();
@@ -76,7 +77,7 @@ impl ContactSets {
         }
     }
 
-    /// Adds the patches at many indentations of a loading stage with contact.
+    /// Adds the patches at [`ROWS`] indentations of a loading stage with contact.
     fn add_stage(&mut self, record: &LegRecord, leg: &Leg) {
         let mut low = f64::INFINITY;
         let mut high = f64::NEG_INFINITY;
@@ -102,8 +103,8 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic
-    /// surface over the position along the profile.
+    /// Returns the figure of the contact at the largest force. It shows the heights of the rigid
+    /// profile and of the elastic surface over the position along the profile.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches::default());
         let (force, at_force) = self.preload.as_ref().unwrap_or(&separated);
@@ -115,7 +116,7 @@ impl ContactSets {
         };
         let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
-        // If the surface is far above the profile, the range of the axis does not contain it.
+        // An elastic surface far above the profile is left out of the range of the axis.
         let level = section.level.min(high + 0.5 * (high - low));
         let z = Span::around([low, high, level].into_iter(), 0.05);
         let mut chart = section.chart(outcome.line, z);
@@ -132,7 +133,7 @@ impl ContactSets {
     }
 
     /// Returns the figure that shows at which positions along the profile there is contact at each
-    /// indentation, with a chart for each of the first four loading stages with contact.
+    /// indentation. It has a chart for each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let y = self.indentation_axis();
         let mut charts = Vec::new();
@@ -151,14 +152,15 @@ impl ContactSets {
         }
     }
 
-    /// Returns the axis of the indentations of all charts.
+    /// Returns the axis of indentations, which all charts share.
     fn indentation_axis(&self) -> ChartAxis {
         let rows = self.stages.iter().flat_map(|(_, rows)| rows);
         let span = Span::around(rows.map(|row| row.indentation), 0.02);
         ChartAxis::new(AxisScale::Linear, span, "indentation", "d", "m")
     }
 
-    /// Returns a note on loading stages that are not drawn; `None` if all stages are drawn.
+    /// Returns a note on loading stages that the figure does not show; `None` if it shows all
+    /// stages.
     fn note(&self) -> Option<Label> {
         let drawn = self.stages.len();
         if drawn == 0 {
@@ -202,8 +204,8 @@ fn patches_chart(
     }
 }
 
-/// Returns the positions in m of both ends of each contact patch. Patches with only a small gap
-/// between them are drawn as one patch.
+/// Returns the positions in m of the two ends of each drawn contact patch. If the gap between two
+/// patches is small, the two are drawn as one patch.
 fn drawn_patches(patches: &[Patch], line: LineFacts) -> Vec<(f64, f64)> {
     let least_gap = LEAST_GAP * line.length;
     let position = |spring: usize| (line.first + spring) as f64 * line.spacing;
@@ -313,8 +315,8 @@ mod tests {
                 .flat_map(|row| &row.patches)
                 .map(|patch| patch.springs().len())
                 .sum();
-            // Even a gap of a single spring is wider than the gaps that are not drawn, so the
-            // lengths are equal.
+            // Even a gap of a single spring is wide enough to be drawn. Therefore the total length
+            // of the drawn patches is the contact length.
             assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
             assert_eq!(rows.len(), ROWS);
         }

@@ -1,5 +1,5 @@
-//! Power spectra of a computed scene: of its measured files, of its profile as the scene defines
-//! it, and of the heights of its profile.
+//! Power spectra of a computed scene: the spectra of its measured surfaces, the spectrum that its
+//! profile should have, and the spectrum of the heights of its profile.
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
@@ -21,8 +21,8 @@ const BYTES: u64 = 40;
 pub struct SceneSpectra {
     /// Spectra of the measured surfaces and of the profile.
     pub spectra: Spectra,
-    /// Moments of random profiles with the measured spectrum, with their errors; `None` without
-    /// such profiles.
+    /// Moments, with their errors, of random profiles with the measured spectrum; `None` if the
+    /// scene has no such profiles.
     pub moments: Option<LineMoments>,
     /// Reason why a spectrum could not be computed; `None` if all spectra were computed.
     pub missing: Option<String>,
@@ -73,7 +73,8 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     analyses.map_err(|error| error.to_string())
 }
 
-/// Returns the line that is equivalent to measured surfaces; `None` without measured surfaces.
+/// Returns the line that is equivalent to measured surfaces; `None` if there are no measured
+/// surfaces.
 fn equivalent_line(faces: &[&Analysis]) -> Option<EquivalentLine> {
     if faces.is_empty() {
         return None;
@@ -114,7 +115,8 @@ fn intended_power(
     points
 }
 
-/// Returns logarithmically spaced modes from the first to the last mode of a profile.
+/// Returns modes between the first and the last mode of a profile, at equal distances on a
+/// logarithmic axis.
 fn drawn_modes(first: u64, last: u64) -> Vec<u64> {
     let mut modes = Vec::new();
     for step in 0_u32.. {
@@ -130,8 +132,8 @@ fn drawn_modes(first: u64, last: u64) -> Vec<u64> {
     modes
 }
 
-/// Returns the spectrum of the heights of the profile without its form. A profile that consists of
-/// measured heights is not periodic, so its spectrum is computed in another way.
+/// Returns the spectrum of the heights of the profile without its form. If the profile consists of
+/// measured heights, it is not periodic, so that its spectrum is computed in another way.
 fn power_of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());
@@ -179,8 +181,8 @@ mod tests {
         let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (2, 200), seed: 3)";
         for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
             let found = spectra(roughness, form).spectra;
-            // Each of the first ranges of wave numbers contains a single mode, and has the power of
-            // the spectrum there.
+            // In the range of small wave numbers, each interval contains only one mode and has the
+            // power of the spectrum at this mode.
             let single = |q: f64| {
                 found
                     .line

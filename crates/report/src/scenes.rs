@@ -26,9 +26,9 @@ pub struct ComparedScene<'a> {
 /// Report that compares two or more computed scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
-    /// Computed scenes, in the order of the command.
+    /// Computed scenes, in the order in which the command names them.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True if the figure has a chart for each scene; false for one chart with the force curves of
+    /// True if the figure has a chart for each scene; false if one chart has the force curves of
     /// all scenes.
     pub panels: bool,
 }
@@ -83,8 +83,8 @@ const QUANTITIES: [ComparedQuantity; 8] = [
     },
 ];
 
-/// Returns a row of a table: a name, and the values with their ratios to the first value; `None` if
-/// no scene has a value.
+/// Returns a row of a table: a name, and for each scene the value with its ratio to the value of
+/// the first scene. `None` if no scene has a value.
 fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
     let first = *values.first()?;
     if values.iter().all(Option::is_none) {
@@ -97,8 +97,8 @@ fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
             continue;
         };
         let mut cell = words(value);
-        // An indentation may be positive or negative, and a ratio of different signs has no
-        // meaning.
+        // The ratio is stated only for positive values. An indentation may also be negative, and
+        // the ratio of two values with different signs has no meaning.
         if let Some(first) = first
             && number > 0
             && first > 0.0
@@ -113,8 +113,8 @@ fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
 }
 
 impl ScenesReport<'_> {
-    /// Returns the figure of the force curves. If `has_letters` is true, the legend names the
-    /// scenes by their letters in the table.
+    /// Returns the figure of the force curves. If `has_letters` is true, the legend begins the name
+    /// of each scene with its letter in the table.
     fn drawn(&self, has_letters: bool) -> Figure {
         let mut titles = Vec::with_capacity(self.scenes.len());
         for (number, scene) in self.scenes.iter().enumerate() {
@@ -136,7 +136,7 @@ impl ScenesReport<'_> {
         }
     }
 
-    /// Returns the warnings of all scenes, each with the letter of its scene.
+    /// Returns the warnings of all scenes. Each begins with the letter of its scene.
     fn warnings(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         for (number, scene) in self.scenes.iter().enumerate() {
@@ -152,14 +152,14 @@ impl ScenesReport<'_> {
         sentences
     }
 
-    /// Returns the headings of a table of all scenes.
+    /// Returns the headings of a table with a column for each scene.
     fn header(&self) -> Vec<String> {
         let mut header = vec![String::new()];
         header.extend((0..self.scenes.len()).map(letter));
         header
     }
 
-    /// Returns rows with the medians over random profiles, and a row with the quartiles of the
+    /// Returns the rows with medians over random profiles, and a row with the quartiles of the
     /// adhesion force; empty if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         if self.scenes.iter().all(|scene| scene.ensemble.is_none()) {
@@ -180,13 +180,13 @@ impl ScenesReport<'_> {
                 None => "-".to_owned(),
             });
         }
-        // The quartiles follow the median of the adhesion force, which is the first row.
+        // The first row is the median of the adhesion force. The row of its quartiles is inserted
+        // after it.
         rows.insert(1.min(rows.len()), quartiles);
         rows
     }
 
-    /// Adds the titles of the scenes, and the fields in which each scene differs from the first
-    /// scene.
+    /// Adds the title of each scene, and the fields in which it differs from the first scene.
     fn add_differences(&self, sheet: &mut Sheet, first: &Document) {
         for (number, scene) in self.scenes.iter().enumerate() {
             let letter = letter(number);
@@ -208,7 +208,7 @@ impl ScenesReport<'_> {
         }
     }
 
-    /// Adds a table of the results on the profile with the seed of each scene.
+    /// Adds a table of the results of each scene on the profile with the seed of the scene.
     fn add_results(&self, sheet: &mut Sheet) {
         let mut rows = vec![self.header()];
         for quantity in &QUANTITIES {
@@ -230,8 +230,8 @@ impl ScenesReport<'_> {
 }
 
 impl ComparedScene<'_> {
-    /// Returns the lower quartile, the median and the upper quartile over the random profiles;
-    /// `None` if they are unknown.
+    /// Returns the lower quartile, the median and the upper quartile of a quantity over the random
+    /// profiles; `None` if these are not known.
     fn quartiles(&self, quantity: Quantity) -> Option<[f64; 3]> {
         let statistics = self.ensemble.as_ref()?.statistics(quantity)?;
         Some(statistics.quartiles)
@@ -303,7 +303,8 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("Different from A to C: nothing\n"), "{text}");
-        // The pull-off force of a sphere is proportional to the work of adhesion.
+        // The second scene has twice the work of adhesion, and the pull-off force of a sphere is
+        // proportional to the work of adhesion.
         assert!(
             text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"),
             "{text}"

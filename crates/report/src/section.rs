@@ -32,11 +32,11 @@ pub struct Part {
     pub columns: usize,
 }
 
-/// Largest number of columns of a profile in a picture in a file.
+/// Largest number of columns with which a profile is drawn in the picture of a file.
 const DRAWN: usize = 1200;
 
 /// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`]
-/// stores them, so that its next call need not compute them again.
+/// stores these points, because its next call often needs them again.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
@@ -72,8 +72,9 @@ pub struct Column {
 }
 
 impl Section {
-    /// Returns the chart of the heights over the position. `line` has the spring spacing of the
-    /// profile and the index of its first spring, and `z` is the range of the vertical axis in m.
+    /// Returns the chart of the heights over the position along the profile. `line` contains the
+    /// spring spacing of the profile and the index of its first spring, and `z` is the range of the
+    /// vertical axis in m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let end = self.first + self.springs.max(1);
         let x = Span {
@@ -93,8 +94,8 @@ impl Section {
         Chart::new(x, y, layers)
     }
 
-    /// Returns a shape with the lowest and the highest heights in each column. `positions` is the
-    /// range of the columns in m.
+    /// Returns a shape with the lowest and the highest point of each column. `positions` is the
+    /// range in m of all columns together.
     fn envelope(&self, positions: Span, heights: fn(&Column) -> Option<(f64, f64)>) -> Shape {
         Shape::Envelope {
             x: (positions.low, positions.high),
@@ -104,8 +105,8 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part that begins at the index `first` and has this number of springs, with as
-    /// many columns as a picture in a file shows.
+    /// Returns the part that begins at the spring `first` and has this number of springs. Its
+    /// number of columns suits a picture in a file.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -114,8 +115,8 @@ impl Part {
         }
     }
 
-    /// Returns the part that begins at the index `first` and has this number of springs, with one
-    /// column of the chart for each spring.
+    /// Returns the part that begins at the spring `first` and has this number of springs, with one
+    /// column for each spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -124,15 +125,15 @@ impl Part {
         }
     }
 
-    /// Returns the indices of the springs that the column with this number, from 0, shows.
+    /// Returns the indices of the springs in a column. Columns are counted from 0.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let begin = self.begin_of(column);
         let end = self.begin_of(column + 1);
         begin..end.max(begin + 1)
     }
 
-    /// Returns the index of the first spring of a column. The product of both numbers may exceed 64
-    /// bits, so it is computed with 128 bits.
+    /// Returns the index of the first spring of a column. The product of the two numbers may exceed
+    /// 64 bits, so that it is computed with 128 bits.
     fn begin_of(self, column: usize) -> usize {
         let before = column as u128 * self.springs as u128 / self.columns.max(1) as u128;
         self.first + before as usize
@@ -151,7 +152,8 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the index ranges of neighbouring springs in contact within the range `springs`.
+    /// Returns the index range of each patch within the range `springs`, that is, of neighbouring
+    /// springs in contact.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = springs;
         let first = self.patches.partition_point(|patch| patch.last < start);
@@ -161,8 +163,8 @@ impl SectionContact<'_> {
             .map(move |patch| patch.first.max(start)..patch.springs().end.min(end))
     }
 
-    /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs
-    /// its own `line`, which stores heights for the next call.
+    /// Reduces a part of the profile and its contact to the columns of a chart. `line` stores the
+    /// heights of the profile for the next call, so that each profile needs its own `line`.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         if line.part != part {
             let columns = 0..part.columns;
@@ -179,7 +181,8 @@ impl SectionContact<'_> {
         }
         let heights = match line.heights.iter().copied().reduce(wider) {
             Some(heights) => heights,
-            // A hidden chart has no columns, so the heights are those of all springs of the part.
+            // A hidden chart has no columns. Then the range of heights is that of all springs of
+            // the part.
             None => self.heights(part.first..part.first + part.springs),
         };
         Section {
@@ -203,7 +206,7 @@ impl SectionContact<'_> {
         (lowest, highest)
     }
 
-    /// Returns the column of a range of springs. `line` are the lowest and the highest height of
+    /// Returns the column for a range of springs. `line` has the lowest and the highest height of
     /// the profile in this range.
     fn column(&self, springs: Range<usize>, line: (f64, f64)) -> Column {
         let mut free = springs.len();
@@ -265,8 +268,8 @@ mod tests {
                 let held = part.springs_of(column).filter(|&spring| touching[spring]).collect();
                 prop_assert_eq!(Some(found.line), heights(part.springs_of(column).collect()));
                 prop_assert_eq!(found.contact, heights(held));
-                // Outside the contact the height of the surface is the summit minus the
-                // indentation.
+                // Outside the contact, the height of the surface is the summit (20) minus the
+                // indentation (3).
                 let surface = |spring: usize| if touching[spring] { 20.0 - gaps[spring] } else { 17.0 };
                 let surfaces = part.springs_of(column).map(|spring| (surface(spring), surface(spring)));
                 prop_assert_eq!(Some(found.surface), surfaces.reduce(wider));

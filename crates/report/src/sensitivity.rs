@@ -1,4 +1,4 @@
-//! The sensitivity of a scene as text, JSON and a table, and as a chart of the explorer.
+//! Report on the sensitivity of a scene as text, JSON and a table, and a chart for the explorer.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -10,24 +10,24 @@ use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
 use serde::Serialize;
 
-/// Relative change from which a change is written as a factor; 2 is the change to three times the
-/// value.
+/// Smallest relative change that is written as a factor. A relative change of 2 is a change to
+/// three times the value.
 const LARGE: f64 = 2.0;
 
-/// Smallest end of the axis of changes in a chart, in per cent.
+/// Smallest change in per cent that the axis of a chart of changes shows in each direction.
 const LEAST: f64 = 1.0;
 
 /// Half the height of a bar, divided by the distance between two bars.
 const HALF: f64 = 0.35;
 
-/// Text in place of a change if the scene does not allow the changed number.
+/// Text that replaces a change if the scene does not allow the changed number.
 const NOT_ALLOWED: &str = "not allowed";
 
 const PROFILES: &str = "profiles";
 
 /// Report on how much the results of a scene change if one of its numbers is changed by +10 % or
-/// −10 %, for each number in turn. A whole number changes by at least 1, and a wavelength by at
-/// least one wave on the length.
+/// −10 %. This is reported for each number. A whole number changes by at least 1, and a wavelength
+/// by at least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     pub title: &'a str,
@@ -56,15 +56,15 @@ fn step_text(step: f64) -> String {
     format!("{sign}{}", percent(step.abs(), 2))
 }
 
-/// One row of changes: for a smaller or larger number, or for the smallest or largest results over
-/// the profiles.
+/// Changes of the results in one row of the table. The row belongs to a smaller or larger number,
+/// or to the profiles with the smallest or largest results.
 struct Side<'a> {
-    /// Number that is changed; `None` in a row for the profiles.
+    /// Number that is changed; `None` in a row that belongs to the profiles.
     influence: Option<&'a Influence>,
-    /// 0 for the smaller number or the smallest results, 1 for the larger number or the largest
-    /// results.
+    /// 0 for the smaller number or for the smallest results, 1 for the larger number or for the
+    /// largest results.
     side: usize,
-    /// Relative changes of the medians; `None` for a number that is not allowed.
+    /// Relative changes of the medians; `None` if the scene does not allow the changed number.
     changes: Option<[Option<f64>; 3]>,
     /// Smallest and largest relative change of F_a among the profiles.
     range: Option<(f64, f64)>,
@@ -94,7 +94,8 @@ impl<'a> Side<'a> {
         Label::symbol_or_name(axis.symbol, &short)
     }
 
-    /// Returns the value of the number in the unchanged scene; empty in a row for the profiles.
+    /// Returns the value of the number in the unchanged scene; empty in a row that belongs to the
+    /// profiles.
     fn value(&self) -> String {
         match self.influence {
             Some(influence) => format_quantity(influence.value, influence.axis.unit),
@@ -102,8 +103,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Returns the change of the number in words: in per cent, or as a difference for a whole
-    /// number.
+    /// Returns the change of the number in words: in per cent or, for a whole number, as a
+    /// difference.
     fn step(&self) -> String {
         let Some(influence) = self.influence else {
             return ["least", "most"][self.side].to_owned();
@@ -128,8 +129,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Returns the range of the changes of F_a among the profiles, in words; empty for a fixed
-    /// profile.
+    /// Returns the range of the changes of F_a over the profiles, in words; empty if the scene has
+    /// a fixed profile.
     fn range_in_words(&self) -> String {
         match self.range {
             Some((least, most)) => one_unit([change_text(least), change_text(most)]),
@@ -139,8 +140,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns the rows of at most `most` numbers, two for each. The number with the largest influence
-/// on a result comes first. The rows for the range over the profiles are last.
+/// Returns two rows for each of at most `most` numbers, beginning with the number that has the
+/// largest influence on a result, and finally the rows that belong to the profiles.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
     let mut sides = Vec::new();
     for influence in sensitivity.ordered(result).into_iter().take(most) {
@@ -160,10 +161,10 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     sides
 }
 
-/// Returns a table of the changes of the median results: a row of headings, a row of medians of the
-/// unchanged scene, then two rows for each of at most `most` numbers. The columns are name, value
-/// and change of the number, change of F_a with its range over the profiles, change of F_a(d=0),
-/// and change of the dissipated energy.
+/// Returns a table of the changes of the median results: a row of headings, a row with the medians
+/// of the unchanged scene, and two rows for each of at most `most` numbers. The columns are name,
+/// value and change of the number, change of F_a with its range over the profiles, change of
+/// F_a(d=0), and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let has_profiles = sensitivity.range.is_some();
     let mut rows = vec![
@@ -171,7 +172,7 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
         present_row(sensitivity, has_profiles),
     ];
     for side in sides(sensitivity, 0, most) {
-        // Name and value of the number are shown only in the first of its two rows.
+        // Only the first of the two rows of a number has its name and its value.
         let mut name = String::new();
         let mut value = String::new();
         if side.side == 0 {
@@ -224,14 +225,14 @@ fn present_row(sensitivity: &Sensitivity, has_profiles: bool) -> [String; 7] {
     ]
 }
 
-/// Returns a bar chart of the changes of one result in per cent, with two bars for each of at most
+/// Returns a bar chart of the changes in per cent of one result, with two bars for each of at most
 /// `most` numbers. `result` is an index of [`Sensitivity::RESULTS`].
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let sides = sides(sensitivity, result, most);
     let span = span_of_changes(&sides, result);
     let mut bars = Bars::default();
     let mut names = Vec::new();
-    // The last row has the lowest bar, at 0 on the vertical axis.
+    // The rows are drawn from below, beginning with the last row at 0 on the vertical axis.
     for (place, side) in (0..).map(f64::from).zip(sides.iter().rev()) {
         let step = side.step();
         let words = side.change_in_words(result);
@@ -245,8 +246,8 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
     Chart::new(x, ChartAxis::of_names(names), bars.layers())
 }
 
-/// Returns the range of the axis of changes in per cent. Changes over the profiles do not widen it
-/// and may lie beyond it.
+/// Returns the range in per cent of the axis of changes. The differences between profiles do not
+/// widen the range, so that their bars may reach beyond it.
 fn span_of_changes(sides: &[Side<'_>], result: usize) -> Span {
     let mut largest = LEAST;
     for side in sides {
@@ -264,10 +265,11 @@ fn span_of_changes(sides: &[Side<'_>], result: usize) -> Span {
     }
 }
 
-/// Range of a bar along the horizontal and along the vertical axis.
+/// Range of a bar along the horizontal axis, and range along the vertical axis.
 type Bar = ((f64, f64), (f64, f64));
 
-/// Bars of a chart of changes, and marks where bars reach beyond the chart.
+/// Bars of a chart of changes. Where a bar would reach beyond the chart, a mark is drawn at its
+/// edge.
 #[derive(Default)]
 struct Bars {
     of_smaller_numbers: Vec<Bar>,
@@ -311,8 +313,8 @@ impl Bars {
 }
 
 impl SensitivityReport<'_> {
-    /// Returns sentences on the numbers that stay constant while one of them changes, and on the
-    /// profiles.
+    /// Returns sentences on the profiles, and on the numbers that stay constant while another
+    /// number changes.
     fn note(&self) -> String {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
@@ -339,7 +341,7 @@ impl SensitivityReport<'_> {
     }
 }
 
-/// Returns a sentence on the numbers of a scene that stay constant while one of them changes.
+/// Returns a sentence on the numbers of a scene that stay constant while another number changes.
 /// `adhesion` is the adhesion of the scene.
 pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
     let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
@@ -389,8 +391,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a table of the medians of the results: a row for the unchanged scene, then a row for
-    /// each number and each change by +10 % or −10 %.
+    /// Returns a table of the medians of the results: a row for the unchanged scene, and for each
+    /// number a row for its change by +10 % and a row for its change by −10 %.
     fn table(&self) -> Option<Table<'_>> {
         let paths = self.sensitivity.influences.iter();
         let longest = paths
@@ -418,7 +420,8 @@ impl Report for SensitivityReport<'_> {
     }
 }
 
-/// Row of the table: results for one value of a number of the scene.
+/// Row of the table: a number of the scene, a value of this number, and the results with this
+/// value.
 #[derive(Clone)]
 struct TableRow<'a> {
     /// Path of the changed number; empty for the unchanged scene.
@@ -462,7 +465,7 @@ struct SensitivityJson<'a> {
     numbers: Vec<NumberJson<'a>>,
 }
 
-/// Values that belong to the results of [`Sensitivity::RESULTS`]; `None` for an unknown value.
+/// One value for each of [`Sensitivity::RESULTS`]; `None` for a value that is not known.
 #[derive(Serialize)]
 struct ResultsJson<T> {
     adhesion_force: Option<T>,
@@ -470,7 +473,7 @@ struct ResultsJson<T> {
     dissipated_energy: Option<T>,
 }
 
-/// Smallest and largest results of the unchanged scene among the profiles.
+/// Smallest and largest results of the unchanged scene over the profiles.
 #[derive(Serialize)]
 struct RangeJson {
     least: ResultsJson<f64>,
@@ -482,7 +485,7 @@ struct NumberJson<'a> {
     path: &'a str,
     name: &'a str,
     value: f64,
-    /// Results for the smaller number; `None` if the scene does not allow it.
+    /// Results with the smaller number; `None` if the scene does not allow this number.
     smaller: Option<ChangedJson>,
     larger: Option<ChangedJson>,
 }
@@ -492,7 +495,7 @@ struct ChangedJson {
     value: f64,
     change: f64,
     results: ResultsJson<f64>,
-    /// Smallest and largest relative changes among the profiles.
+    /// Smallest and largest relative changes over the profiles.
     profile_changes: ResultsJson<(f64, f64)>,
 }
 
@@ -524,7 +527,8 @@ impl<'a> NumberJson<'a> {
 }
 
 impl ChangedJson {
-    /// Collects the results for the smaller number (`side` 0) or the larger number (`side` 1).
+    /// Collects the results with the smaller number (`side` 0) or with the larger number (`side`
+    /// 1).
     fn new(influence: &Influence, side: usize) -> Option<Self> {
         let (value, changed) = influence.sides[side];
         let changed = changed?;
@@ -555,7 +559,7 @@ mod tests {
     }
 
     /// Each change has a row and a bar. A whole number changes by at least 1. If a number is not
-    /// allowed, the row says so. A bar that is longer than the chart has an arrow.
+    /// allowed, its row states this. A bar that is longer than the chart has an arrow.
     #[test]
     fn each_change_has_a_row_and_a_bar_of_its_own() {
         let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();

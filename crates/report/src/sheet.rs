@@ -3,11 +3,11 @@
 use asperity_data::{format_quantity, printable, wrap};
 use std::ops::Range;
 
-/// Width of a line in characters, which is the width of the smallest usual terminal.
+/// Largest width of a line in characters. It is the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Smallest width in characters of the last column. With less room the last column begins on the
-/// next line.
+/// Smallest width in characters of the last column of a table. If there is less room, the last
+/// column begins on the next line.
 const FEWEST_IN_LAST: usize = 20;
 
 /// Indentation in characters of a last column that begins on the next line.
@@ -19,8 +19,8 @@ const LABEL: usize = 26;
 /// Number of blanks between two columns of a table.
 const BETWEEN: usize = 2;
 
-/// Plain text with lines of at most 80 columns. Headings, rows, tables and paragraphs are added one
-/// after the other.
+/// Plain text whose lines have at most 80 columns. Headings, rows, tables and paragraphs are added
+/// to its end.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
@@ -44,7 +44,7 @@ impl Sheet {
         self.text
     }
 
-    /// Adds a heading, after an empty line unless the heading is the first.
+    /// Adds a heading, with an empty line before it unless it is the first line of the text.
     pub fn heading(&mut self, heading: &str) {
         if !self.text.is_empty() {
             self.text.push('\n');
@@ -71,23 +71,23 @@ impl Sheet {
         }
     }
 
-    /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix.
-    /// `None` adds nothing.
+    /// Adds a row with a label and a number. The number is given in the SI unit `unit` and written
+    /// with a prefix. Adds nothing for `None`.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         if let Some(value) = value.into() {
             self.row(label, format_quantity(value, unit));
         }
     }
 
-    /// Adds a row of a label and a value. `None` adds nothing.
+    /// Adds a row with a label and a value. Adds nothing for `None`.
     pub fn row_of(&mut self, label: &str, value: Option<String>) {
         if let Some(value) = value {
             self.row(label, value);
         }
     }
 
-    /// Adds a table with aligned columns. If the table is too wide, the remaining columns follow in
-    /// further tables, each of which repeats the first column.
+    /// Adds a table with aligned columns. If the table is too wide, it is divided into several
+    /// tables, each of which begins with the first column.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let widths = widths_of(rows);
         let mut begin = widths.len().min(1);
@@ -104,7 +104,8 @@ impl Sheet {
         }
     }
 
-    /// Adds a line with the first cell of a row and the cells of the columns `columns`.
+    /// Adds a line with those cells of a row that are in the first column or in the columns
+    /// `columns`.
     fn table_row(&mut self, row: &[String], widths: &[usize], columns: Range<usize>) {
         let mut cells = Vec::with_capacity(row.len());
         for (column, text) in row.iter().enumerate() {
@@ -116,8 +117,8 @@ impl Sheet {
         self.cells(&cells);
     }
 
-    /// Adds a line of cells. The last cell begins on the next line if it has too little room on
-    /// this line.
+    /// Adds a line of cells. If there is too little room for the last cell, this cell begins on the
+    /// next line.
     fn cells(&mut self, cells: &[Cell<'_>]) {
         let Some((last, others)) = cells.split_last() else {
             return;
@@ -139,8 +140,8 @@ impl Sheet {
     }
 
     fn line(&mut self, line: &str) {
-        // Titles and names of files, machines and processes may contain control characters, which
-        // are replaced.
+        // Titles and names of files, machines and processes may contain control characters.
+        // `printable` replaces them.
         self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
@@ -162,13 +163,14 @@ fn widths_of<R: AsRef<[String]>>(rows: &[R]) -> Vec<usize> {
     widths
 }
 
-/// Returns the index after the last column that fits beside the first column, if column `begin`
-/// follows the first column. At least one column counts as fitting.
+/// Returns the index after the last column that fits into a line, if the line contains the first
+/// column and then the columns from `begin` on. Column `begin` always counts as fitting.
 fn end_of_part(widths: &[usize], begin: usize) -> usize {
     let first = widths.first().map_or(0, |width| width + BETWEEN);
     let mut room = WIDTH.saturating_sub(first);
     for (column, &width) in widths.iter().enumerate().skip(begin) {
-        // Only the last column may have long sentences, which are broken into several lines.
+        // The last column needs less room, because its long sentences are broken into several
+        // lines.
         let is_last = column + 1 == widths.len();
         let needed = if is_last {
             width.min(FEWEST_IN_LAST)

@@ -10,10 +10,11 @@ use std::f64::consts::TAU;
 /// Number of points of a curve per decade of wave numbers.
 const PER_DECADE: f64 = 20.0;
 
-/// Largest number of decades of the vertical axis. Powers below this range are rounding errors.
+/// Largest number of decades of the vertical axis. Smaller powers are only rounding errors.
 const MOST_DECADES: f64 = 12.0;
 
-/// Stroke of the self-affine fit. The range of the axes does not depend on curves with this stroke.
+/// Stroke of the self-affine fit. Curves with this stroke have no influence on the range of the
+/// axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
 /// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density
@@ -43,8 +44,8 @@ pub(crate) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     }
 }
 
-/// Returns wave numbers between two wave numbers, with equal ratios, about `per_decade` in each
-/// decade.
+/// Returns wave numbers from the lower to the upper end of a range. Neighbouring wave numbers have
+/// equal ratios, and each decade has about `per_decade` wave numbers.
 pub(crate) fn wave_numbers(range: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let [low, high] = range;
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
@@ -52,14 +53,14 @@ pub(crate) fn wave_numbers(range: [f64; 2], per_decade: f64) -> impl Iterator<It
         .map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
-/// Returns a spectrum as a curve over a range of wave numbers.
+/// Returns the points of a spectrum over a range of wave numbers.
 fn curve(range: [f64; 2], spectrum: impl Fn(f64) -> f64) -> Vec<SpectrumPoint> {
     wave_numbers(range, PER_DECADE)
         .map(|q| (q, spectrum(q)))
         .collect()
 }
 
-/// Returns the measured spectra of all faces.
+/// Returns layers with the measured spectra of all faces (a face is the surface of one body).
 fn measured_layers(faces: &[&Analysis]) -> Vec<Layer> {
     let mut layers = Vec::new();
     for (face, analysis) in faces.iter().enumerate() {
@@ -77,7 +78,8 @@ fn measured_layers(faces: &[&Analysis]) -> Vec<Layer> {
     layers
 }
 
-/// Returns the ends of the used range of a measured spectrum, as vertical lines.
+/// Returns vertical lines at the ends of the range of wave numbers that is used from a measured
+/// spectrum.
 fn limits(analysis: &Analysis) -> Vec<Layer> {
     let mut limits = Vec::new();
     if let Some(roll_off) = analysis.power_law.and_then(|fit| fit.roll_off) {
@@ -100,8 +102,8 @@ fn limits(analysis: &Analysis) -> Vec<Layer> {
 }
 
 impl Spectra {
-    /// Returns the spectra of measured surfaces with their fits, and the spectrum of a profile that
-    /// replaces them.
+    /// Returns the spectra of the measured surfaces of one body, with their fits, and the spectrum
+    /// of a profile that replaces these surfaces.
     fn of_analysis(analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
@@ -124,8 +126,8 @@ impl Spectra {
         }
     }
 
-    /// Returns the spectra of one rough body, or of both bodies in contact, with one [`Analysis`]
-    /// for each body. [`Self::line`] is the sum of their spectra.
+    /// Returns the spectra of one rough body or of the two bodies in contact. `faces` has an
+    /// [`Analysis`] for each body. [`Self::line`] is the sum of the spectra of the bodies.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),
@@ -160,7 +162,8 @@ impl Spectra {
         let without_heights = points.len();
         points.extend(&self.heights);
         let x = Span::around(points.iter().map(|(q, _)| q.log10()), 0.03);
-        // The heights have only rounding errors at wave numbers that the profile does not have.
+        // At wave numbers that the profile does not have, the spectrum of the heights consists of
+        // rounding errors.
         if without_heights > 0 {
             points.truncate(without_heights);
         }
@@ -174,8 +177,8 @@ impl Spectra {
         )
     }
 
-    /// Returns the points of the measured spectra and of their fit, except those of the self-affine
-    /// fit.
+    /// Returns the points of the measured spectra and of their fits. The self-affine fit is left
+    /// out.
     fn measured_points(&self) -> Vec<SpectrumPoint> {
         let mut points = Vec::new();
         for layer in &self.measured {
@@ -275,8 +278,8 @@ mod tests {
     #[test]
     fn the_fit_goes_through_the_measured_powers() {
         let analysis = analysis(End::Ends);
-        // At the largest likelihood the mean over the waves of measured over fitted power is 1.
-        // Wave 1 is not part of the fit.
+        // At the largest likelihood, the mean over the waves of measured power divided by fitted
+        // power is 1. The fit does not include wave 1.
         let bins = &analysis.spectra[0].1[2..];
         let fit = |q: f64| analysis.isotropic.cut(q);
         let sum: f64 = bins

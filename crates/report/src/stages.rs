@@ -4,10 +4,10 @@ use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
 use asperity_scene::stages::{PlannedStage, Workload};
 
-/// Returns a table of the stages in which the program computes a scene, such as making the profile.
-/// Each row has the number of passes over the springs, an upper bound of the number of visited
-/// springs in all passes, the memory that the stage needs, and the reason why the stage is computed
-/// or skipped.
+/// Returns a table of the stages in which the program computes a scene, such as the stage that
+/// makes the profile. Each row has the number of passes over the springs, an upper bound of the
+/// number of springs visited in all passes, the memory that the stage needs, and the reason why the
+/// stage is computed or skipped.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     rows.extend(plan.stages.iter().map(row));

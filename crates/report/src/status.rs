@@ -1,4 +1,4 @@
-//! The state and the progress of a study in words.
+//! The state and the progress of a parameter study in words.
 
 use crate::sheet::Sheet;
 use asperity_data::grouped;
@@ -10,7 +10,7 @@ use std::time::Duration;
 const LONGEST_HOST: usize = 20;
 
 /// Returns as text how many results of a parameter study are computed, missing or damaged. There is
-/// a result for each combination of values on the axes of the study, on each random profile.
+/// a result for each combination of values on the axes of the study and for each random profile.
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);
@@ -35,7 +35,7 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
     sheet.into_text()
 }
 
-/// Adds a table of the processes that computed each shard.
+/// Adds a table of the shards (files with results) and of the processes that computed them.
 fn add_shards(sheet: &mut Sheet, status: &Status) {
     let header = [
         "shard",
@@ -49,7 +49,8 @@ fn add_shards(sheet: &mut Sheet, status: &Status) {
     let mut rows = vec![header.map(String::from)];
     for shard in &status.shards {
         for (index, attempt) in shard.attempts.iter().enumerate() {
-            // Only the first row of a shard has the numbers of records of the shard.
+            // A shard with several processes has several rows. Only the first row has its name and
+            // its numbers of records.
             let [name, done, total] = if index == 0 {
                 [
                     shard.shard.clone(),
@@ -77,8 +78,8 @@ fn add_shards(sheet: &mut Sheet, status: &Status) {
     sheet.table(&rows);
 }
 
-/// Returns the progress of a running study in one line: number of computed results and of all
-/// results, results per second, and estimated remaining time.
+/// Returns the progress of a running study in one line: the number of computed results, the number
+/// of all results, results per second, and the estimated remaining time.
 pub fn progress_text(progress: &StudyProgress) -> String {
     let StudyProgress {
         done,

@@ -1,4 +1,4 @@
-//! Figures of studies: a map over two axes, or curves along one axis.
+//! Figures of parameter studies: a map over two axes, or curves along one axis.
 
 use asperity_data::AxisScale;
 use asperity_plot::{
@@ -9,8 +9,8 @@ use asperity_scene::Regime;
 use asperity_study::maps::{Grid, GridLayer};
 use asperity_study::{Axis, Quantity, Statistics};
 
-/// Number of decades over which a quantity must extend to get a second chart, with a logarithmic
-/// scale.
+/// If the values of a quantity extend over at least this number of decades, its chart is followed
+/// by a second one with a logarithmic scale.
 const DECADES_FOR_SECOND: f64 = 1.5;
 
 /// Largest number of decades of a logarithmic axis.
@@ -19,18 +19,18 @@ const MOST_DECADES: f64 = 12.0;
 /// Largest number of decades of the colour scale of a map.
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Upper end of a confidence interval, divided by the largest mean, above which the axis does not
-/// make room for the interval. With few profiles the intervals may be very wide.
+/// The axis makes room for a confidence interval only if the upper end of the interval is below
+/// this number times the largest mean. With few profiles the intervals may be very wide.
 const MOST_OF_BAND: f64 = 2.0;
 
-/// Smallest ratio of the ranges of negative and positive values for which the colours of a map show
-/// the sign.
+/// The colours of a map show the sign of its values if the range of values of either sign is at
+/// least this share of the range of the other sign.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
-/// Mark of a regime on a map.
+/// Marks of a regime on a map.
 struct RegimeMark {
     regime: Regime,
-    /// Sign in a picture.
+    /// Marker in a picture.
     sign: Sign,
     /// Letter of the regime in a terminal.
     letter: char,
@@ -58,7 +58,7 @@ const REGIMES: [RegimeMark; 3] = [
     },
 ];
 
-/// Returns a figure with these charts of a parameter study. Lines below the title give the values
+/// Returns a figure with these charts of a parameter study. Lines below the title state the values
 /// on those axes of the study that do not vary in the charts.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
@@ -72,8 +72,8 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     }
 }
 
-/// Returns a heat map with the two axes of `grid`. Its values are means of a quantity over the
-/// random profiles. `None` if `grid` has one axis. Markers (in a terminal letters) show the regimes
+/// Returns a heat map with the two axes of `grid`, or `None` if `grid` has one axis. The values are
+/// means of a quantity over the random profiles. Markers (letters in a terminal) show the regimes
 /// of adhesion. If `whole` is true, a cell that is not computed yet shows the value of a computed
 /// cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
@@ -104,7 +104,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Colours of a map: scale, kind of colours, and range of the values.
+/// Colours of a map: scale, colours along the scale, and range of the values.
 struct Shading {
     scale: AxisScale,
     shades: Shades,
@@ -112,14 +112,14 @@ struct Shading {
 }
 
 impl Shading {
-    /// Returns the colours of a layer of a grid. Without a layer they are for values from 0 to 1.
+    /// Returns the colours for a layer of a grid; for `None`, the colours for values from 0 to 1.
     fn new(layer: Option<&GridLayer>) -> Self {
         let (scale, range) = match layer {
             Some(layer) => (layer.scale, layer.range),
             None => (AxisScale::Linear, Some((0.0, 1.0))),
         };
-        // Negative and positive values have different colours, unless one of the signs has only
-        // small values.
+        // The colours distinguish negative and positive values, unless the values of one sign are
+        // small compared with those of the other sign.
         if let Some((low, high)) = range
             && -low > LEAST_OF_A_SIGN * high
             && high > -LEAST_OF_A_SIGN * low
@@ -139,7 +139,7 @@ impl Shading {
     }
 }
 
-/// Returns for each cell the index of its regime in [`REGIMES`]; `None` for a cell without a
+/// Returns for each cell the index of its regime in [`REGIMES`]; `None` for a cell that has no
 /// regime.
 fn classes(regimes: &[Option<Regime>]) -> Vec<Option<usize>> {
     let mut classes = Vec::with_capacity(regimes.len());
@@ -149,11 +149,11 @@ fn classes(regimes: &[Option<Regime>]) -> Vec<Option<usize>> {
     classes
 }
 
-/// Returns the names of the regimes in the legend of a map of a quantity.
+/// Returns the classes that the legend of a map of a quantity names: the regimes.
 fn class_names(quantity: Quantity) -> Vec<Class> {
-    // If the map shows a regime, the name of its axis states where the loading turns. On a map of
-    // another quantity the legend states it, because the letters show the regime of a loading
-    // turned at first touch.
+    // The regime depends on where the loading turns. On a map of regimes, the name of the colour
+    // scale states this point. On a map of another quantity, the letters show the regime of a
+    // loading turned at first touch, and the legend states this.
     let protocol = if quantity.is_regime() {
         String::new()
     } else {
@@ -173,7 +173,7 @@ fn class_names(quantity: Quantity) -> Vec<Class> {
 
 /// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the
 /// second axis. If the vertical axis is linear and the largest mean is at least 10^1.5 times the
-/// smallest mean above zero, a second chart with a logarithmic vertical axis follows.
+/// smallest mean above zero, a second chart with a logarithmic vertical axis is added.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let scale = grid
         .layer(quantity)
@@ -212,7 +212,8 @@ fn study_axis(axis: &Axis, span: Span) -> ChartAxis {
     ChartAxis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
-/// Returns the name of a quantity in words, with hyphens that the name of its column does not have.
+/// Returns the name of a quantity in words. It has hyphens that are missing in the name of the
+/// column of the quantity.
 fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
@@ -238,8 +239,9 @@ fn quantity_axis(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis 
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// Returns the share of F_a,max, such as F_a(d=0)/F_a,max, whose vanishing is marked in a figure of
-/// a quantity. It is the quantity itself if it is such a share, otherwise the first recorded share.
+/// Returns the quantity whose vanishing is marked in a figure of `quantity`. This is a share of
+/// F_a,max, such as F_a(d=0)/F_a,max: `quantity` itself if it is such a share, otherwise the first
+/// share that the grid contains.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     if shares.contains(&quantity) {
@@ -250,7 +252,8 @@ fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
         .find(|share| grid.layer(*share).is_some())
 }
 
-/// Returns the name of the boundary of adhesion in the legend: `F_a(F=0) = 0.05 F_a,max`.
+/// Returns the name in the legend for the boundary at which adhesion vanishes:
+/// `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let symbol = share.symbol();
     let (force, ideal) = symbol.split_once('/').unwrap_or((symbol, ""));
@@ -267,7 +270,7 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
             lowest = lowest.min(mean);
             highest = highest.max(mean);
         } else if mean != 0.0 {
-            // Zero and negative means cannot be drawn on a logarithmic scale.
+            // Means that are zero or negative cannot be drawn on a logarithmic scale.
             return false;
         }
     }
@@ -295,7 +298,7 @@ impl Curves<'_> {
     }
 
     /// Returns the range of the vertical axis. It contains the means, the confidence intervals
-    /// except very wide ones, and the quartiles if there is a single curve.
+    /// unless they are very wide and, for a single curve, the quartiles.
     fn span(&self, scale: AxisScale) -> Span {
         let known = || self.estimates.iter().flatten();
         let of_means = known().map(|estimate| estimate.mean);
@@ -326,21 +329,22 @@ impl Curves<'_> {
         all.widened(0.05)
     }
 
-    /// Returns true if there is a single curve, which is drawn with the quartiles of the profiles.
+    /// Returns true if there is a single curve. The quartiles over the profiles are then drawn as
+    /// well.
     fn is_single(&self) -> bool {
         self.grid.up.is_none()
     }
 
-    /// Returns layers of the curves with their confidence intervals, and for a single curve also
-    /// median and quartiles of the profiles. Vertical lines mark where adhesion without a preload
-    /// vanishes.
+    /// Returns layers of the curves with their confidence intervals and, for a single curve, of the
+    /// median and the quartiles over the profiles. Vertical lines mark where adhesion without a
+    /// preload vanishes.
     fn layers(&self) -> Vec<Layer> {
         let places = self.grid.across.values.len();
         let curves: Vec<_> = self.estimates.chunks(places.max(1)).collect();
         let mut layers = Vec::new();
         match (&self.grid.up, curves.first()) {
             // If all curves are exactly equal, the quantity does not depend on the second axis, and
-            // one curve is drawn.
+            // only one curve is drawn.
             (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
                 let symbol = Label::symbol_or_name(up.symbol, &up.name);
                 let name = Label::plain("any ").join(&symbol);
@@ -368,7 +372,7 @@ impl Curves<'_> {
         layers
     }
 
-    /// Adds the layers of one curve. The curve has a gap at a cell without an estimate.
+    /// Adds the layers of one curve. At a cell without an estimate, the curve has a gap.
     fn add_curve(
         &self,
         layers: &mut Vec<Layer>,
@@ -404,7 +408,7 @@ impl Curves<'_> {
     }
 
     /// Returns the points of a curve over the first axis. `number` takes the value from an
-    /// estimate; NaN where there is no estimate.
+    /// estimate. The value is NaN where there is no estimate.
     fn points(
         &self,
         estimates: &[Option<Statistics>],
@@ -417,8 +421,8 @@ impl Curves<'_> {
         points
     }
 
-    /// Returns a band over the first axis. `ends` takes its lower and upper end from an estimate;
-    /// NaN where there is no estimate.
+    /// Returns a band over the first axis. `ends` takes the lower and upper end of the band from an
+    /// estimate. The ends are NaN where there is no estimate.
     fn band(&self, estimates: &[Option<Statistics>], ends: fn(&Statistics) -> (f64, f64)) -> Shape {
         let mut band = Vec::with_capacity(estimates.len());
         for (place, estimate) in self.grid.across.values.iter().zip(estimates) {
@@ -429,12 +433,13 @@ impl Curves<'_> {
     }
 }
 
-/// Returns the coordinates on the horizontal axis at which F_a(d=0)/F_a,max vanishes.
+/// Returns the coordinates on the horizontal axis at which the quantity `share`, such as
+/// F_a(d=0)/F_a,max, vanishes.
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
-    // A loading without a preload has the same F_a on all curves. If the curves differ, there is no
-    // common crossing.
+    // A loading without a preload has the same share on all curves. If the curves differ, there are
+    // no common crossings, and none is marked.
     let mut curves = shares.chunks(places.len().max(1));
     let first = curves.next();
     if curves.any(|curve| Some(curve) != first) {
@@ -553,7 +558,7 @@ mod tests {
         }
     }
 
-    /// Results over H and κ as a map of two quantities, with missing cells.
+    /// Results over H and κ, as a map of two quantities. Some cells are missing.
     fn phase_map() -> Study {
         let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
         let places = kappas().values;
@@ -578,7 +583,7 @@ mod tests {
         )
     }
 
-    /// Results at H = 0.3 as curves of two quantities, with a missing cell.
+    /// Results at H = 0.3, as curves of two quantities. A cell is missing.
     fn sections() -> Study {
         let places = kappas().values;
         let cells = places
@@ -603,7 +608,7 @@ mod tests {
         study_figure(title, grid, [SHARE, COEFFICIENT].map(charts).concat())
     }
 
-    /// Returns the estimates of a quantity in all cells.
+    /// Returns the estimates in all cells of the quantity with the index `layer`.
     fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
         study
             .grid
@@ -618,7 +623,7 @@ mod tests {
     fn words_lie_within_the_picture_and_not_on_each_other() {
         let mut large = phase_map();
         large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
-        // The numbers on this axis differ only in late digits, so their labels are long.
+        // The numbers on this axis differ only in their last digits, so that their labels are long.
         let mut long = [phase_map(), sections()];
         for study in &mut long {
             study.grid.layers[0].range = Some((1e5, 1e5 + 1.0));
@@ -647,7 +652,7 @@ mod tests {
         let mut study = sections();
         let own = upright(&study, SHARE);
         assert_eq!(own.0, "F_a(d=0) = 0.05 F_a,max");
-        // A figure of any other quantity also marks where F_a(d=0) vanishes.
+        // Figures of other quantities also mark where F_a(d=0) vanishes.
         assert_eq!(upright(&study, COEFFICIENT), own);
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
@@ -660,8 +665,8 @@ mod tests {
         let later = upright(&study, Quantity::ZeroForceAdhesionShare);
         assert!(later.1 > own.1, "{later:?} {own:?}");
         assert_eq!(later.0, "F_a(F=0) = 0.05 F_a,max");
-        // If only F_a(F=0)/F_a,max is recorded, figures of other quantities mark where F_a(F=0)
-        // vanishes.
+        // If the study has recorded only F_a(F=0)/F_a,max, figures of other quantities mark where
+        // F_a(F=0) vanishes.
         study.grid.layers[0].quantity = COEFFICIENT;
         assert_eq!(upright(&study, COEFFICIENT), later);
         let mut map = phase_map();

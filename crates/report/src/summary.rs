@@ -12,19 +12,19 @@ use asperity_scene::stages::Timings;
 use asperity_scene::{Estimate, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
 
-/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further
-/// stages are counted.
+/// Largest number of loading stages, or of repeated groups of stages, that the summary lists. Of
+/// the other stages, it states only the number.
 const MOST_STAGES: usize = 8;
 
 /// Results of a scene that the summary contains.
 #[derive(Clone, Copy)]
 pub(crate) struct Summary<'a> {
     pub(crate) scene: &'a Scene,
-    /// Results on the own profile of the scene.
+    /// Results on the profile with the seed of the scene.
     pub(crate) outcome: &'a Outcome,
     /// Estimated error of the adhesion force; `None` if it is unknown.
     pub(crate) estimate: Option<&'a Estimate>,
-    /// Way in which the number of springs was chosen for a tolerance; `None` without a tolerance.
+    /// Choice of the number of springs for a tolerance; `None` if no tolerance was given.
     pub(crate) choice: Option<&'a Choice>,
     /// Results over random profiles; `None` if they were not computed.
     pub(crate) ensemble: Option<&'a Ensemble>,
@@ -35,8 +35,8 @@ pub(crate) struct Summary<'a> {
 }
 
 impl Summary<'_> {
-    /// Returns the results as plain text of at most 80 columns: first the results over random
-    /// profiles, then the results on the profile with the seed of the scene.
+    /// Returns the results as plain text of at most 80 columns. The results over random profiles
+    /// come first, and then the results on the profile with the seed of the scene.
     pub(crate) fn text(&self) -> String {
         let outcome = self.outcome;
         let mut sheet = Sheet::default();
@@ -135,7 +135,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
 
 fn add_line(sheet: &mut Sheet, outcome: &Outcome) {
     let facts = &outcome.line;
-    // All following rows are about one profile.
+    // All rows from here on describe one profile.
     match facts.seed {
         Some(seed) => sheet.heading(&format!("Profile of seed {seed}")),
         None => sheet.heading("Profile"),
@@ -183,7 +183,8 @@ fn add_bodies(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("e_el/γ", governing.elastic_energy_ratio, "1");
 }
 
-/// Returns the regime of adhesion in words, and where the loading turns that decides it.
+/// Returns the regime of adhesion in words, with the turning point of the loading for which it
+/// holds.
 fn regime(outcome: &Outcome) -> String {
     let is_adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
@@ -216,8 +217,8 @@ fn regime(outcome: &Outcome) -> String {
     format!("{name} turned at first touch{both_protocols}: {meaning}")
 }
 
-/// Returns in words the adhesion after a loading turned at zero force: `62 % of F_a`, `full
-/// adhesion`.
+/// Returns in words how much adhesion remains after a loading turned at zero force: `62 % of F_a`,
+/// `full adhesion`.
 fn zero_force_adhesion(outcome: &Outcome) -> String {
     let at_zero_force = outcome.zero_force_adhesion_force;
     let percent = match (at_zero_force, outcome.figures.adhesion_force) {
@@ -231,7 +232,7 @@ fn zero_force_adhesion(outcome: &Outcome) -> String {
     }
 }
 
-/// Adds the regime, and the ratios of adhesion forces that decide it.
+/// Adds the regime, and the ratios of adhesion forces from which the regime follows.
 fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", regime(outcome));
     if outcome.regime.is_none() {
@@ -281,7 +282,7 @@ fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     add_share(sheet, "  F_a/F_n", adhesion, preload, &of_preload);
 }
 
-/// Value of a ratio that separates two conclusions.
+/// Value with which a ratio is compared, and the two possible conclusions.
 struct Threshold {
     value: f64,
     /// Conclusion if the ratio is at least the threshold.
@@ -305,8 +306,8 @@ fn add_share(
     if whole.is_nan() || whole <= 0.0 {
         return;
     }
-    // Products are compared instead of the ratio, as in the decision of the regime, so that
-    // rounding gives the same conclusion.
+    // The decision of the regime compares the same products and not the ratio, so that rounding
+    // cannot lead to another conclusion here.
     let (side, conclusion) = if part >= threshold.value * whole {
         ("at least", threshold.reached)
     } else {
@@ -317,7 +318,8 @@ fn add_share(
     sheet.row(label, format!("{share}, {side} {value}: {conclusion}"));
 }
 
-/// Adds the dissipated energy, and the Tabor number, which shows whether the energy is valid.
+/// Adds the dissipated energy, and the Tabor number, which shows whether the model gives a valid
+/// energy.
 fn add_dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let Some(energy) = outcome.figures.dissipated_energy else {
         return;
@@ -333,7 +335,7 @@ fn adhesion_force(outcome: &Outcome) -> String {
     }
 }
 
-/// Returns the loading in words. Only the first stages are listed, the others are counted.
+/// Returns the loading in words: the first stages, and the number of the other stages.
 fn loading(stages: &[Move]) -> String {
     let text = loading_text(stages, format_quantity);
     let Some((end, _)) = text.match_indices(", ").nth(MOST_STAGES - 1) else {
@@ -344,7 +346,7 @@ fn loading(stages: &[Move]) -> String {
     format!("{listed} and {more} more stages")
 }
 
-/// Adds the contact at the end of the loading.
+/// Adds the state of the contact at the end of the loading.
 fn add_contact(sheet: &mut Sheet, outcome: &Outcome) {
     let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else {
         return;
@@ -435,7 +437,8 @@ mod tests {
         let mut outcome = Simulation::default()
             .run(scene, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
-        // Computing times and counts of work vary, so they are replaced by fixed ones.
+        // Computing times and counts of work may vary. Fixed numbers replace them, so that the text
+        // of the summary is always the same.
         outcome.timings = Timings {
             line: 1.5e-3,
             ..Timings::default()
@@ -565,8 +568,9 @@ mod tests {
         }
     }
 
-    /// With a narrow band of long waves the two regimes differ, so each is named with its turning
-    /// point. Little adheres at first touch, and everything where the force is back at zero.
+    /// With a narrow band of long waves, the two turning points give different regimes, so that
+    /// each regime is named with its turning point. After a turn at first touch there is little
+    /// adhesion, after a turn at zero force full adhesion.
     #[test]
     fn regimes_that_differ_name_their_protocols() {
         let scene = [

@@ -1,4 +1,5 @@
-//! Analysed surfaces as text and JSON, and their spectra as a table and a figure.
+//! Results of the analysis of measured surfaces as text and JSON, and their spectra as a table and
+//! a figure.
 
 use crate::measured_face::{MeasuredFace, SurfaceFile};
 use crate::report::{Json, Report};
@@ -21,14 +22,14 @@ use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
 
-/// Number of points of the equivalent line per decade of wave numbers, in the table of spectra.
+/// Number of points per decade of wave numbers for the equivalent line, in the table of spectra.
 const LINE_PER_DECADE: f64 = 10.0;
 
 /// Name of the spectrum of the equivalent line in the table of spectra.
 const LINE: &str = "equivalent line";
 
-/// Returns in words the median, quartiles and range of the adhesion force over random profiles that
-/// replace a measured surface. Returns `None` for fewer than two profiles.
+/// Returns in words the median, quartiles and range of the adhesion force over random profiles with
+/// the spectrum of a measured surface. Returns `None` for fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed
         .adhesion_force()
@@ -56,8 +57,8 @@ pub struct SurfaceReport {
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
     /// Scene with the random profiles of [`Self::line`], and the adhesion computed on these
-    /// profiles. It is `None` if no adhesion was requested. The second value is `None` if the
-    /// adhesion was not computed.
+    /// profiles; `None` if the user has not asked for the adhesion. The second value is `None` if
+    /// the adhesion was not computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
     /// Function that states a [`Remedy`] in words: as an option of the
     /// command line, a row of the explorer or an argument of Python.
@@ -66,7 +67,7 @@ pub struct SurfaceReport {
 
 impl SurfaceReport {
     /// Returns a warning if the range of the attraction is too long for the radius of the summits
-    /// of the surface; `None` without a modulus and a work of adhesion.
+    /// of the surface. Returns `None` if the modulus or the work of adhesion is not given.
     fn tabor_warning(&self) -> Option<Warning> {
         let (scene, _) = self.adhesion.as_ref()?;
         let modes = self
@@ -93,8 +94,8 @@ impl Report for SurfaceReport {
             add_face(&mut sheet, heading, face);
         }
         sheet.heading("Equivalent line");
-        // Modulus and work of adhesion may have been typed without a unit, so the report states
-        // both with their units.
+        // The user may have typed the modulus and the work of adhesion without units. Therefore the
+        // report states them with their units.
         sheet.quantity("effective modulus E*", self.modulus, "Pa");
         sheet.quantity("work of adhesion γ", self.work, "J/m²");
         self.add_moments(&mut sheet);
@@ -106,8 +107,8 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns the analysis of the first body as a JSON object. Its entry `opposite` is the
-    /// analysis of the opposite body.
+    /// Returns the analysis of the first body as a JSON object. The analysis of the opposite body,
+    /// if there is one, is its entry `opposite`.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = match &self.adhesion {
@@ -166,7 +167,8 @@ impl SurfaceReport {
         let moments = self.line.moments();
         let energy = self.times_modulus(moments.energy_per_modulus);
         let stiff_height_gradient = self.times_modulus(moments.height_gradient);
-        // κ is in proportion to the square root of h⟨∇z⟩, so its relative error is half as large.
+        // κ is proportional to the square root of h⟨∇z⟩, so that the relative error of κ is half
+        // that of h⟨∇z⟩.
         let kappa = self.over_work(stiff_height_gradient).map(Moment::root);
         [
             MomentRow {
@@ -208,18 +210,19 @@ impl SurfaceReport {
         ]
     }
 
-    /// Returns a moment times the effective modulus; `None` without a modulus.
+    /// Returns a moment multiplied by the effective modulus; `None` if the modulus is not given.
     fn times_modulus(&self, moment: Moment) -> Option<Moment> {
         Some(moment.scaled(self.modulus?))
     }
 
-    /// Returns a moment divided by the work of adhesion; `None` without a work of adhesion.
+    /// Returns a moment divided by the work of adhesion; `None` if the work of adhesion is not
+    /// given.
     fn over_work(&self, moment: Option<Moment>) -> Option<Moment> {
         Some(moment?.scaled(1.0 / self.work?))
     }
 
-    /// Adds a table of the moments with a column for each kind of error. If e_el is known, e_el/E*
-    /// is left out.
+    /// Adds a table of the moments, with a column for each kind of error. The row of e_el/E* is
+    /// left out if e_el is known.
     fn add_moments(&self, sheet: &mut Sheet) {
         let header = ["", "value", "statistical", "method", "missing short waves"];
         let mut rows = vec![header.map(String::from)];
@@ -248,8 +251,8 @@ impl SurfaceReport {
         sheet.table(&rows);
     }
 
-    /// Adds the range of the waves of the equivalent line, what ends the spectrum at its short end,
-    /// and the gradient of the profile.
+    /// Adds the range of the wavelengths of the equivalent line, the reason why the spectrum ends
+    /// at short waves, and the gradient of the profile.
     fn add_wavelengths(&self, sheet: &mut Sheet) {
         let [longest, shortest] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
         let end = self.end_in_words();
@@ -263,8 +266,8 @@ impl SurfaceReport {
         );
     }
 
-    /// Returns in words how the spectrum ends or continues beyond its shortest waves. The face with
-    /// the shortest waves decides.
+    /// Returns in words how the spectrum ends at its shortest waves or continues beyond them. Of
+    /// two faces (surfaces of the two bodies), the face with the shorter waves decides.
     fn end_in_words(&self) -> &'static str {
         let analyses = self.faces.iter().map(|face| &face.analysis);
         let finest = analyses.max_by(|first, second| {
@@ -281,7 +284,8 @@ impl SurfaceReport {
         }
     }
 
-    /// Returns the warnings about both faces and about the range of the attraction.
+    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
+    /// attraction.
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {
@@ -294,8 +298,8 @@ impl SurfaceReport {
         warnings
     }
 
-    /// Returns the rows of the table of spectra: first the measured spectra, then the equivalent
-    /// line.
+    /// Returns the rows of the table of spectra. The measured spectra come first, and then the
+    /// spectrum of the equivalent line.
     fn spectrum_rows(&self) -> Vec<SpectrumRow> {
         let mut rows = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {
@@ -331,12 +335,12 @@ struct SpectrumRow {
     wave_number: f64,
     /// Power spectral density, m³.
     power: f64,
-    /// Number of averaged waves; `None` for the equivalent line.
+    /// Number of waves that were averaged; `None` for the equivalent line.
     waves: Option<u64>,
 }
 
-/// Moment of the equivalent line, or a quantity that follows from moments; the value is `None` if
-/// it is unknown.
+/// Moment of the equivalent line, or a quantity that follows from moments. If the quantity is not
+/// known, its value is `None`.
 #[derive(Clone, Copy)]
 struct MomentRow {
     label: &'static str,
@@ -345,7 +349,7 @@ struct MomentRow {
     value: Option<Moment>,
 }
 
-/// Returns the preload in N of the scene with the equivalent line; `None` if the loading turns at
+/// Returns the preload in N of the scene with the equivalent line; `None` if its loading turns at
 /// zero force.
 fn preload(scene: &Scene) -> Option<f64> {
     let Some(Move::ToForce(force)) = scene.loading.first() else {
@@ -354,7 +358,7 @@ fn preload(scene: &Scene) -> Option<f64> {
     Some(*force)
 }
 
-/// Adds the files of one face and the results of their analysis.
+/// Adds the files of one face (surface of one body) and the results of their analysis.
 fn add_face(sheet: &mut Sheet, heading: &str, face: &MeasuredFace) {
     sheet.heading(heading);
     for file in &face.files {
@@ -390,10 +394,11 @@ fn add_self_affine_fit(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.row("roll-off wavelength", wavelength);
 }
 
-/// Number of random profiles in the command that the report proposes for the adhesion.
+/// Number of random profiles in the command that the report proposes for computing the adhesion.
 const PROFILES: u64 = 16;
 
-/// Adds the adhesion of random profiles with the spectrum of the equivalent line.
+/// Adds the results on adhesion, computed with random profiles that have the spectrum of the
+/// equivalent line.
 fn add_adhesion(
     sheet: &mut Sheet,
     scene: &Scene,
@@ -456,8 +461,9 @@ fn with_error(estimate: ValueWithError, unit: &str) -> String {
     format!("{value} ± {error}")
 }
 
-/// JSON object of the surfaces of one face, in SI units. The object of the first face also has the
-/// results of both faces together, and contains the object of the opposite face.
+/// JSON object of the surfaces of one face (surface of one body), in SI units. The object of the
+/// first face also has the results of both faces together, and contains the object of the opposite
+/// face.
 #[derive(Serialize)]
 struct FaceJson<'a> {
     version: &'static str,
@@ -497,7 +503,7 @@ struct AdhesionJson<'a> {
     lines: &'a [ProfileAdhesion],
 }
 
-/// Writes each moment as an entry with its key.
+/// Writes each moment as an entry of a JSON object, with the key of its row.
 fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(rows.iter().flatten().map(|row| (row.key, row.value)))
 }
@@ -526,8 +532,8 @@ impl<'a> FaceJson<'a> {
         let MeasuredFace { files, analysis } = face;
         let mut profile_spectra = Vec::with_capacity(analysis.spectra.len());
         for (direction, bins) in &analysis.spectra {
-            // The spectra of each face are in a separate object, so their names need not state the
-            // face.
+            // Each face has a JSON object of its own, so that the names of its spectra need not
+            // state the face.
             let name = spectrum_name(0, *direction);
             profile_spectra.push(SpectrumJson { name, bins });
         }

@@ -1,4 +1,5 @@
-//! Reliability of an adhesion force: criteria of other theories, and the errors of each source.
+//! Reliability of an adhesion force: the criteria of other theories, and the errors from each
+//! source.
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
@@ -8,8 +9,8 @@ use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, criteria};
 
-/// Adds the criteria of adhesion without a preload, and the errors of the adhesion force, one for
-/// each source.
+/// Adds what criteria of other theories state about adhesion without a preload, and the error of
+/// the adhesion force from each source.
 pub(crate) fn add_trust(
     sheet: &mut Sheet,
     scene: &Scene,
@@ -28,7 +29,7 @@ pub(crate) fn add_trust(
     }
 }
 
-/// Adds a heading and rows. If there are no rows, nothing is added.
+/// Adds a heading and rows. Adds nothing if there are no rows.
 fn add_rows(sheet: &mut Sheet, heading: &str, rows: Vec<(&str, String)>) {
     if rows.is_empty() {
         return;
@@ -39,9 +40,9 @@ fn add_rows(sheet: &mut Sheet, heading: &str, rows: Vec<(&str, String)>) {
     }
 }
 
-/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has
-/// the name of a theory, and its verdict whether the bodies adhere. The last rows have the result
-/// of this program.
+/// Returns what theories predict for the adhesion of a computed scene without a preload. Each row
+/// has the name of a theory, and its verdict on whether the bodies adhere. The last rows have the
+/// result of this program.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -53,7 +54,7 @@ pub fn theory_rows(
         let words = "do not apply: the body is smooth".to_owned();
         rows.push(("criteria of roughness", words));
     }
-    // Only the first row of each theory has the name of the theory.
+    // A theory may have several rows. Only the first of them has the name of the theory.
     let mut last_name = "";
     for criterion in criteria {
         let name = if criterion.name == last_name {
@@ -67,10 +68,10 @@ pub fn theory_rows(
     rows
 }
 
-/// Returns the errors of the adhesion force, one for each source: number of springs, sample of
-/// profiles, measured surface, and model. A row has a source and its relative error in words. If
-/// `reference`, the comparison with three dimensions, is given, a further row has the difference
-/// from three dimensions. The last row names the largest error.
+/// Returns the errors of the adhesion force from each source: number of springs, sample of
+/// profiles, measured surface, and model. Each row has a source and its relative error in words. If
+/// there is a comparison with three dimensions (`reference`), a further row has the difference that
+/// it found. The last row names the largest error.
 pub fn error_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -146,8 +147,8 @@ fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
     words.to_owned()
 }
 
-/// Returns in words the error of the model. `is_exceeded` is true if a premise of the model does
-/// not hold, and the error is unknown.
+/// Returns in words the error of the model. `is_exceeded` is true if a premise of the model is not
+/// met, so that the error is unknown.
 fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: bool) -> String {
     if let Some(reference) = reference {
         return model_words(reference);
@@ -162,7 +163,7 @@ fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: boo
     words.to_owned()
 }
 
-/// Returns the source of the largest known error, and what would reduce this error.
+/// Returns the source of the largest known error, and a way to reduce this error.
 fn largest_in_words(budget: &Budget, is_exceeded: bool, wording: Wording) -> String {
     let words = match budget.largest {
         Some("grid") => {
@@ -223,8 +224,8 @@ mod tests {
         );
     }
 
-    /// If the contact reaches the ends of its profile, no error is stated, and no error is named as
-    /// the largest one.
+    /// If the contact reaches the ends of its profile, the report states no error and names no
+    /// largest error.
     #[test]
     fn no_error_is_stated_where_the_contact_reaches_the_ends() {
         let fields = [

@@ -1,28 +1,29 @@
-//! Warnings in reports, with the same words in text and in JSON.
+//! Warnings in reports. Text and JSON state them in the same words.
 
 use crate::sheet::Sheet;
 use asperity_data::{CountedWarning, Warning, grouped};
 
-/// Adds a section with the premises that a result does not meet. Without warnings it adds nothing.
+/// Adds a section with the premises that a result does not meet. Adds nothing if there are no
+/// warnings.
 pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
     sentences_section(sheet, &warning_texts(warnings));
 }
 
-/// Adds a section with the premises that an ensemble of random profiles does not meet, each with
-/// the number of profiles.
+/// Adds a section with the premises that are not met on some of the random profiles. Each warning
+/// states the number of these profiles.
 pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles: u64) {
     sentences_section(sheet, &counted_texts(warnings, profiles));
 }
 
-/// Returns the premises that do not hold on some of `profiles` random profiles:
-/// `On 12 of 16 profiles: ` and the warning. The count is left out if the premise does not hold on
-/// any profile.
+/// Returns texts on the premises that are not met on some of `profiles` random profiles:
+/// `On 12 of 16 profiles: ` and then the warning. If a premise is met on none of the profiles, the
+/// number is left out.
 pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
     texts_with_shares(warnings, profiles, "profiles")
 }
 
-/// Returns the premises that do not hold for some of `records` records of a study:
-/// `On 12 of 16 records: ` and the warning, as [`counted_texts`] does for profiles.
+/// Returns texts on the premises that are not met in some of `records` records of a study:
+/// `On 12 of 16 records: ` and then the warning, as in [`counted_texts`].
 pub fn counted_record_texts(warnings: &[CountedWarning], records: u64) -> Vec<String> {
     texts_with_shares(warnings, records, "records")
 }
@@ -36,9 +37,9 @@ fn texts_with_shares(warnings: &[CountedWarning], all: u64, things: &str) -> Vec
     texts
 }
 
-/// Puts the number of profiles or records on which a premise does not hold before the text of the
-/// premise: `On 12 of 16 profiles: `. If the premise holds on no profile or record, nothing is put
-/// before its text.
+/// Puts a number before the text of a premise: `On 12 of 16 profiles: `. The number is that of the
+/// profiles or records for which the premise is not met. If this is so for all of them, the text
+/// stays as it is.
 pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> String {
     if count == all {
         return text.to_owned();
@@ -46,7 +47,7 @@ pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> Stri
     format!("On {} of {} {things}: {text}", grouped(count), grouped(all))
 }
 
-/// Adds a section with warnings that are already sentences. Without sentences it adds nothing.
+/// Adds a section with warnings that are already sentences. Adds nothing if there are no sentences.
 pub(crate) fn sentences_section(sheet: &mut Sheet, sentences: &[String]) {
     if sentences.is_empty() {
         return;
@@ -57,8 +58,8 @@ pub(crate) fn sentences_section(sheet: &mut Sheet, sentences: &[String]) {
     }
 }
 
-/// Returns the entry `warnings` of a JSON object: a text for each premise that a result does not
-/// meet, and an empty list if all premises hold.
+/// Returns the list `warnings` for a JSON object. It has a text for each premise that a result does
+/// not meet, and is empty if all premises are met.
 pub fn warning_texts(warnings: &[Warning]) -> Vec<String> {
     warnings.iter().map(Warning::to_string).collect()
 }

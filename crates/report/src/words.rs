@@ -2,8 +2,8 @@
 
 use asperity_data::{format_rounded, grouped};
 
-/// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`. For errors
-/// [`asperity_data::per_cent`] chooses the digits.
+/// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`. For errors,
+/// use [`asperity_data::per_cent`], which chooses the number of digits.
 pub fn percent(share: f64, digits: usize) -> String {
     format!("{} %", format_rounded(100.0 * share, digits, "1"))
 }
@@ -18,14 +18,14 @@ pub fn counted(count: u64, noun: &str) -> String {
     format!("{} {}", grouped(count), plural(noun, count))
 }
 
-/// Returns a noun in the singular or plural that the number `count` needs: `spring`, `springs`.
+/// Returns the form of a noun for the number `count`: `spring` for 1, otherwise `springs`.
 pub(crate) fn plural(noun: &str, count: u64) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{noun}{ending}")
 }
 
-/// Returns the letter that names a scene in tables and legends: `A` for the number 0. After the 26
-/// letters of the alphabet follow `S26`, `S27` and so on.
+/// Returns the letter that names a scene in tables and legends, such as `A` for the number 0. From
+/// the number 26 on, the names are `S26`, `S27` and so on.
 pub fn letter(number: usize) -> String {
     match u8::try_from(number) {
         Ok(place) if place < 26 => char::from(b'A' + place).to_string(),

@@ -1,5 +1,5 @@
-//! The work–precision diagram: error as a function of computing time for each setting that affects
-//! the accuracy.
+//! The work–precision diagram: error over computing time, for each setting that affects the
+//! accuracy.
 
 use crate::reference::omitted_waves;
 use asperity_data::AxisScale;
@@ -9,8 +9,8 @@ use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of
 /// setting, such as the number of springs. The error is that of the adhesion force or, if there is
-/// no adhesion force, that of the force curve. If `reference`, the comparison with three
-/// dimensions, is given, a horizontal line shows the error of the model.
+/// no adhesion force, that of the force curve. If there is a comparison with three dimensions
+/// (`reference`), a horizontal line shows the error of the model.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let mut points = Vec::new();
     let mut layers = Vec::new();
@@ -70,8 +70,9 @@ impl Measured {
     }
 }
 
-/// Returns a curve for one kind of setting, with markers at its points. Open rings mark errors that
-/// are smaller than the error of the reference. `number` is the index of the kind of setting.
+/// Returns a curve for one kind of setting, with markers at its points. An open ring marks an error
+/// that is smaller than the error of the reference solution. `number` is the index of the kind of
+/// setting.
 fn series_layers(
     table: &CostTable,
     knob: Knob,
@@ -109,8 +110,8 @@ fn series_layers(
     layers
 }
 
-/// Returns the computing time of a square in s and its error of the grid; `None` if the error is
-/// unknown or zero.
+/// Returns the computing time in s of a square (rough square surface on an elastic half-space), and
+/// the error due to its grid. `None` if this error is unknown or zero.
 fn point_of_squares(reference: &Reference) -> Option<(f64, f64)> {
     let error = reference.budget.grid.filter(|error| *error > 0.0)?;
     Some((reference.seconds_of_square, error))

@@ -31,8 +31,8 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
     write_merged(&folder, &merged, stdout)
 }
 
-/// Writes the number of merged records, and of records that are failed, repeated or damaged. It is
-/// an error if no record could be computed.
+/// Writes the number of merged records, and the numbers of failed, repeated and damaged records.
+/// Returns an error if no record could be computed.
 pub(super) fn write_merged(
     folder: &Folder,
     merged: &Merged,

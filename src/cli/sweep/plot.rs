@@ -39,7 +39,7 @@ pub struct PlotArguments {
 const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Pdf, Format::Text];
 
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    // `-o -` writes an SVG into a pipe.
+    // With `-o -`, an SVG document is written into a pipe.
     let usual = if arguments.output.output.is_none() {
         Format::Text
     } else {
@@ -54,9 +54,9 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         curves,
         note,
     } = selected;
-    // The figure is drawn even if standard error is closed.
+    // An error in writing to standard error is ignored, so that the figure is drawn in any case.
     let _ = note.map(|note| writeln!(io::stderr(), "{}", advice::note(&note)));
-    // If the user chooses a scale, there is no second chart with another scale.
+    // If the user has chosen a scale, the second chart, which has the other scale, is left out.
     let scales = if arguments.selection.scale.is_some() {
         1
     } else {
@@ -70,8 +70,8 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         }
     }
     let figure = study_figure(&study.plan().title, &grid, charts);
-    // A number that varies in the study differs between the first and the last cell, and is not
-    // shown as a common parameter.
+    // Only parameters that are equal in these two scenes are shown as common. A number that varies
+    // in the study differs between the first and the last cell.
     let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));
     let scenes: Vec<_> = cells
         .into_iter()

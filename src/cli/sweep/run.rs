@@ -1,4 +1,5 @@
-//! `asperity sweep PLAN`: computes a study, or the records that are missing.
+//! `asperity sweep PLAN`: computes a study or, if a part of it is computed already, the missing
+//! records.
 
 use super::merge::write_merged;
 use crate::cli::error::CliError;
@@ -14,7 +15,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Time between two lines of progress if standard error is not a terminal.
+/// Time between two lines of progress, if standard error is not a terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
 #[derive(Args, Debug)]
@@ -48,7 +49,8 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         set: arguments.overrides.set.clone(),
         lines: arguments.lines,
     };
-    // The argument parser has checked that a plan is given if there is no subcommand.
+    // `plan` is `None` only if there is a subcommand, as the argument parser ensures. So a plan is
+    // given here.
     let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
     let jobs = threads(arguments.jobs) as u64;
     let text = cost_of(&plan, jobs)?;
@@ -70,8 +72,8 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     if let Some(shard) = arguments.shard {
         let total = computed.progress.total;
         let _ = writeln!(stderr, "all {total} records of shard {shard} exist");
-        // The process that completes the study merges it. If two processes end at the same time,
-        // both do, with the same result.
+        // The process that completes the study merges its records. If two processes finish at the
+        // same time, both of them merge, with the same result.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());
         }
@@ -96,7 +98,7 @@ fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
     ))
 }
 
-/// Computes the missing records of one part of a study, and shows the progress.
+/// Computes the missing records of one part of a study. The progress is shown meanwhile.
 fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyRun, CliError> {
     let watch = SignalWatch::begin()?;
     let stop = || watch.is_signalled();

@@ -1,11 +1,11 @@
-//! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs, one task for
-//! each shard.
+//! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs. The array has
+//! one task for each shard (part of the study).
 //!
-//! Slurm starts each task at least once. If a node is lost, its task is started again, while the
-//! lost task may still be running. This does no harm, because each attempt writes its own file and
-//! the merge counts a record only once. Slurm takes long to restart a task. Therefore the script
-//! itself restarts a killed program at once, and the program continues where its results end. The
-//! task that completes the study merges the results.
+//! If a node is lost, Slurm starts the task of this node again, while the lost task may still be
+//! running. This does no harm, because each attempt writes a file of its own, and the merge counts
+//! a record only once. But Slurm takes a long time to restart a task. Therefore the script of the
+//! task restarts a killed program immediately, and the program computes only the records that are
+//! still missing. The task that completes the study merges the results.
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
@@ -88,8 +88,8 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// Returns the job script, with absolute paths on the nodes. Its directives are defaults that
-/// variables `SBATCH_…` and options of sbatch override.
+/// Returns the job script, with paths that are absolute on the nodes. Its directives are defaults,
+/// over which variables `SBATCH_…` and options of sbatch have precedence.
 fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
     let program = path_in_script(program)?;
     let folder = path_in_script(folder)?;
@@ -121,8 +121,8 @@ done
     ))
 }
 
-/// Returns a path as text. Paths with a backslash or a double quote are refused, because Slurm
-/// would read a directive with these characters in another way.
+/// Returns a path as text. A path with a backslash or a double quote is refused, because Slurm
+/// would read another path in a directive.
 fn path_in_script(path: &Path) -> Result<&str, CliError> {
     match path.to_str() {
         Some(text) if !text.contains(|c| c == '\\' || c == '"' || is_control(c)) => Ok(text),
@@ -145,8 +145,8 @@ fn not_run(error: io::Error) -> String {
     }
 }
 
-/// Submits a script with further options of sbatch. Returns the answer of sbatch, or the reason why
-/// it refused the script.
+/// Submits a script with further options of sbatch. Returns the answer of sbatch or, if sbatch
+/// refuses the script, the reason.
 fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
     let mut command = Command::new("sbatch");
     command
@@ -156,7 +156,8 @@ fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String
         .stderr(Stdio::piped());
     let mut sbatch = command.spawn().map_err(not_run)?;
     if let Some(mut stdin) = sbatch.stdin.take() {
-        // Writing may fail, because sbatch may refuse its options before it has read the script.
+        // An error in writing is ignored, because sbatch may refuse its options before it reads the
+        // script.
         let _ = stdin.write_all(script.as_bytes());
     }
     let output = sbatch.wait_with_output().map_err(not_run)?;

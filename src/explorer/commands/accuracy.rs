@@ -1,5 +1,5 @@
-//! Studies that the present scene needs: the error of its outcome, the number of springs for a
-//! tolerance, the data of the shown pane, and the curve for a typed value.
+//! Studies (background computations) that the present scene needs: the error of its outcome, the
+//! number of springs for a tolerance, the data of the shown pane, and the curve for a typed value.
 
 use super::{edit, measured, target};
 use crate::explorer::action::Task;
@@ -22,8 +22,8 @@ use std::sync::Arc;
 /// would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
-/// Folder to which paths in the scene are relative. It is empty, because these paths are absolute
-/// or relative to the working folder.
+/// Folder to which paths in the scene are relative. It is empty, because the paths in a checked
+/// scene are already absolute or relative to the working folder.
 const FOLDER: &str = "";
 
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ pub fn studies(app: &mut App) -> Vec<Study> {
     app.studies.begin(wanted)
 }
 
-/// Study that computes the outcome of the scene with the value being typed.
+/// Returns the study that computes the outcome of the scene with the value that the user is typing.
 fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, control| {
@@ -76,8 +76,8 @@ fn preview(document: &Document) -> Study {
     })
 }
 
-/// Study that computes the random profiles of the scene for the headline; `None` if the scene has a
-/// fixed profile.
+/// Returns the study that computes the random profiles of the scene, whose results the explorer
+/// shows in its status line; `None` if the scene has a fixed profile.
 fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     let profiles = Ensemble::profiles_of(&scene);
@@ -88,7 +88,7 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     })
 }
 
-/// Study that computes loops of random squares in three dimensions.
+/// Returns the study that computes loops of random square surfaces on an elastic half-space.
 fn squares(app: &App) -> Study {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     Study::new(key, true, move |simulation, control| {
@@ -96,7 +96,8 @@ fn squares(app: &App) -> Study {
     })
 }
 
-/// Study that searches for the smallest number of springs with which the scene meets a tolerance.
+/// Returns the study that searches for the smallest number of springs with which the error of the
+/// scene is below a tolerance.
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, mut control| {
         let stop = control.stop();
@@ -124,7 +125,7 @@ pub fn type_tolerance(app: &mut App) {
     }
 }
 
-/// Begins the search for the number of springs that meets the typed tolerance.
+/// Begins the search for the number of springs with which the error is below the typed tolerance.
 pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
@@ -170,8 +171,8 @@ fn apply(app: &mut App, choice: &Choice) {
             return;
         }
     }
-    // The search has used finer solutions than an estimate would use. Therefore its errors are
-    // shown.
+    // The search has computed finer solutions than the usual estimate of the error. Therefore the
+    // errors found by the search are shown instead.
     app.studies
         .set(app.edit.generation, choice.estimate(), true);
     let unchanged = if is_unchanged { "as it is: " } else { "" };

@@ -1,4 +1,4 @@
-//! Scenes that are kept for comparison with the present scene.
+//! Commands for ghosts, which are scenes that the user keeps to compare with the present scene.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -8,22 +8,21 @@ use asperity_report::letter;
 use asperity_study::half_space::SquareLoops;
 use std::sync::Arc;
 
-/// Largest number of kept scenes, because each has a colour of its own.
+/// Largest number of ghosts. It is small, because each ghost has a colour of its own.
 const MOST_GHOSTS: usize = 4;
 
 pub fn clear(app: &mut App) {
     app.ghosts.clear();
 }
 
-/// Shows or hides the loops of random squares in three dimensions.
+/// Shows or hides the loops of random square surfaces on an elastic half-space.
 pub fn toggle_squares(app: &mut App) {
     app.view.squares ^= true;
     app.studies.forget::<SquareLoops>();
     app.effects.push(Task::Study);
 }
 
-/// Returns the present scene with its outcome, to be kept for comparison; `None` before the scene
-/// is computed.
+/// Returns the present scene with its outcome as a ghost; `None` before the scene is computed.
 fn ghost(app: &App) -> Option<Ghost> {
     let computed = app.current()?;
     Some(Ghost {

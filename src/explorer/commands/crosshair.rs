@@ -1,5 +1,5 @@
-//! The crosshair of the selected pane, with which values are read. In the profile and the close-up
-//! it has a position along the profile, in other charts a position along the horizontal axis.
+//! The crosshair, at which the selected pane states values. In the profile and the close-up, its
+//! position is a position along the profile, in other charts a position along the horizontal axis.
 
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
@@ -73,10 +73,9 @@ fn chart(app: &App) -> Option<Chart> {
     figure.charts.into_iter().next()
 }
 
-/// Returns the positions of the left and the right end between which the crosshair can move. In the
-/// profile and the close-up, they are the ends of the visible part, as shares of the profile. In
-/// another chart, they are the ends of the curves that have a name, as shares of the horizontal
-/// axis.
+/// Returns the leftmost and the rightmost position of the crosshair. In the profile and the
+/// close-up, these are the ends of the visible part, as shares of the profile. In another chart,
+/// these are the ends of the named curves, as shares of the horizontal axis.
 fn ends(app: &App) -> (f64, f64) {
     if let Some(section) = app.section() {
         let springs = springs(app);

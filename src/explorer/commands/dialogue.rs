@@ -15,10 +15,10 @@ use asperity_scene::presets;
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::InputRequest;
 
-/// Name of the help. The entries of this list can only be read, not chosen.
+/// Name of the help. Its entries do nothing if the user chooses them.
 const HELP: &str = "Help";
 
-/// Begins a search in the list of parameters, and shows this list.
+/// Shows the list of parameters, and begins a search in this list.
 pub fn find_parameter(app: &mut App) {
     let before = app.view.pane;
     app.ask(Purpose::Parameter { before }, "");
@@ -37,8 +37,8 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     }
 }
 
-/// Opens the help. It contains the notice of the scene (which does not fit into a small window),
-/// the contents of the panes, and all keys.
+/// Opens the help. It contains the notice of the scene (for which a small window has no room), a
+/// description of the panes, and all keys.
 pub fn open_help(app: &mut App) {
     let mut topics = Vec::new();
     let notice = on_one_line(&app.edit.document.scene().notice);
@@ -83,7 +83,8 @@ pub fn search_help(app: &mut App) {
     }
 }
 
-/// Moves the selection in the list by a number of rows, downwards if it is positive.
+/// Moves the selection in the list of a prompt by a number of rows, downwards if the number is
+/// positive.
 pub fn select(app: &mut App, rows: i32) {
     if let Some(prompt) = &mut app.prompt {
         let last = prompt.found.len().saturating_sub(1);
@@ -92,7 +93,7 @@ pub fn select(app: &mut App, rows: i32) {
     }
 }
 
-/// Moves the selection in the list as the pressed key says.
+/// Moves the selection in the list of a prompt in the direction of the pressed key.
 pub fn select_by(app: &mut App, key: &KeyEvent) {
     let rows = match key.code {
         KeyCode::Home | KeyCode::Char('g') => i32::MIN,
@@ -103,8 +104,8 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     select(app, rows);
 }
 
-/// Moves the selection in the list, or in the parameters, by a page. A page is half the rows of the
-/// window, because an entry may take two rows.
+/// Moves the selection by a page, in the list of a prompt or in the list of parameters. A page has
+/// half as many entries as the window has rows, because an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
     let rows = if key.code == KeyCode::PageUp {
@@ -119,8 +120,8 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Accepts the typed line or the selected row, or answers a question with yes. A line that is
-/// refused stays in the prompt together with the reason.
+/// Accepts the typed line or the selected row, or answers a question with yes. If a line is
+/// refused, the prompt stays open with this line and the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else {
         return;
@@ -144,7 +145,7 @@ pub fn accept(app: &mut App) {
     }
 }
 
-/// Does what the prompt is for. Returns the reason if this is not possible.
+/// Performs the purpose of the prompt. Returns the reason if this is not possible.
 fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
     match &prompt.purpose {
@@ -181,8 +182,8 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
 
 const NOTHING_FITS: &str = "nothing in the list fits";
 
-/// Opens the selected scene. If no scene in the list matches the typed text, the text is the path
-/// of a scene or a study, which is opened.
+/// Opens the selected scene. If no scene in the list matches the typed text, the text is taken as
+/// the path of a scene or a study, which is then opened.
 fn accept_scene(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     if let Some(entry) = prompt.scene() {
         let document = entry.document.clone();
@@ -250,8 +251,9 @@ const WITH_FILES: [&str; 4] = [
     "roughness.opposite",
 ];
 
-/// Returns the path that the user is typing. It is the whole line or, if a value is typed, the text
-/// after its last quotation mark. In a value, the path is relative to the folder of the scene.
+/// Returns the path that the user is typing: the whole line or, if the line is the value of a
+/// parameter, the text after its last quotation mark. In such a value, the path is relative to the
+/// folder of the scene.
 fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
@@ -270,15 +272,15 @@ pub fn can_complete(app: &App) -> bool {
     typed_in_line(app).is_some()
 }
 
-/// Requests the paths that begin with the typed path.
+/// Requests the paths that begin with the typed path, as a task.
 pub fn complete(app: &mut App) {
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));
     }
 }
 
-/// Completes the typed path with the characters that all the found paths have in common. If there
-/// are several paths, they are shown.
+/// Completes the typed path with all characters that the found paths have in common. If several
+/// paths were found, they are shown.
 pub fn completed(app: &mut App, paths: Vec<String>) {
     let Some(typed) = typed_in_line(app) else {
         return;

@@ -45,14 +45,14 @@ pub fn open(app: &mut App, document: Document) {
     app.play = Player::START;
     app.view.close_up = CloseUpTarget::WHOLE;
     app.view.profile = LineView::WHOLE;
-    // Now the live map of the scene is shown. The map of a study stays loaded.
+    // From now on the live map of the scene is shown. The map of a study stays loaded.
     app.map.of_study = false;
     adopt(app, document);
     app.edit.set_saved();
 }
 
-/// Opens the editor for the value of the selected parameter. If the user has typed the character
-/// `first`, it replaces the value.
+/// Opens the editor for the value of the selected parameter. If the user has begun to type with the
+/// character `first`, this character replaces the value.
 pub fn edit_value(app: &mut App, first: Option<char>) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -63,7 +63,7 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     } else {
         let text = editable(app, parameter);
         app.ask(Purpose::Value, &text);
-        // The preview of an earlier edit is removed.
+        // The preview of an earlier edit is no longer valid.
         app.tried = None;
         app.studies.forget::<Preview>();
         if let Some(first) = first {
@@ -81,7 +81,7 @@ pub fn start_value(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Moves the cursor in the typed line or deletes text, as the pressed key says.
+/// Moves the cursor in the typed line, or deletes text in it, depending on the pressed key.
 pub fn edit_by(app: &mut App, key: &KeyEvent) {
     let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
     let request = match (key.code, is_control) {
@@ -123,7 +123,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
 }
 
-/// Returns a sentence that says how a parameter without a number is changed.
+/// Returns a sentence that explains how the user changes a parameter that is not a number.
 pub fn way_of_changing(parameter: &Parameter) -> String {
     let range = parameter.field.range;
     let is_option = matches!(parameter.setting, Setting::CurveOption(_));
@@ -143,16 +143,16 @@ pub fn way_of_changing(parameter: &Parameter) -> String {
     format!("{} is {way}", parameter.name())
 }
 
-/// Shows and selects the list of parameters if a small window hides it, so that the user sees which
-/// value changes.
+/// If a small window hides the list of parameters, shows and selects this list, so that the user
+/// sees which value changes.
 pub fn show_parameters(app: &mut App) {
     if Layout::of(app).pane(Pane::Parameters).is_none() {
         app.show(Pane::Parameters);
     }
 }
 
-/// Changes the selected value by a number of steps, which are large if `coarse` is true and
-/// otherwise small. If there is no further step, a message says why.
+/// Changes the selected value by a number of steps, which are large if `coarse` is true. If a step
+/// is not possible, a message states the reason.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -199,7 +199,7 @@ fn refusal_of_step(app: &App, parameter: &Parameter) -> Option<String> {
     ))
 }
 
-/// Returns the text of a value with which its editor opens: in the unit that the list shows, and
+/// Returns the text that the user edits: the value in the unit that the list of parameters shows,
 /// with all digits.
 pub fn editable(app: &App, parameter: &Parameter) -> String {
     if let Setting::CurveOption(index) = parameter.setting
@@ -231,7 +231,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
         return Ok(());
     }
     let document = with_typed(app, typed)?;
-    // Whether the contact can follow the loading is known only after the preview has been computed.
+    // The preview has computed the scene with this value. If it has failed, the contact cannot
+    // follow the loading.
     if app.tried.is_some()
         && let Some(why) = app.studies.failure::<Preview>()
     {
@@ -258,8 +259,8 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// Returns the scene in which the typed stage replaces the selected loading stage. If only a number
-/// is typed, the kind of the stage stays the same.
+/// Returns the scene in which the typed stage replaces the loading stage `leg`. If the user types
+/// only a number, the kind of the stage does not change.
 fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, String> {
     let document = &app.edit.document;
     let mut stages = document.stages();
@@ -276,8 +277,8 @@ fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, Stri
     within_reach(app, changed.map_err(|errors| reasons(&errors))?)
 }
 
-/// Returns an error with the reason if the changed scene has a larger force than the present scene
-/// and the contact cannot reach this force. Otherwise returns the changed scene.
+/// Returns the changed scene. If the changed scene presses with a larger force than the present
+/// scene, and the contact cannot reach this force, returns an error with the reason.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
     let present_force = pressing_force(&app.edit.document.scene().loading);
@@ -325,13 +326,13 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     within_reach(app, changed)
 }
 
-/// Returns the number of a value that is written as in the scene file.
+/// Returns the number in a value that is written as in the scene file.
 fn parse_number(parameter: &Parameter, written: &str) -> Result<f64, String> {
     parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string())
 }
 
-/// Returns the scene with another value of a field. If the field replaces another field, that field
-/// loses its value.
+/// Returns the scene with another value of a field. If this field excludes another one (as rms
+/// height and rms gradient exclude each other), the other field loses its value.
 fn with_field(document: &Document, path: &str, written: &str) -> Result<Document, SceneErrors> {
     let mut values = Vec::new();
     if let Some(replaced) = replaced_by(path)
@@ -359,8 +360,8 @@ fn check_range(field: &Field, value: f64) -> Result<(), String> {
     ))
 }
 
-/// Returns the adhesion of the scene with another κ or e_el/γ (`parameter`). If the scene states γ,
-/// it still states γ afterwards, with the value that follows from `value`.
+/// Returns the adhesion of the scene with another value of κ or e_el/γ (`parameter`). If the scene
+/// states γ, the returned adhesion also states γ, computed from the new value.
 fn with_roughness_parameter(
     app: &App,
     parameter: RoughnessParameter,
@@ -379,14 +380,14 @@ fn with_roughness_parameter(
     }
 }
 
-/// Reason why a change is refused if it depends on the outcome of the present scene.
+/// Reason for refusing a change that depends on the outcome of the present scene.
 pub(super) const STILL_COMPUTED: &str = "the scene is still being computed";
 
 fn undefined(parameter: RoughnessParameter) -> String {
     format!("{} is not defined without roughness", parameter.symbol())
 }
 
-/// Joins the messages of errors in values, without the places of the errors in the file.
+/// Joins the messages of errors in values. The places of the errors in the file are left out.
 pub fn reasons(errors: &SceneErrors) -> String {
     errors
         .iter()
@@ -395,8 +396,8 @@ pub fn reasons(errors: &SceneErrors) -> String {
         .join("; ")
 }
 
-/// Largest number of springs for which a preview is computed while a value is typed. The next typed
-/// character stops the computation.
+/// Largest number of springs for which a preview is computed while the user types a value. Each
+/// typed character stops the preview of the previous text.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
 /// Returns true if a preview of the scene is computed. This is the case if the scene is small
@@ -406,8 +407,8 @@ fn is_previewed(document: &Document) -> bool {
     numerics.points <= MOST_SPRINGS_TRIED && numerics.solver == Solver::Exact
 }
 
-/// Requests the curve for the value typed so far. If the value is not allowed, the preview
-/// disappears.
+/// Requests a preview of the curve for the value typed so far. If the value is not allowed, the
+/// preview is removed.
 pub fn preview(app: &mut App) {
     let tried = tried(app);
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
@@ -454,15 +455,15 @@ pub fn refuse(app: &mut App, why: String) {
 }
 
 /// Sets a field to a value. If the value is not allowed, the scene stays unchanged and a message
-/// says why.
+/// states the reason.
 pub fn change(app: &mut App, path: &str, value: &str) {
     let changed = app.edit.document.set(path, value);
     apply(app, changed)
 }
 
-/// Draws another random profile. Its seed has at most six digits, so that one user can easily read
-/// it out to another. The next seed follows from the present one, and no seed is repeated before all of
-/// them have been used.
+/// Draws another random profile. Its seed has at most six digits, so that users can easily read it
+/// to each other. The next seed follows from the present one, and no seed returns before all others
+/// have been used.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {
         Some(seed) => {
@@ -473,7 +474,8 @@ pub fn draw_seed(app: &mut App) {
     }
 }
 
-/// Makes the changed document the explored scene. If the change is not allowed, a message says why.
+/// Makes the changed document the explored scene. If the change is not allowed, a message states
+/// the reason.
 pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     let document = match changed {
         Ok(document) => document,
@@ -481,8 +483,8 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     };
     let before = app.edit.document.comments();
     let lost = before.saturating_sub(document.comments());
-    // If a built-in scene is changed, its comments are dropped without a message, because they
-    // describe the values that are replaced.
+    // The comments of a built-in scene describe the values that the user now changes. Therefore
+    // they are dropped without a message.
     let are_own = !document.is_changed_built_in();
     adopt(app, document);
     if lost > 0 && are_own {
@@ -509,14 +511,15 @@ pub fn adopt_all(app: &mut App, edited: Edited) {
     after_edit(app);
 }
 
-/// Continues the last edit: the document replaces the result of this edit.
+/// Continues the last edit: the document takes the place of its result, so that one undo reverts
+/// both.
 pub fn replace(app: &mut App, document: Document) {
     app.edit.replace(document);
     after_edit(app);
 }
 
-/// If `back` is true, undoes the last edit; otherwise redoes the last undone edit. A message says
-/// what has changed.
+/// Undoes the last edit if `back` is true; otherwise redoes the edit that was undone last. A
+/// message states what has changed.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else {
@@ -528,7 +531,7 @@ pub fn undo(app: &mut App, back: bool) {
     }
 }
 
-/// Drops everything that belongs to the scene before the edit.
+/// Removes everything that belongs to the scene before the edit.
 fn after_edit(app: &mut App) {
     app.message
         .take_if(|message| !matches!(message, Message::Done(_)));

@@ -41,8 +41,9 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     Ok(())
 }
 
-/// Asks for the name of a file for the scene. If the present scene is already saved, it asks for
-/// the file of another scene with unsaved changes.
+/// Asks for the name of a file in which the present scene is saved before the explorer ends. If the
+/// present scene is already saved, another scene with unsaved changes becomes the present scene
+/// first.
 pub fn save_before_leaving(app: &mut App) {
     if !app.edit.is_unsaved()
         && let Some(document) = app.edit.unsaved().first()
@@ -76,8 +77,8 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
-/// Shows whether a file has been written, and continues with the next step, such as a question or
-/// the end of the explorer.
+/// Shows whether a file has been written, and continues with the next step, which may be a question
+/// to the user or the end of the explorer.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     let is_scene = file.content == Content::Scene;
@@ -127,15 +128,16 @@ pub fn copy_command(app: &mut App) {
     let document = &app.edit.document;
     let program = format!("asperity{measured}");
     let command = command_line(&program, document.name(), document.overrides());
-    // If a user pasted control characters into a shell, the terminal would obey them.
+    // If the user pasted the command into a shell, control characters in it would act on the
+    // terminal.
     if command.contains(is_control) {
         app.set_error(
             "not copied: control characters in the name of the file; allowed: a name without any",
         );
         return;
     }
-    // The terminal does not confirm that it has copied the text. Therefore the notice contains the
-    // command too.
+    // The terminal does not confirm that it has copied the text. Therefore the message also
+    // contains the command, so that the user can select it.
     app.set_done(format!("copied: {command}"));
     app.effects.push(Task::Copy(command));
 }

@@ -1,4 +1,4 @@
-//! Commands of the map, on which a mark shows the scene.
+//! Commands of the map. A mark on the map shows the position of the present scene.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -23,8 +23,8 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Shows the next or the previous map of the study. If the scene belongs to the map shown before,
-/// the scene moves to the new map.
+/// Shows the next or the previous map of the study. If the present scene is a cell of the map shown
+/// so far, it becomes the corresponding cell of the new map.
 pub fn step_slice(app: &mut App, key: &KeyEvent) {
     let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {
@@ -53,13 +53,14 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
     };
     let was_unsaved = app.edit.is_unsaved();
     edit::apply(app, followed);
-    // The scene has only moved with the map, so this change does not count as unsaved.
+    // The user has changed only the map and not the scene, so the new scene does not count as
+    // unsaved.
     if !was_unsaved && !app.is_refused() {
         app.edit.set_saved();
     }
 }
 
-/// Number of columns or rows of a large step. On the live map, four rows double κ.
+/// Number of columns or rows in a large step. On the live map, κ doubles every four rows.
 const LARGE_STEP: i32 = 4;
 
 /// Moves the mark by one or several columns or rows of the map. The scene gets the values at the
@@ -97,7 +98,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
 /// Message if a step would leave the map.
 const EDGE: &str = "edge of the map";
 
-/// Returns the reason why the scene has no mark on the map.
+/// Returns the reason why the scene has no position on the map.
 fn why_no_place(app: &App) -> String {
     if let Err(why) = Plan::of_map(app.edit.document.scene()) {
         return why.to_string();
@@ -108,8 +109,8 @@ fn why_no_place(app: &App) -> String {
     "the scene is still being computed: its κ follows from its profile".to_owned()
 }
 
-/// Returns the value that is a number of steps further on an axis; `None` if it would lie beyond
-/// the end of the axis.
+/// Returns the value on an axis that lies a number of steps after `value`; `None` if it would lie
+/// beyond the end of the axis.
 fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
     if steps == 0 {
         Some(value)
@@ -118,7 +119,7 @@ fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
     }
 }
 
-/// Message if the scene lacks a quantity that an axis of the map shows.
+/// Message if the scene lacks the quantity of an axis of the map.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Sets the scene to the values at a position on the map. Successive moves are one edit, so that
@@ -132,7 +133,7 @@ pub fn move_to(app: &mut App, place: GridPlace) {
 }
 
 /// Returns the scene with the values at a position on the map. If the preload is given in units of
-/// E* h L, the preload may change with the position.
+/// E* h L, the preload in N may change with the position.
 fn moved_to(app: &App, place: GridPlace) -> Result<Document, SceneErrors> {
     let (value_across, value_up) = place;
     let axes = app.map_axes();

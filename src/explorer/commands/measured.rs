@@ -1,5 +1,5 @@
-//! A measured force curve beside the scene: its point of first touch, its deviation from the scene,
-//! and fits of parameters.
+//! Commands for the measured force curve that is compared with the scene: its point of first touch,
+//! its deviation from the scene, and fits of parameters.
 
 use super::edit;
 use crate::explorer::action::{CurveRequest, Task};
@@ -17,12 +17,12 @@ use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Grade, Paramete
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Number of computed curves between two reports of the progress of a fit.
+/// Number of curves that a fit computes between two reports of its progress.
 const REPORTED: u64 = 64;
 
-/// Returns the study of the measured curve. It is the fit that the user has requested. If none is
-/// requested, the study fits only the displacement at first touch, and gives the deviation of the
-/// curve from the scene.
+/// Returns the study (background computation) of the measured curve: the fit that the user has
+/// requested. Without such a request, the study fits only the displacement at first touch, and
+/// gives the deviation of the curve from the scene.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (
         Arc::clone(&app.edit.measured.as_ref()?.curve),
@@ -90,7 +90,7 @@ pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Applies the results of the study of the measured curve: the displacement at first touch, and the
+/// Applies the results of the fit to the measured curve: the displacement at first touch, and the
 /// scene with the fitted parameters.
 pub fn found(app: &mut App) {
     if let Some(Fitting {
@@ -122,8 +122,8 @@ fn fitted_offset(app: &App) -> Option<f64> {
     Some(offset.value)
 }
 
-/// Returns the option for reading the curve that the selected row shows, and the curve; `None` if
-/// the selected row is no such option.
+/// Returns the option for reading the curve that the selected row shows, and the measured curve;
+/// `None` if the selected row shows no such option.
 fn selected(app: &App) -> Option<(&'static CurveOptionRow, &Measured)> {
     let Setting::CurveOption(index) = app.edit.parameter()?.setting else {
         return None;
@@ -151,8 +151,8 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Sets the selected option to its next choice. If its value is a force, the force changes in the
-/// steps of forces in a scene.
+/// Steps through the values of the selected option. If the value is a force, it changes by the
+/// steps that forces in a scene have, otherwise to the next choice.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
     let Some((option, measured)) = selected(app) else {
@@ -186,8 +186,8 @@ fn next_value(
     option.field.stepped(&present, steps, coarse)
 }
 
-/// Shows the curve that was read with other options, together with the loading that follows from
-/// it, in one edit. If the curve was not read, a message says why.
+/// Shows the curve that was read with other options, and sets the loading that follows from this
+/// curve, in one edit. If reading the curve failed, a message states the reason.
 pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured>, String>) {
     match read.and_then(|measured| with_loading(app, *measured)) {
         Ok(edited) => {
@@ -203,7 +203,7 @@ pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured
     }
 }
 
-/// Returns the present scene with the loading of a measured curve, together with this curve.
+/// Returns the present scene with the loading of a measured curve, and the curve.
 fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
     let document = measured.curve.load(&app.edit.document, measured.offset);
     Ok(Edited {
@@ -213,7 +213,7 @@ fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
 }
 
 /// Returns the fitted parameters with their intervals as text. If the scene does not describe the
-/// curve, the text says this first.
+/// curve, this statement comes first.
 fn sentence(fit: &FitResult) -> String {
     let values: Vec<String> = fit.parameters.iter().map(value_in_words).collect();
     let values = values.join(", ");

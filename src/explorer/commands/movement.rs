@@ -12,16 +12,16 @@ use std::time::Duration;
 
 /// Time that the animation takes for a loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
-/// Number of steps in which the animation can go through a loading stage.
+/// Number of steps into which a loading stage is divided for stepping through the animation.
 const STEPS: f64 = 120.0;
-/// Largest share of a loading stage at which the animation still counts as being at the start of
-/// the stage.
+/// If the animation has passed less than this share of a loading stage, it counts as being at the
+/// start of the stage.
 const NEAR_START: f64 = 0.05;
 /// Number of small steps of manual loading from the lowest to the highest indentation.
 const SMALL_PUSHES: f64 = 400.0;
 /// Number of large steps of manual loading from the lowest to the highest indentation.
 const LARGE_PUSHES: f64 = 40.0;
-/// Largest number of points that are kept of the path of manual loading.
+/// Largest number of points of the manual force curve that are stored.
 const PATH_KEPT: usize = 20_000;
 
 pub fn toggle_manual(app: &mut App) {
@@ -43,9 +43,9 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Starts or pauses the animation. If the animation is at rest at its end, it starts again from the
-/// beginning. Manual loading ends, because the animation shows the loading of the scene; this holds
-/// for all movements of the animation.
+/// Starts or pauses the animation. If the animation has reached its end, it starts again from the
+/// beginning. Like all commands of the animation, this one ends manual loading, because the
+/// animation shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
     let is_last = app.play.leg + 1 >= app.legs().len();
@@ -57,8 +57,8 @@ pub fn toggle_play(app: &mut App) {
     }
 }
 
-/// Moves the animation by a number of steps. If it would leave its stage, it stops at the boundary
-/// to the next or the previous stage.
+/// Moves the animation by a number of steps. If a step would leave the loading stage, the animation
+/// stops at the boundary between the two stages.
 pub fn step(app: &mut App, steps: i32) {
     app.manual = None;
     app.play.playing = false;
@@ -90,12 +90,14 @@ pub fn restart(app: &mut App) {
     app.play = Player::START;
 }
 
-/// Goes to the start of the loading stage that is `legs` stages after the present one. If `legs` is
-/// negative and the animation is inside a stage, it goes to the start of this stage.
+/// Moves the animation to the start of the loading stage that is `legs` stages after the present
+/// one. If `legs` is negative and the animation is inside a stage, moves to the start of this stage
+/// instead.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
-    // A playing animation moves on between two keys, so a position shortly after the start counts
-    // as the start. Otherwise the user could not get back to earlier stages.
+    // While the animation plays, it moves on between two presses of the key. Therefore a position
+    // shortly after the start counts as the start. Otherwise the user could not get back to earlier
+    // stages.
     let is_inside = app.play.share(app.legs()) > NEAR_START;
     let distance = if legs < 0 && is_inside { 0 } else { legs };
     let leg = app.play.leg.saturating_add_signed(distance as isize);
@@ -103,8 +105,8 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Goes to the state at the pull-off, just before the contact is lost. This is the state in which
-/// the animation rests.
+/// Moves the animation to the pull-off, just before the contact is lost. The animation also shows
+/// this state after it has been played to its end.
 pub fn go_to_pull_off(app: &mut App) {
     let rest = Player::at_rest(app.legs());
     if rest.at == At::End {
@@ -126,8 +128,8 @@ pub fn elapse(app: &mut App, time: Duration) {
     let last = legs.len() - 1;
     let mut player = app.play;
     let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // If the distance goes beyond the end of a stage, the rest continues on the next stage. The
-    // speed then does not depend on the frame rate.
+    // If the step goes beyond the end of a stage, its rest is made in the next stage. In this way
+    // the speed does not depend on the frame rate.
     while player.leg < last && share > 1.0 - player.share(legs) {
         share -= 1.0 - player.share(legs);
         player = Player {
@@ -147,11 +149,11 @@ pub fn elapse(app: &mut App, time: Duration) {
     app.play = player;
 }
 
-/// Shows a snapshot that the solver has made. If it belongs to manual loading, the path is
-/// continued.
+/// Shows a snapshot from the solver. If the snapshot belongs to manual loading, its points are
+/// added to the manual force curve.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
-    // A snapshot that was requested earlier may arrive first. It does not answer the question which
-    // patch to show.
+    // The snapshot may answer an earlier request with another focus. Then it does not answer the
+    // question which patch to show.
     if snapshot.focus == app.view.close_up.focus && app.view.close_up.focus.is_question() {
         let middle = snapshot.close_up.patch.map(|facts| facts.patch.middle());
         app.view.close_up.focus = middle.map_or(Focus::Summit, Focus::Spring);
@@ -162,8 +164,8 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Adds the points that the body has passed to the path of manual loading. If a move was refused, a
-/// message says why.
+/// Adds the points that the body has passed to the manual force curve. If a move was refused, a
+/// message states the reason.
 fn continue_path(app: &mut App, travelled: &ManualPath) {
     let Some(manual) = &mut app.manual else {
         return;
@@ -191,7 +193,7 @@ fn continue_path(app: &mut App, travelled: &ManualPath) {
     }
 }
 
-/// Begins manual loading if it has not begun. If `order` is a move, the body is moved.
+/// Begins manual loading, unless it has already begun. If `order` is a move, moves the body.
 pub fn take(app: &mut App, order: Option<ManualMove>) {
     if !app.is_current() || app.legs().is_empty() {
         return;
@@ -218,7 +220,8 @@ fn begin_manual(app: &mut App) {
     };
     if let Some(snapshot) = app.present() {
         manual.path.push(snapshot.point);
-        // The start of a stage is the end of the previous stage, which manual loading may continue.
+        // At the start of a stage, the contact is at the end of the previous stage, and manual
+        // loading may continue this previous stage.
         manual.stages.push(match at {
             At::Start => leg.saturating_sub(1),
             _ => leg,

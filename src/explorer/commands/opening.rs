@@ -13,8 +13,8 @@ use asperity_report::LoopQuantities;
 use asperity_study::maps::StudyMap;
 use std::sync::Arc;
 
-/// Creates the state of an explorer in a window of this size. `opening` contains what the arguments
-/// of the program have opened.
+/// Creates the state of an explorer in a window of this size. `opening` contains the scene, study
+/// or curve that the arguments of the program name.
 pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config: Config) -> App {
     let Opening {
         document,
@@ -34,8 +34,8 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     app
 }
 
-/// Shows what was opened by its path: a scene, a study, or a measured curve beside the present
-/// scene.
+/// Shows what the user has opened by a path: a scene, a study, or a measured curve, which is
+/// compared with the present scene.
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
@@ -54,8 +54,8 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.show(Pane::Map);
 }
 
-/// Shows a measured curve beside the scene. In the same edit, the scene gets the loading of the
-/// curve.
+/// Shows a measured curve together with the scene, and gives the scene the loading of the curve, in
+/// one edit.
 fn show_measured(app: &mut App, measured: Measured) {
     let is_new = app.edit.measured.as_ref() != Some(&measured);
     let undone = if is_new {

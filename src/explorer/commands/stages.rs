@@ -1,5 +1,5 @@
-//! Edits of the loading: changes of single stages, and the path of manual loading as the new
-//! loading.
+//! Edits of the loading: changes of single stages, and use of the manual loading as the new loading
+//! of the scene.
 
 use super::{edit, measured};
 use crate::explorer::app::App;
@@ -11,12 +11,12 @@ use asperity_data::round_to;
 use asperity_scene::loading::StageKind;
 use asperity_scene::{Document, SceneErrors};
 
-/// Loading stages. A stage that is already part of the present loading comes with its index in this
-/// loading.
+/// Loading stages. A stage taken from the present loading has its index in this loading; a new
+/// stage has `None`.
 type Stages = Vec<(Option<usize>, Move)>;
 
-/// Returns the index of the selected stage. If the row of the whole loading is selected, it is the
-/// last stage. If neither is selected, an error message is shown.
+/// Returns the index of the selected stage. If the row of the whole loading is selected, returns
+/// the index of the last stage. If any other row is selected, shows an error message.
 fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
@@ -43,7 +43,7 @@ fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     }
 }
 
-/// Makes the changed scene the explored scene and selects a stage, if the change is allowed.
+/// If the change is allowed, makes the changed scene the explored scene and selects a stage.
 fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     let is_allowed = changed.is_ok();
     edit::apply(app, changed);
@@ -52,9 +52,9 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one, and opens its editor. If the selected stage does not press,
-/// the new stage presses. If it presses, the new stage goes to zero force or, at the end of the
-/// loading, to separation.
+/// Adds a stage after the selected one, and opens its editor. After a stage that does not press,
+/// the new stage presses. After a stage that presses, the new stage goes to zero force or, at the
+/// end of the loading, to separation.
 pub fn add(app: &mut App) {
     let force = pressing_force(app);
     let before = app.edit.generation;
@@ -92,7 +92,7 @@ pub fn delete(app: &mut App) {
     })
 }
 
-/// Moves the selected stage by `distance` places and exchanges it with the stage there.
+/// Exchanges the selected stage with the stage that is `distance` places after it.
 pub fn shift(app: &mut App, distance: isize) {
     change(app, |stages, selected| {
         let place = selected.saturating_add_signed(distance);
@@ -102,9 +102,9 @@ pub fn shift(app: &mut App, distance: isize) {
     })
 }
 
-/// Changes the selected stage to the next kind that the loading allows, or the previous kind if
-/// `forwards` is false. The number of the new kind is the value that the stage reaches now. If no
-/// other kind is allowed, a message gives the reason against the last kind that was tried.
+/// Changes the selected stage to the next kind of stage that the loading allows, or to the previous
+/// kind if `forwards` is false. Its new number is the value that the stage reaches now. If no other
+/// kind is allowed, a message states why the last kind was refused.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(selected) = selected(app) else {
         return;
@@ -130,8 +130,8 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     }
 }
 
-/// Returns the number with which a stage of this kind ends where the stage ends now, in the unit of
-/// the kind. If the end of the stage is not known, it is a usual value.
+/// Returns the number with which a stage of another kind would end where the stage ends now, in the
+/// unit of this kind. If the end of the stage is not known, returns a usual value.
 fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
     /// Indentation in m for a stage that is not computed.
     const USUAL_INDENTATION: f64 = 1e-7;
@@ -158,9 +158,9 @@ fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
     }
 }
 
-/// Returns the largest force of the present loading in N. If this loading does not press, it is the
-/// largest force of the most recent earlier version of the scene that presses; failing that, a
-/// force that suits the computed scene.
+/// Returns a force in N for a stage that presses: the largest force of the present loading. If the
+/// present loading does not press, the largest force of the most recent earlier version of the
+/// scene that presses. If there is none, a force that suits the computed scene.
 fn pressing_force(app: &App) -> f64 {
     let present = &app.edit.document;
     let earlier = app.edit.past.iter().rev().map(|edited| &edited.document);
@@ -186,9 +186,9 @@ fn pressing_force(app: &App) -> f64 {
 /// Force in N of a stage that presses, if neither the scene nor its outcome suggests a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// Changes the selected value by a number of steps. An option for reading the measured curve gets
-/// its next choice. A stage without a number, such as a separation, does not change, because
-/// another kind of stage would be another loading.
+/// Changes the selected value by a number of steps. For an option for reading the measured curve,
+/// selects the next choice. A stage without a number, such as a separation, does not change,
+/// because a change would replace it by another kind of stage.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -208,8 +208,8 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// Returns the stages of a loading that replaces the loading of the scene. Stages that do not
-/// change keep their text in the file.
+/// Returns the stages for a new loading of the scene. A stage that is the same as before refers to
+/// its text in the file, so that this text is kept.
 fn replaced(document: &Document, loading: &[Move]) -> Stages {
     let present = &document.scene().loading;
     let mut stages = Stages::new();
@@ -221,16 +221,14 @@ fn replaced(document: &Document, loading: &[Move]) -> Stages {
     stages
 }
 
-/// Returns the scene with the path of manual loading as its loading; `None` if there is no manual
-/// loading.
+/// Returns the scene with the manual loading as its loading; `None` if there is no manual loading.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let document = &app.edit.document;
     let stages = replaced(document, &app.manual.as_ref()?.loading);
     Some(document.with_stages(&stages))
 }
 
-/// Makes the path of manual loading the loading of the scene. The body stays at the end of the
-/// path.
+/// Makes the manual loading the loading of the scene. The body stays where it is.
 pub fn keep_path(app: &mut App) {
     let document = match with_path(app) {
         None => return app.set_error("no manual loading; d begins it"),

@@ -1,5 +1,5 @@
-//! The table of all keys with their functions. From this table follow the dispatch of keys, the
-//! footer, the help, the list of commands, the configuration, the demo and docs/keys.md.
+//! The table of all keys with their functions. The handling of pressed keys, the footer, the help,
+//! the list of commands, the configuration, the demo and docs/keys.md all follow from this table.
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
@@ -16,7 +16,7 @@ use crate::explorer::request::Focus;
 use Run::{Do, Key};
 use crossterm::event::KeyEvent;
 
-/// Row of the table, with its function and the condition under which the footer shows it.
+/// A row of the table, with its function, and with the condition under which the footer shows it.
 pub struct Entry {
     row: Row,
     run: Run,
@@ -26,11 +26,12 @@ pub struct Entry {
 #[derive(Clone, Copy)]
 enum Run {
     Do(fn(&mut App)),
-    /// Function that also receives the pressed key, for rows whose keys do different things.
+    /// Function that also receives the pressed key. It serves rows in which each key has another
+    /// effect.
     Key(fn(&mut App, &KeyEvent)),
 }
 
-/// Runs a command, which changes the state.
+/// Runs a command on the state of the explorer.
 pub fn run(command: KeyCommand, app: &mut App) {
     let Some(entry) = entry_of(command.row) else {
         return;
@@ -45,7 +46,7 @@ pub fn run(command: KeyCommand, app: &mut App) {
     }
 }
 
-/// Returns the key with which a command runs if the user has not pressed a key.
+/// Returns the key that a command is given if the user has chosen it without pressing its key.
 fn first_key(row: &Row) -> Option<KeyEvent> {
     let name = row.keys.split(' ').next()?;
     Some(key::Key::named(name)?.event())
@@ -60,8 +61,8 @@ pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-/// Returns the keys and rows for the footer, the most important first. Neighbouring rows with the
-/// same label become one item.
+/// Returns the keys and rows that the footer shows, the most important first. Neighbouring rows
+/// with the same label are joined.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     let is_manual = app.manual.is_some();
     app.config.bindings.footer(app.keys(), is_manual, |row| {
@@ -69,13 +70,14 @@ pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     })
 }
 
-/// Contexts in which all arrows act on the list of parameters. On the map and with a crosshair,
-/// they move the mark or the crosshair instead.
+/// Contexts in which all arrow keys act on the list of parameters. In the other panes, the arrow
+/// keys move the mark on the map, or the crosshair.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
-/// Contexts in which ↑ and ↓ select a parameter. On the map, they move the mark instead.
+/// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
+/// instead.
 const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
-/// Contexts except the list of parameters. In that list, the characters of these keys begin a
-/// value.
+/// All contexts of panes except that of the list of parameters, because there the characters of
+/// these keys begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];
@@ -85,7 +87,7 @@ const HELP: &[Context] = &[Context::Help];
 const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const LINE: &[Context] = &[Context::Line];
-/// Contexts with a list: prompts with a list, and the help.
+/// Contexts in which a list is open: prompts with a list, and the help.
 const LISTS: &[Context] = &[Context::List, Context::Help];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
@@ -173,7 +175,8 @@ fn takes_number(app: &App) -> bool {
     app.edit.parameter().is_some_and(Parameter::takes_number)
 }
 
-/// All keys. A test checks that a key has only one meaning in each context.
+/// All rows of the table of keys. A test checks that each key has at most one function in each
+/// context.
 #[rustfmt::skip]
 static TABLE: &[Entry] = &[
     row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),

@@ -1,4 +1,5 @@
-//! The inverse question: which value of the selected parameter gives a quantity the typed value?
+//! The inverse question: for which value of the selected parameter does a quantity reach a target
+//! that the user types?
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -18,15 +19,16 @@ use std::sync::Arc;
 /// Target that the prompt proposes.
 const USUAL: &str = "F_a/F_a,max = 80 %";
 
-/// Answer to a question. The key says to which question the answer belongs.
+/// Answer to an inverse question. The key identifies the question.
 #[derive(Clone, Debug)]
 pub struct Sought {
     key: String,
     found: Result<Found, String>,
 }
 
-/// Returns the path of the number that is sought for the row of a parameter: the preload for a row
-/// of the loading, otherwise the value of the parameter itself. `None` if nothing can be sought.
+/// Returns the path of the number that the inverse question seeks if this row is selected: the
+/// preload for a row of the loading, otherwise the parameter of the row. `None` if the question is
+/// not possible for this row.
 fn sought(parameter: &Parameter) -> Option<&str> {
     if parameter.group == "loading" {
         return Some("preload");
@@ -42,7 +44,7 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
 }
 
-/// Returns the name of the number that is sought for the selected row.
+/// Returns the name of the number that the inverse question seeks for the selected row.
 pub fn name(app: &App) -> String {
     match app.edit.parameter() {
         Some(parameter) if sought(parameter) != Some("preload") => parameter.name(),
@@ -50,7 +52,7 @@ pub fn name(app: &App) -> String {
     }
 }
 
-/// Asks the user for a target of the selected row.
+/// Asks the user for the target of the inverse question.
 pub fn ask(app: &mut App) {
     edit::show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -67,7 +69,7 @@ pub fn ask(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Returns the target that is being typed; `None` if there is no such prompt.
+/// Returns the target that the user is typing; `None` if the prompt for a target is not open.
 fn typed(app: &App) -> Option<&str> {
     let prompt = app.prompt.as_ref()?;
     match prompt.purpose {
@@ -76,14 +78,15 @@ fn typed(app: &App) -> Option<&str> {
     }
 }
 
-/// Returns the key of the question that consists of the selected row and this target.
+/// Returns the key of the inverse question: it contains the scene, the path of the sought number
+/// and the target.
 fn key(app: &App, typed: &str) -> Option<String> {
     let path = sought(app.edit.parameter()?)?;
     Some(format!("{} {path} {}", app.edit.generation, typed.trim()))
 }
 
-/// Returns the study that finds the value for the typed target; `None` if the target cannot be
-/// read.
+/// Returns the study (background computation) that seeks the value for the typed target; `None` if
+/// the target is not valid yet.
 pub fn study(app: &App) -> Option<Study> {
     let (key, condition) = (
         key(app, typed(app)?)?,
@@ -108,7 +111,8 @@ pub fn study(app: &App) -> Option<Study> {
     ))
 }
 
-/// Returns the answer to the question with this target; `None` if the answer is not known yet.
+/// Returns the answer to the inverse question with this target; `None` if the answer is not known
+/// yet.
 fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     let key = key(app, typed)?;
     let sought = app.studies.value::<Sought>()?;
@@ -119,7 +123,7 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     }
 }
 
-/// Returns the answer as text, or a text that says what is missing; `None` if no question is asked.
+/// Returns the answer as text, or a text about what is missing; `None` if no target is being typed.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     if let Err(why) = Question::parse_condition(typed) {
@@ -146,8 +150,8 @@ fn answer_in_words(found: &Found) -> String {
     }
 }
 
-/// Returns the value to be set, which is the median over the profiles. `None` if the target is met
-/// at any preload, so that no particular preload is needed.
+/// Returns the value to be set: the median over the random profiles. Returns `None` if even the
+/// smallest preload reaches the target, because then any preload will do.
 fn value(found: &Found) -> Option<f64> {
     let median = found.quantile(0.5)?;
     let (least, _) = found.question.searched;
@@ -155,8 +159,8 @@ fn value(found: &Found) -> Option<f64> {
     if is_needed { Some(median) } else { None }
 }
 
-/// Sets the selected row to the value that was found. A preload becomes the force of the stage that
-/// presses most.
+/// Sets the selected parameter to the value that was found. If the value is a preload, it becomes
+/// the force of the stage with the largest force.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Question::parse_condition(typed).map_err(|error| error.to_string())?;
     let known = match found(app, typed) {
@@ -176,7 +180,8 @@ pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the index of the stage to the largest force; the last one if there are several.
+/// Returns the index of the stage to the largest force. If several stages have this force, returns
+/// the last of them.
 fn pressing_stage(loading: &[Move]) -> Option<usize> {
     let mut pressing: Option<(usize, f64)> = None;
     for (index, stage) in loading.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Commands that change the view: panes, close-up, visible part of the profile, quantities and
+//! Commands that change what is shown: panes, close-up, visible part of the profile, units and
 //! colours.
 
 use crate::explorer::action::Task;
@@ -13,8 +13,8 @@ use crossterm::event::{KeyCode, KeyEvent};
 /// Smallest number of springs in the visible part of the profile.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows another patch in the close-up. `question` receives the middle spring of the shown patch,
-/// and returns which patch to show.
+/// Shows another patch in the close-up. `question` gets the middle spring of the patch shown now,
+/// and returns the focus, which names the patch relative to this spring.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let snapshot = app.snapshot.as_ref();
     let shown = snapshot.and_then(|snapshot| snapshot.close_up.patch);
@@ -32,7 +32,7 @@ pub fn next_theme(app: &mut App) {
     app.set_done(format!("colours: {}", app.view.appearance.theme.name()));
 }
 
-/// Switches the scale of the preloads between linear and logarithmic.
+/// Switches the axis of preloads between a linear and a logarithmic scale.
 pub fn toggle_preload_scale(app: &mut App) {
     app.view.preloads = match app.view.preloads {
         AxisScale::Linear => AxisScale::Logarithmic,
@@ -76,8 +76,8 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms the visible part in the selected pane. The point of the profile at `position` (m) stays at
-/// its place on the screen.
+/// Zooms in the selected pane. The point of the profile at `position` (in m) does not move on the
+/// screen.
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let pointer = position.and_then(|position| share_of_shown(app, position));
     let profile = app.view.profile;
@@ -114,8 +114,8 @@ fn share_of_shown(app: &App, position: f64) -> Option<f64> {
     Some(spring / section.springs.max(1) as f64)
 }
 
-/// Returns a focus of the close-up on a spring. If the number of the spring is beyond an end of the
-/// profile, it is the spring at this end.
+/// Returns the focus of the close-up on a spring. A number beyond an end of the profile gives the
+/// spring at this end.
 fn focus_within(app: &App, spring: f64) -> Focus {
     let last = (springs(app) - 1) as f64;
     Focus::Spring(spring.clamp(0.0, last) as usize)

@@ -25,7 +25,7 @@ pub struct Demo {
     typing: VecDeque<char>,
     /// Time in s until the next cue of the script.
     pause: f64,
-    /// Time in s since the demo began. The next field is the time in s between two frames.
+    /// Time in s since the demo began. The field `frame` is the time in s between two frames.
     seconds: f64,
     frame: f64,
     begun: bool,
@@ -79,7 +79,7 @@ impl Demo {
                 self.explorer.act(Action::Paste(character.to_string()));
                 self.pause = TYPING;
             } else if let Some(prompt) = &self.explorer.app.prompt {
-                // If a typed value has been refused, its editor is still open.
+                // If the typed value has been refused, its editor is still open and must be closed.
                 let is_refused = prompt.refused.is_some();
                 self.explorer
                     .command(if is_refused { "cancel" } else { "accept" });

@@ -1,4 +1,4 @@
-//! Script of the demo.
+//! Scripts of the demos.
 
 use Cue::{Do, Enter, Open, Repeat, Select, Wait};
 
@@ -15,7 +15,7 @@ pub enum Cue {
     Enter(&'static str),
 }
 
-/// Duration in s of a loading and an unloading stage, with a pause at the end.
+/// Time in s in which the demo plays a loading and an unloading stage, with a pause at the end.
 const LOOP: f64 = 12.5;
 
 /// Tour of the built-in scenes: the three regimes of adhesion, a larger preload, manual loading,

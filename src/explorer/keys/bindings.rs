@@ -1,13 +1,13 @@
-//! The rows of the table of keys, and the keys in use: the keys of the table, or the keys of the
-//! configuration that replace them.
+//! The rows of the table of keys, and the keys in use. These are the keys of the table, unless the
+//! configuration replaces them.
 
 use super::key::Key;
 use asperity_scene::text::nearest;
 use crossterm::event::KeyEvent;
 use std::fmt;
 
-/// Context in which a key is pressed, which determines the function of the key. It depends on the
-/// open prompt. Without a prompt, it depends on the selected pane.
+/// Context in which a key is pressed. It determines the function of the key. If a prompt is open,
+/// the context depends on the prompt, otherwise on the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     Explore,
@@ -17,9 +17,9 @@ pub enum Context {
     Crosshair,
     /// No prompt, and the list of parameters is selected.
     Parameters,
-    /// A prompt in which a line is typed, without a list.
+    /// A prompt with a line that the user types, but no list.
     Line,
-    /// A prompt in which a line is typed, with a list.
+    /// A prompt with a line that the user types, and a list of matching entries.
     List,
     Overwrite,
     Help,
@@ -36,21 +36,19 @@ pub struct Row {
     /// Label of the function in the footer; empty if the footer does not show the function.
     pub label: &'static str,
     pub help: &'static str,
-    /// Everyday words with which the user can also find the function, in addition to its
-    /// description.
+    /// Everyday words by which a search finds the function, in addition to its description.
     pub words: &'static str,
     pub section: &'static str,
     /// Rank in the footer. The row with the smallest rank comes first.
     pub rank: u8,
     pub is_listed: bool,
-    /// True if repeated commands of this kind are a single edit, which one undo reverts.
+    /// True if successive commands of this row count as one edit, which one undo reverts.
     pub merges: bool,
-    /// True if the keys of the row do different things, so that the function receives the pressed
-    /// key.
+    /// True if each key of the row has another effect. The function then receives the pressed key.
     pub takes_key: bool,
 }
 
-/// A row of the table as a command, with the pressed key if there is one.
+/// A row of the table that is to be run as a command, with the pressed key if there is one.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyCommand {
     pub row: &'static Row,
@@ -74,8 +72,8 @@ pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";
 
 impl Row {
-    /// Returns true if the configuration may replace the keys of the row. Keys that are valid in
-    /// prompts and keys that do different things, such as digits, are fixed.
+    /// Returns true if the configuration may replace the keys of the row. It may not replace keys
+    /// that are valid in prompts, and rows in which each key has another effect, such as digits.
     fn is_rebindable(&self) -> bool {
         let is_for_exploring = self
             .contexts
@@ -84,8 +82,8 @@ impl Row {
         is_for_exploring && !self.takes_key
     }
 
-    /// Returns true if the list of commands contains the row. It does not contain functions that
-    /// work only in a prompt or only with a crosshair.
+    /// Returns true if the list of commands contains the row. Functions that work only in a prompt,
+    /// or only with a crosshair, are not in the list.
     fn is_listed(&self) -> bool {
         let mut contexts = self.contexts.iter();
         let works_without_prompt =
@@ -93,10 +91,10 @@ impl Row {
         self.is_listed && works_without_prompt
     }
 
-    /// Returns the place of the row in the footer:
+    /// Returns the priority of the row in the footer:
     /// * 0: help and quit, which even the smallest window shows,
     /// * 1: keys that are valid only in the present context,
-    /// * 2 and more: main keys, then other keys.
+    /// * 2 and more: the main keys, followed by all other keys.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
         if is_special || is_manual && self.section == MANUAL {
@@ -118,8 +116,8 @@ impl Binding {
         names_of(&self.keys)
     }
 
-    /// Returns the names of the keys for the footer. If the keys of the row do different things, as
-    /// arrows do, it shows the first two keys, otherwise only the first.
+    /// Returns the names of the keys for the footer: the first two keys if each key of the row has
+    /// another effect, as arrow keys have, otherwise only the first key.
     fn footer_names(&self) -> String {
         let most = if self.row.takes_key { 2 } else { 1 };
         names_of(&self.keys[..self.keys.len().min(most)])
@@ -131,7 +129,7 @@ fn names_of(keys: &[Key]) -> String {
     names.join(" ")
 }
 
-/// The keys in use: the keys of the table, or the keys of the configuration that replace them.
+/// The keys in use: those of the table, unless the configuration replaces them.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 
@@ -168,8 +166,9 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_listed())
     }
 
-    /// Returns the command with this name that is valid in the context. If the function needs to
-    /// know the pressed key, its name follows the name of the command, as in `start-value 3`.
+    /// Returns the command with this name that is valid in the context. If the function needs a
+    /// pressed key, the name of the key is written after the name of the command, as in
+    /// `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
         let (name, key) = match name.split_once(' ') {
             Some((name, key)) => (name, Key::named(key)),
@@ -183,8 +182,8 @@ impl Bindings {
         })
     }
 
-    /// Returns the keys and rows for the footer in a context, the most important first.
-    /// Neighbouring rows with the same label become one item.
+    /// Returns the keys and rows that the footer shows in a context, the most important first.
+    /// Neighbouring rows with the same label are joined.
     pub fn footer(
         &self,
         context: Context,
@@ -206,7 +205,7 @@ impl Bindings {
     /// always ends the explorer.
     ///
     /// # Errors
-    /// Returns the name of the wrong entry of the setting, and an error message.
+    /// Returns which field of the setting is wrong, `action` or `keys`, and an error message.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         const ALLOWED: &str = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
         let mut parsed = Vec::new();
@@ -265,8 +264,8 @@ impl Bindings {
         text
     }
 
-    /// Returns a key that has two functions in the same context, and the names of both functions;
-    /// `None` if there is no such key.
+    /// Returns a key that has two functions in the same context, and the names of the two
+    /// functions; `None` if no key has two.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         for context in ANY {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();

@@ -1,9 +1,9 @@
-//! A key with its modifiers, which is identified by its name.
+//! A key with its modifiers. Each key has a name.
 
 use asperity_data::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// Key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.
+/// Key with its modifiers, such as `Ctrl+p`, or range of characters, such as `1–9`.
 #[derive(Clone, Debug)]
 pub struct Key {
     /// Name of the key in the table of keys or in the configuration.
@@ -24,13 +24,13 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Returns the event that this key causes. For a range of characters, it is the event of the
-    /// first character.
+    /// Returns the event of a press of this key. For a range of characters, returns the event of
+    /// the first character.
     pub fn event(&self) -> KeyEvent {
         KeyEvent::new(self.first, self.modifiers)
     }
 
-    /// Returns true if one event can match both keys.
+    /// Returns true if there is an event that matches both keys.
     pub fn overlaps(&self, other: &Key) -> bool {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
@@ -53,7 +53,8 @@ impl Key {
     }
 }
 
-/// Returns true if a name begins with a modifier, and the rest of the name.
+/// Splits off the modifier at the beginning of a name. Returns whether the name begins with the
+/// modifier, and the rest of the name.
 fn without_modifier<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
     match name.split_at_checked(modifier.len()) {
         Some((beginning, rest)) if beginning.eq_ignore_ascii_case(modifier) => (true, rest),
@@ -61,8 +62,8 @@ fn without_modifier<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
     }
 }
 
-/// Returns the first and the last code of the key with this name. They differ only for a range of
-/// characters. Shift is not allowed before a character, so `Shift+a` is not a key.
+/// Returns the first and the last code of the key with this name. The two codes differ only for a
+/// range of characters. Shift is not allowed before a character, so `Shift+a` is not a key.
 fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
     if let Some((_, code)) = NAMES.iter().find(|(known, _)| *known == name) {
         return Some(match code {
@@ -86,19 +87,19 @@ fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
     }
 }
 
-/// Direction and size of the step that an arrow key, or a letter in its place, means.
+/// Step to which an arrow key, or a letter that replaces it, corresponds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyDirection {
-    /// Number of columns to the right.
+    /// Number of columns to the right; negative to the left.
     pub columns: i32,
-    /// Number of rows upwards.
+    /// Number of rows upwards; negative downwards.
     pub rows: i32,
     /// True for a large step.
     pub is_coarse: bool,
 }
 
-/// Returns the step of an arrow key, or of the letter in its place. With Shift or a capital letter,
-/// the step is large. `None` for any other key.
+/// Returns the step of an arrow key or of a letter that replaces it; `None` for any other key. With
+/// Shift, or for a capital letter, the step is large.
 pub fn direction(key: &KeyEvent) -> Option<KeyDirection> {
     let (columns, rows) = match key.code {
         KeyCode::Left | KeyCode::Char('h' | 'H') => (-1, 0),

@@ -25,7 +25,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Smallest width in columns of a pane that shows the names of its curves.
+/// Smallest width in columns at which the pane shows the names of its curves.
 const WITH_NAMES: u16 = 40;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -55,8 +55,8 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     if let Body::Chart(plot) = &mut panel.body {
         if size.width < WITH_NAMES {
-            // The names are not needed, because the profile pane beside this one uses the same
-            // colours.
+            // The names are not needed, because the profile pane on the screen uses the same
+            // colours and has the names.
             for layer in &mut plot.chart.layers {
                 layer.name = Label::default();
             }
@@ -79,7 +79,7 @@ fn ends(snapshot: &ContactSnapshot) -> Layer {
     Layer::new("patch end".into(), Ink::Contact, signs)
 }
 
-/// Returns the chart of the springs in the pane for a file.
+/// Returns the chart of the springs in the close-up, for an exported file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     let section = &snapshot.close_up.section;
@@ -88,8 +88,8 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     Some(chart)
 }
 
-/// Returns the range of heights. It contains the profile, and the surface unless the surface is far
-/// above or below the profile.
+/// Returns the range of heights on the vertical axis. It contains the profile, and also the elastic
+/// surface unless the surface is far above or below the profile.
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
@@ -97,11 +97,11 @@ fn heights(section: &Section) -> Span {
     Span::around([low, high, level].into_iter(), 0.05)
 }
 
-/// Relative difference of two stretches below which they count as equal.
+/// Two stretches count as equal if their relative difference is below this number.
 const ROUNDING: f64 = 1e-13;
 
-/// Returns the length and the force of a contact patch, the stretch of its most stretched spring,
-/// and its number of springs, as texts.
+/// Returns texts that describe a contact patch: its length, its force, the stretch of its most
+/// stretched spring, and its number of springs.
 fn describe(app: &App, facts: PatchFacts) -> [String; 4] {
     let state = facts.state;
     let limit = state.largest_stretch;

@@ -1,5 +1,5 @@
-//! The force curve: the loop of loading and unloading, other curves to compare with the loop, and
-//! manual loading.
+//! The pane of the force curve: the loop of loading and unloading, manual loading, and other curves
+//! for comparison.
 
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::advice;
@@ -44,8 +44,8 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Returns the measured curve with the computed forces and the residuals; `None` if there is no
-/// measured curve, or if it is not fitted yet.
+/// Returns the report on the measured curve, with the computed forces and the residuals; `None` if
+/// there is no measured curve, or if the fit is not computed yet.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.edit.measured.as_ref()?;
     Some(FitReport {
@@ -56,9 +56,9 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     })
 }
 
-/// Returns the curves of the kept scenes and of the present scene. The name of a kept scene is its
-/// title. But if the kept scene is a variant of the present scene, or if both have the same title,
-/// the name consists of the differences.
+/// Returns the figure with the curves of the ghosts (scenes that the user keeps for comparison) and
+/// of the present scene. The name of a ghost is its title. If the ghost is a variant of the present
+/// scene or has the same title, its name states the differences.
 fn compared(app: &App) -> Option<Figure> {
     let present = &app.edit.document;
     let mut names: Vec<String> = Vec::new();
@@ -79,7 +79,7 @@ fn compared(app: &App) -> Option<Figure> {
     Some(force_figure(&curves, units(app)))
 }
 
-/// Returns the report on the measured curve, and the command that computes the fit.
+/// Returns the report on the measured curve, and the command that computes the fit to this curve.
 fn fit(app: &App) -> Exported<'_> {
     let report = fit_report(app)?;
     let options = &app.edit.measured.as_ref()?.options;
@@ -98,7 +98,7 @@ fn fit(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
-/// Smallest height in rows of a pane that lists the kept scenes.
+/// Smallest height in rows at which the pane describes the ghosts in lines above the chart.
 const WITH_GHOSTS: u16 = 12;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -152,7 +152,7 @@ fn names_of_marks(app: &App) -> Vec<Name> {
     names
 }
 
-/// Returns the letters of the kept scenes, to be written beside their curves, the newest first.
+/// Returns the letters of the ghosts, which are written beside the curves, the newest first.
 fn letters_of_ghosts(app: &App) -> Vec<Name> {
     let units = units(app);
     let mut names = Vec::new();
@@ -167,8 +167,8 @@ fn letters_of_ghosts(app: &App) -> Vec<Name> {
     names
 }
 
-/// Returns the lines above the chart that describe the kept scenes, the newest first. They take at
-/// most a quarter of the pane.
+/// Returns the lines above the chart that describe the ghosts (scenes that the user keeps for
+/// comparison), the newest first. The lines take at most a quarter of the pane.
 fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
     let mut lines = Vec::new();
     if size.height < WITH_GHOSTS {
@@ -207,9 +207,10 @@ fn edge(app: &App) -> Vec<Part> {
 }
 
 /// Returns the shown state as texts, the most important first: indentation d, force F and contact.
-/// Under manual loading, the change by the last move replaces the share in contact. E* l is the
-/// stiffness of the contact if its edges stay fixed (Popov and Filippov 2012, eq. (1)), and p_m the
-/// mean pressure, which is the force divided by the area of a circle with the contact radius.
+/// Under manual loading, the change by the last move is shown instead of the share of springs in
+/// contact. E* l is the stiffness of the contact with fixed edges (Popov and Filippov 2012, eq.
+/// (1)). p_m is the mean pressure: the force divided by the area of a circle with the contact
+/// radius.
 fn state(app: &App) -> Vec<String> {
     let (Some(snapshot), Some(outcome)) = (app.present(), app.outcome()) else {
         return Vec::new();
@@ -278,7 +279,7 @@ fn shows_loss(app: &App) -> bool {
     app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation
 }
 
-/// Returns the dissipated energy as text, with the Tabor number on which it depends.
+/// Returns the dissipated energy as text, and the Tabor number, because the energy depends on it.
 fn loss(app: &App) -> String {
     let Some(outcome) = app.outcome() else {
         return "ΔW open".to_owned();
@@ -307,8 +308,8 @@ fn units(app: &App) -> LoopUnits {
     }
 }
 
-/// Returns the indentation in m at a number on the horizontal axis; `None` if this number does not
-/// determine the indentation.
+/// Returns the indentation in m that belongs to a number on the horizontal axis; `None` if the
+/// number does not determine the indentation.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }
@@ -316,9 +317,9 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// Returns the chart of the residuals of the measured curve, divided by the noise, with the
-/// horizontal axis `x`. Until the residuals are computed, the chart has no points. `None` if there
-/// is no measured curve, or if the chart of the pane has no axis of force.
+/// Returns the chart of the residuals of the measured curve, divided by the noise. `x` is its
+/// horizontal axis. Until the residuals are computed, the chart has no points. `None` if there is
+/// no measured curve, or if the pane does not show forces.
 fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let units = units(app);
     if !units.shows_force() {
@@ -347,8 +348,8 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     Some(Chart::new(x.clone(), y, layers))
 }
 
-/// Share of the residuals that lie in the range of their chart. The few larger residuals, for
-/// example at a jump of the contact, are drawn at the edge.
+/// Share of the residuals that lie within the range of their chart. The other, larger residuals,
+/// for example at a jump of the contact, are drawn at the edge of the chart.
 const IN_RANGE: f64 = 0.98;
 
 /// Returns the smallest of the numbers 5, 10, 20, 50 and so on that is not below the absolute value
@@ -377,8 +378,8 @@ fn stiffness(app: &App) -> Option<f64> {
     }
 }
 
-/// Returns the chart with a marker at the shown state. The names of marks, kept scenes and axes are
-/// left out, because the pane writes them elsewhere.
+/// Returns the chart of the pane, with a marker at the shown state. The names of marks, ghosts and
+/// axes are left out of the chart, because the pane writes them elsewhere.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     if let Some(snapshot) = app.present() {
@@ -396,8 +397,8 @@ fn shown_chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// Returns the chart with the loop, the curves to compare with it, the path of manual loading, and
-/// the marks. Later curves are drawn over earlier ones.
+/// Returns the chart with the loop, the curves for comparison, the manual force curve, and the
+/// marks. Each curve is drawn over the curves before it.
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
@@ -418,7 +419,7 @@ fn chart(app: &App) -> Option<Chart> {
             layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
         }
     }
-    // Areas are inserted below the curves, because otherwise they would interrupt the curves.
+    // Areas are inserted below the curves. Drawn later, they would hide parts of the curves.
     for [lower, _, upper] in &bands {
         let border = lower.iter().chain(upper.iter().rev());
         insert_area(&mut chart, units, border);
@@ -441,8 +442,8 @@ fn insert_area<'a>(
     chart.layers.insert(1, area);
 }
 
-/// Returns the points of the measured curve; `None` if there is no measured curve, no axis of
-/// force, or no computed scene.
+/// Returns the points of the measured curve; `None` if there is no measured curve, if the pane does
+/// not show forces, or if no scene has been computed.
 fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     if !units(app).shows_force() {
         return None;
@@ -451,9 +452,9 @@ fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     Some(measured.points(stiffness(app)?))
 }
 
-/// Returns the mean and the scatter of the loops of random squares in three dimensions, if they are
-/// shown. For each direction of motion there are three curves: the lower end of the scatter, the
-/// mean and the upper end.
+/// Returns the mean and the scatter of the loops of random square surfaces on an elastic
+/// half-space, if the user has switched them on. For each direction of motion there are three
+/// curves: the lower end of the scatter, the mean and the upper end.
 fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
     if !app.view.squares || !units(app).shows_force() {
         return Vec::new();
@@ -521,9 +522,9 @@ fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
     }
 }
 
-/// Returns the loop of the computed scene. If the scene has changed since then, the loop stays in
-/// the background until the new one is computed. If the loop lies over measured points, its line is
-/// solid, because a line with gaps could not be seen.
+/// Returns the loop of the computed scene. If the scene has changed since, its former loop is drawn
+/// in a weaker colour until the new one is computed. A loop over measured points gets a solid line,
+/// because a line with gaps could not be seen there.
 fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> ForceLoop<'a> {
     let stroke = if is_over_points {
         Some(Stroke::Solid)
@@ -553,19 +554,19 @@ fn manual_loop(manual: &ManualState) -> ForceLoop<'_> {
     }
 }
 
-/// Returns the values of a kept scene that differ from the present scene, as text.
+/// Returns the values of a ghost that differ from those of the present scene, as text.
 fn differences(app: &App, ghost: &Ghost) -> String {
     ghost.changes(&app.edit.document, |change| {
         format!("{} {}", change.name, change.from)
     })
 }
 
-/// Number of points on the curve of a loading stage beside which the letter of a kept scene may be
+/// Number of points on the curve of each loading stage beside which the letter of a ghost may be
 /// written.
 const PLACES: usize = 8;
 
-/// Returns the points beside which the letter of a kept scene may be written. First come its marks,
-/// beginning with the pull-off, then points on its curve, beginning with the last stage.
+/// Returns the points beside which the letter of a ghost may be written, the best first: its marks,
+/// beginning with the pull-off, and then points on its curve, beginning with the last stage.
 fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
     let mut marks = Mark::all(legs);
@@ -578,8 +579,8 @@ fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
     places
 }
 
-/// Returns the adhesion force of a kept scene, and how much larger or smaller the adhesion force of
-/// the present scene is: `F_a 12 µN, now 3 µN more`.
+/// Returns the adhesion force of a ghost, and by how much the adhesion force of the present scene
+/// is larger or smaller: `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
     let kept = ghost.outcome.figures.adhesion_force?;

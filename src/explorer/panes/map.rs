@@ -1,5 +1,5 @@
-//! The map: shades in the colours of the regimes, the mark of the scene, and the values at this
-//! mark.
+//! The pane of the map. Shades of the map show regimes or values, a mark shows the position of the
+//! scene, and a text states the values at the mark.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -39,12 +39,12 @@ pub static ROW: PaneRow = PaneRow {
     ],
 };
 
-/// Largest number of springs with which a demo computes a map. A map consists of hundreds of
-/// scenes, so larger scenes would take too long.
+/// Largest number of springs with which a demo computes a map. With more springs, the hundreds of
+/// scenes of a map would take too long.
 const MOST_SPRINGS: u64 = 1 << 12;
 
-/// Returns the study that computes the missing cells of the live map; `None` if the scene has no
-/// map.
+/// Returns the study (background computation) of the missing cells of the live map; `None` if the
+/// scene has no live map.
 fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
     let plan = app.map.plan(&computed.scene)?;
     let (key, is_long) = (
@@ -100,8 +100,8 @@ fn panel(app: &App, size: Size) -> Panel {
 }
 
 /// Returns the map of the regimes or of another quantity over two axes; `None` if the grid has only
-/// one axis. The cells have no letters of the regimes: the shades already show the regimes, and in
-/// a map of another quantity letters would hide the boundary.
+/// one axis. The cells are drawn without the letters of the regimes. In a map of regimes the shades
+/// already show them, and in a map of another quantity they would hide the boundary.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
     if let Some(map) = chart.map_mut() {
@@ -115,7 +115,7 @@ fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     Some(chart)
 }
 
-/// Returns the curves of quantities over the only axis of the grid, with the mark of the scene.
+/// Returns the charts of quantities over the only axis of the grid, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     let mut charts = Vec::new();
     for quantity in shown_quantities(app.mapped(), grid) {
@@ -137,9 +137,9 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     charts
 }
 
-/// Returns the figure of the pane. If the grid has two axes, it contains the map, and for a map of
-/// regimes also the quantities that decide the regime. If the grid has one axis, it contains
-/// curves.
+/// Returns the figure of the pane. If the grid has two axes, the figure contains the map. In place
+/// of a map of regimes, it contains maps of the quantities that decide the regime; markers on these
+/// maps show the regimes. If the grid has one axis, the figure contains curves.
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
@@ -155,8 +155,8 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     study_figure(title, grid, charts)
 }
 
-/// Returns the title of the pane: the quantity, the axes, and the number of profiles over which the
-/// mean is taken.
+/// Returns the title of the pane: the quantity, the axes, and the number of random profiles over
+/// which the mean is taken.
 fn title(app: &App) -> String {
     let Some((across, up)) = app.map_axes() else {
         return "Map".to_owned();
@@ -225,8 +225,8 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
     }
 }
 
-/// Returns the legend: the shown map of the study, the label of the vertical axis, the shades with
-/// their meaning, and the classes.
+/// Returns the legend. It contains the values that distinguish the shown map from other maps of the
+/// study, the label of the vertical axis, and the shades with their meaning.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let Some(grid) = app.grid() else {
         return Vec::new();
@@ -240,8 +240,8 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
 }
 
 /// Returns the label of the vertical axis, and the shades with their meaning. In a map of regimes,
-/// the shades mean regimes. In a map of another quantity, they mean numbers, and the boundary is
-/// added.
+/// each shade is a regime. In a map of another quantity, shades are numbers, and the sample of the
+/// boundary between regimes is added.
 fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else {
         return Vec::new();
@@ -249,7 +249,7 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     let look = app.view.appearance;
     let mut parts = shades(chart, look, width);
     if !app.mapped().is_regime() {
-        // The last entry of the legend belongs to the boundary.
+        // The last entry of the legend describes the boundary.
         let boundary = entries(chart, look).pop();
         if map.contour.is_some() {
             parts.extend(boundary);
@@ -257,8 +257,9 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
         return parts;
     }
     parts.truncate(1);
-    // Every second shade means a regime, beginning with the densest. A shade between two of them
-    // means that the profiles of a cell are partly in one regime and partly in the other.
+    // Only every second shade belongs to a regime, beginning with the densest shade. A shade
+    // between two regimes shows that some profiles of a cell are in one regime and some in the
+    // other.
     let shades_of_regimes = SHADES.iter().rev().step_by(2);
     for (class, shade) in map.class_names.iter().zip(shades_of_regimes) {
         let style = in_theme(look, |style| (style.ink)(class.ink));
@@ -272,8 +273,8 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     parts
 }
 
-/// Returns the values of the axes that the shown map of a study does not have, and the number of
-/// this map among all maps.
+/// Returns the values that are fixed in the shown map of the study, and the number of this map
+/// among all maps of the study.
 fn parts_of_slice(app: &App, study: &OpenStudy, grid: &Grid) -> Vec<Part> {
     let mut parts = Vec::new();
     for value in &grid.fixed {
@@ -305,8 +306,8 @@ fn on_axis(axis: &Axis, value: f64) -> String {
     format!("{} {value}", axis.symbol_or_name())
 }
 
-/// Returns the lines below the map: the position of the scene, the values of the nearest cell, and
-/// if necessary why the map is incomplete or does not belong to the scene.
+/// Returns the lines below the map: the position of the scene, the values of the nearest cell and,
+/// if necessary, the reason why the map is incomplete or does not belong to the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     let mut lines = wrapped(&Line::raw(mark_in_words(app, grid)), width);
     if let Some(missing) = missing(app) {
@@ -330,8 +331,8 @@ fn mark_in_words(app: &App, grid: &Grid) -> String {
     format!("◆ {}{outside}: {values}", on_axes(grid, place))
 }
 
-/// Returns why the map is incomplete or does not belong to the scene; `None` if neither is the
-/// case.
+/// Returns the reason why the map is incomplete or does not belong to the scene; `None` if the map
+/// is complete and belongs to the scene.
 fn missing(app: &App) -> Option<String> {
     if let Some(study) = app.map.shown_study() {
         let scene = app.edit.document.scene();
@@ -351,7 +352,7 @@ fn missing(app: &App) -> Option<String> {
     Some("computing further cells…".to_owned())
 }
 
-/// Returns the two quantities that decide the regime.
+/// Returns the two quantities from which a regime follows.
 fn deciding(regime: Quantity) -> [Quantity; 2] {
     let [share, share_after_zero_force] = Quantity::ADHESION_SHARES;
     let share = if regime == Quantity::RegimeAfterZeroForce {
@@ -362,8 +363,9 @@ fn deciding(regime: Quantity) -> [Quantity; 2] {
     [share, Quantity::AdhesionCoefficient]
 }
 
-/// Returns the quantities that are shown together. For a regime, these are the quantities that
-/// decide it, if the grid has them. Any other quantity is shown alone.
+/// Returns the quantities that are shown together. In place of a regime, these are the quantities
+/// that decide the regime or, if the grid contains none of them, its first other quantity. A
+/// quantity that is not a regime is shown alone.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];
@@ -378,8 +380,8 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     shown
 }
 
-/// Returns the values of the cell nearest to the mark, and the position of this cell if it differs
-/// from the mark. `None` if no cell is computed.
+/// Returns the values of the computed cell nearest to the mark. If the position of this cell
+/// differs from the mark, the text begins with the position. `None` if no cell is computed.
 fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
     let (cell, column, row) = grid.nearest(mark)?;
     let across = grid.across.values[column];
@@ -395,9 +397,9 @@ fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
         Err(why) => return Some(format!("{place}{why}")),
     };
     let mapped = app.mapped();
-    // If the shown quantity decides a regime, the text contains this regime and all quantities that
-    // decide it. The text then has the same length for each of them, so that the map does not move
-    // on the screen.
+    // If the shown quantity decides a regime, the text contains this regime and both quantities
+    // that decide it. The text then does not become longer or shorter when the user switches
+    // between these quantities, so that the map does not move on the screen.
     let mut regimes = Quantity::REGIMES.into_iter();
     let decided = regimes.find(|regime| deciding(*regime).contains(&mapped));
     let mapped = decided.unwrap_or(mapped);

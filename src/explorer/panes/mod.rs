@@ -1,5 +1,5 @@
-//! The table of panes, with one row for each pane. Each pane has a file, with a function that makes
-//! its panel from the state.
+//! The table of panes, with one row for each pane. Each pane has a file of its own, with a function
+//! that makes the panel of the pane from the state.
 
 mod close_up;
 pub mod force;
@@ -23,7 +23,7 @@ use crate::explorer::panel::{Panel, Under};
 use asperity_plot::Figure;
 use ratatui::layout::{Position, Size};
 
-/// Columns and rows inside the frame of the pane from which a figure for a file is made.
+/// Size in columns and rows for which a pane is laid out to make its figure for a file.
 const EXPORTED: Size = Size {
     width: 120,
     height: 40,
@@ -43,11 +43,10 @@ pub fn row(pane: Pane) -> &'static PaneRow {
     }
 }
 
-/// Returns the panel of a pane for an area of this size inside the frame, including the crosshair.
+/// Returns the panel of a pane, including the crosshair, for an area of this size inside the frame.
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
-    // In the profile and the close-up, the crosshair is at a spring. These panes draw it
-    // themselves.
+    // The profile and the close-up draw their crosshair themselves, because it is at a spring.
     let draws_crosshair =
         pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
     if draws_crosshair && let Some(position) = app.view.crosshair {
@@ -56,7 +55,7 @@ pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     panel
 }
 
-/// Returns the figure of a pane for a file; `None` if the pane has no chart.
+/// Returns the figure of a pane for an exported file; `None` if the pane has no chart.
 pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
     let properties = row(pane);
     let content = (properties.panel)(app, EXPORTED);

@@ -1,4 +1,4 @@
-//! The list of parameters and the meaning of the selected one.
+//! The pane with the list of parameters and the meaning of the selected parameter.
 
 use super::row::{PaneRow, outcome};
 use crate::explorer::app::{App, Message};
@@ -28,11 +28,11 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Smallest number of columns for the typed value beside its label.
+/// Smallest width in columns of the text that the user types, beside its label.
 const TYPED_COLUMNS: usize = 12;
-/// Smallest height in rows of a list with derived values below it.
+/// Smallest height in rows at which the pane shows derived values below the list.
 const WITH_DERIVED: u16 = 12;
-/// Largest height in rows of an explanation, unless it is the reason of a refusal.
+/// Largest height in rows of an explanation. It does not apply to the reason of a refusal.
 const MOST_EXPLAINED: u16 = 6;
 /// Smallest number of letters to which a name may be shortened.
 const FEWEST_LETTERS: usize = 4;
@@ -65,9 +65,9 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Returns lines that explain the parameter with this index. If `index` is `None`, no parameter
-/// matches the search, and the lines name a field of the scene file that does. `free` is the number
-/// of rows that the list does not need.
+/// Returns lines that explain the parameter with this index. `index` is `None` if a search finds no
+/// parameter in the list; the lines then name a matching field of the scene file. `free` is the
+/// number of rows that the list does not need.
 fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Line<'static>> {
     let usual = match size.height {
         0..3 => 0,
@@ -79,8 +79,8 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
         Some(index) => meaning_of_parameter(app, index),
         None => Line::styled(not_listed(app), app.style(Meaning::Quiet)),
     };
-    // The list gives up rows for two texts that must not be cut: the reason of a refusal, and the
-    // statements on what was done to a measured curve.
+    // Two texts must not be cut, and may therefore take rows of the list: the reason of a refusal,
+    // and the statements on the preparation of a measured curve.
     let most = usual.max(size.height / 2);
     if refusal(app).is_some() {
         return wrapped_within(&text, size.width, most);
@@ -89,7 +89,7 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
     let is_of_curve = parameter.is_some_and(|parameter| parameter.path == curve_options::GROUP);
     let rows = if is_of_curve { most } else { usual };
     let mut lines = wrapped_within(&text, size.width, rows);
-    // The explanation always has the same number of rows, so that the list does not move.
+    // A shorter explanation is filled with blank rows, so that the list does not move.
     let kept = if is_of_curve {
         lines.len().max(3)
     } else {
@@ -107,8 +107,8 @@ struct List {
     selected: usize,
 }
 
-/// Returns the list of all parameters of the scene or, during a search, of the parameters that
-/// match it.
+/// Returns the parameters in the list: all parameters of the scene or, during a search, only the
+/// parameters that match the search.
 fn list(app: &App) -> List {
     if let Some(Prompt {
         purpose: Purpose::Parameter { .. },
@@ -128,8 +128,8 @@ fn list(app: &App) -> List {
     }
 }
 
-/// Returns a sentence for a search that no parameter in the list matches. It names a field of the
-/// scene file that matches, if there is one.
+/// Returns a sentence for a search that finds no parameter in the list. The sentence names a
+/// matching field of the scene file, if there is one.
 fn not_listed(app: &App) -> String {
     const NONE: &str = "no parameter of this scene fits";
     let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
@@ -141,7 +141,7 @@ fn not_listed(app: &App) -> String {
     format!("{NONE}; the scene file may have {path}: {meaning}")
 }
 
-/// Returns the texts of a field that are compared with the search.
+/// Returns the texts of a field in which a search looks for words.
 fn searched_texts(field: &Field) -> Vec<String> {
     vec![
         field.symbol.to_owned(),
@@ -175,7 +175,7 @@ fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> L
     } else if is_selected && has_focus(app) {
         Meaning::Selected
     } else if is_selected {
-        // If another pane receives the keys, the selected row is marked too, but less brightly.
+        // The selected row is also marked if another pane receives the keys, but less brightly.
         Meaning::Title
     } else {
         Meaning::Text
@@ -188,7 +188,7 @@ fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> L
 fn row_text(app: &App, parameter: &Parameter, lead: &str, width: usize) -> String {
     let symbol = parameter.field.symbol;
     let letters = match parameter.field.range {
-        // A long text is shortened, and its name is kept.
+        // For a long text, the text and not the name is shortened.
         Range::Text { .. } => columns(&parameter.name()),
         _ if symbol.is_empty() => FEWEST_LETTERS,
         _ => columns(symbol),
@@ -204,7 +204,7 @@ fn row_text(app: &App, parameter: &Parameter, lead: &str, width: usize) -> Strin
     format!("{lead}{name}{gap}{value}")
 }
 
-/// Returns true if the list receives the keys, or if a parameter is searched.
+/// Returns true if the list receives the keys, or if the user searches for a parameter.
 fn has_focus(app: &App) -> bool {
     let is_searched = match &app.prompt {
         Some(prompt) => matches!(prompt.purpose, Purpose::Parameter { .. }),
@@ -213,8 +213,8 @@ fn has_focus(app: &App) -> bool {
     app.view.pane == Pane::Parameters || is_searched
 }
 
-/// Returns the marks before a name. One mark shows the first row of a group, and another mark
-/// whether an effect is on or off. Other rows are indented.
+/// Returns the sign before a name. It distinguishes the first row of a group from the other rows,
+/// which are indented. For an effect, it shows whether the effect is on or off.
 fn lead(app: &App, parameter: &Parameter) -> String {
     if !parameter.is_head() {
         return "  ".to_owned();
@@ -227,8 +227,8 @@ fn lead(app: &App, parameter: &Parameter) -> String {
     format!("─{mark}")
 }
 
-/// Returns the row of a value being typed: a label as long as possible, the typed text, and what
-/// the typed text means.
+/// Returns the row of a parameter whose value the user is typing: a label as long as possible, the
+/// typed text, and the meaning of this text.
 fn editor(
     app: &App,
     parameter: &Parameter,
@@ -256,8 +256,8 @@ fn editor(
     Line::from(spans)
 }
 
-/// Returns labels for a value being typed, the longest first. The longest one consists of the name,
-/// the symbol and the unit.
+/// Returns labels for the row of the value that the user is typing, the longest first. The longest
+/// label consists of the name, the symbol and the unit.
 fn labels_of_editor(app: &App, parameter: &Parameter, lead: &str) -> [String; 3] {
     let symbol = parameter.field.symbol;
     let named = if symbol.is_empty() {
@@ -268,7 +268,7 @@ fn labels_of_editor(app: &App, parameter: &Parameter, lead: &str) -> [String; 3]
     let shown = typed::shown(app, parameter);
     let unit = match parameter.field.unit {
         "" | "1" => String::new(),
-        // The shown value may have a prefix before its unit, which the label repeats.
+        // The label shows the unit with the same prefix as the shown value, such as `mJ`.
         usual => match unit_of(&shown) {
             "" => format!(" ({usual})"),
             prefixed => format!(" ({prefixed})"),
@@ -328,7 +328,8 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     };
     let governing = app.governing().unwrap_or(outcome.governing);
     let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
-    // A measured surface has no rows for its amplitude. Random roughness has such rows.
+    // A measured surface has no rows for its amplitude, so the amplitude is shown here. Random
+    // roughness has such rows.
     let roughness = &app.edit.document.scene().roughness;
     if let Some(Roughness::Measured(_)) = roughness
         && let Some(amplitude) = governing.amplitude
@@ -336,7 +337,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }
-    // If the computation of the scene has failed, there are no further values.
+    // If the computation of the scene has failed, further values are unknown.
     let has_failed = !app.is_current() && !app.is_computing();
     if has_failed {
         return values;
@@ -358,8 +359,8 @@ fn refusal(app: &App) -> Option<&String> {
     app.prompt.as_ref()?.refused.as_ref()
 }
 
-/// Returns why the value of a parameter is refused, or otherwise the meaning and the allowed range
-/// of the parameter.
+/// Returns the reason why the value of a parameter is refused. If it is not refused, returns the
+/// meaning and the allowed range of the parameter.
 fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
         return Line::styled(format!("! {error}"), app.style(Meaning::Error));
@@ -384,7 +385,7 @@ fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
     Line::styled(text, app.style(Meaning::Quiet))
 }
 
-/// Returns what was done to the measured curve when it was read.
+/// Returns sentences on what the program did to the measured curve when it read the curve.
 fn statements(app: &App) -> String {
     match &app.edit.measured {
         Some(measured) => measured.statements(),

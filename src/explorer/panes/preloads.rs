@@ -1,6 +1,6 @@
-//! Adhesion force against preload: the staircase of the scene's profile, the scatter over random
-//! profiles, the adhesion forces after a loading turned at first touch and at zero force, and the
-//! present preload.
+//! The pane of adhesion force against preload. It shows the staircase of the scene's profile, the
+//! scatter over random profiles, the adhesion forces after the loading turned at first touch and at
+//! zero force, and the present preload.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -109,8 +109,8 @@ fn panel(app: &App, size: Size) -> Panel {
 struct Charts {
     /// Adhesion force against preload, with a marker at the preload of the scene.
     curves: Chart,
-    /// Distribution of the adhesion force over the profiles, at the preload of the crosshair or of
-    /// the scene; `None` if there is no such preload.
+    /// Distribution of the adhesion force over the random profiles, at the preload of the crosshair
+    /// or, without crosshair, of the scene; `None` if this preload is unknown.
     distribution: Option<Chart>,
 }
 
@@ -126,8 +126,8 @@ impl Charts {
             let layer = Layer::new("present preload".into(), Ink::Cursor, sign);
             curves.layers.push(layer);
         }
-        // The crosshair is a share of the axis. Therefore it stays in place if the unit of the axis
-        // changes.
+        // The position of the crosshair is a share of the axis. Therefore the crosshair stays in
+        // place if the unit of the axis changes.
         let axis = &curves.x;
         let read = match app.view.crosshair {
             Some(share) => {

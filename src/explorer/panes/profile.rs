@@ -1,5 +1,5 @@
-//! The profile: the rigid profile, the elastic surface above it, the springs in contact, and the
-//! distribution of heights.
+//! The pane of the profile: the rigid profile, the elastic surface above it, the springs in
+//! contact, and the distribution of heights.
 
 use super::row::PaneRow;
 use super::section;
@@ -35,7 +35,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Returns the chart of the springs in the pane for a file.
+/// Returns the chart of the visible springs for an exported file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     section::of_springs(
@@ -214,7 +214,7 @@ mod tests {
         else {
             panic!("{chart:?}")
         };
-        // The densities are per mm, and the heights are in m.
+        // The densities are in 1/mm and the heights in m, hence the factor 1e3.
         let area: f64 = boxes
             .iter()
             .map(|((_, density), (low, high))| density * (high - low) * 1e3)

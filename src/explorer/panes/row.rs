@@ -1,4 +1,4 @@
-//! The properties of a pane, which are one row of the table of panes.
+//! The properties of a pane, collected in one row of the table of panes.
 
 use crate::explorer::advice;
 use crate::explorer::app::App;
@@ -16,21 +16,24 @@ use std::sync::Arc;
 pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
-    /// Makes the panel for an area of this size inside the frame.
+    /// Makes the panel of the pane for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
-    /// Makes the figure for a file. It may contain more than the chart of the panel.
+    /// Makes the figure of the pane for an exported file. The figure may contain more than the
+    /// chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// Makes the table or the JSON for a file, with the command that computes it. It returns `None`
-    /// if the curves of the figure are the whole result, or as long as there is no result.
+    /// Makes the table or the JSON of the pane for an exported file, with the command that computes
+    /// it. Returns `None` if there is no result yet, or if the curves of the figure are the whole
+    /// result.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Returns the studies whose values the pane needs while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
-    /// Paragraphs of the help, each with a name and a text that explains the signs in the pane.
+    /// Paragraphs of the help that explain the signs in the pane. Each has a name and a text.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// Row of a pane without content, from which other rows take their defaults.
+    /// Row of a pane without content. The rows of all other panes begin with these properties and
+    /// replace some of them.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| {
@@ -45,12 +48,12 @@ impl PaneRow {
     };
 }
 
-/// Command for a result that no other command computes. It opens the explorer on the scene. In the
-/// case of manual loading, the loading of this scene is the path of manual loading.
+/// Command for a result that no other command computes: it opens the explorer on the scene. If the
+/// result is the path of manual loading, the scene has this path as its loading.
 pub const OPEN_COMMAND: &str = "asperity";
 
-/// Returns the path of manual loading as a report. Without manual loading, it returns the outcome
-/// of the scene with its force curve.
+/// Returns the path of manual loading as a report. Without manual loading, returns the outcome of
+/// the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let scene = app.edit.document.scene();
     if let Some(manual) = &app.manual {

@@ -1,5 +1,5 @@
-//! Part of the profile (section) with its axes: rigid profile, elastic surface and contact. The
-//! profile pane and the close-up both use it.
+//! Chart of a section, which is a part of the profile: rigid profile, elastic surface and contact.
+//! The profile pane and the close-up both show such a chart.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
@@ -13,8 +13,8 @@ use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Returns the panel of a section, in a pane of the given width. `z` is the range of heights in m.
-/// The readings of the crosshair are beside the title.
+/// Returns the panel of a section, in a pane of the given width in columns. `z` is the range of
+/// heights in m. The values at the crosshair are written beside the title.
 pub fn panel(
     title: &str,
     snapshot: &ContactSnapshot,
@@ -24,12 +24,12 @@ pub fn panel(
     width: u16,
 ) -> Panel {
     let mut chart = section.chart(snapshot.line, z).with_symbols();
-    // The dots distinguish the surface from the profile even without colours.
+    // The surface is drawn dotted, so that it differs from the profile even without colours.
     if let Some(surface) = chart.layers.first_mut() {
         surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
     }
     if let Some(probe) = snapshot.probe {
-        // The lines of the crosshair come first, because otherwise they would interrupt the curves.
+        // The crosshair is the lowest layer. Drawn later, its lines would hide parts of the curves.
         let upright = Shape::Upright(position(snapshot.line, probe.spring));
         let level = Shape::Level(probe.height);
         let lines = [upright, level].map(|line| Layer::unnamed(Ink::Cursor, line));
@@ -48,8 +48,8 @@ pub fn panel(
     panel
 }
 
-/// Returns the chart of a section for a file. It shows the springs chosen by `part`, independently
-/// of the size of the pane. `z` is the range of heights in m.
+/// Returns the chart of a section for an exported file, independently of the size of the pane.
+/// `part` chooses the springs. `z` is the range of heights in m.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,
@@ -61,7 +61,7 @@ pub fn of_springs(
     Some(whole.chart(snapshot.line, z))
 }
 
-/// Returns a figure with this chart, and with force and indentation as a note.
+/// Returns a figure with this chart. Its note states the force and the indentation.
 pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", app.without_rounding(point.force)).then(", ");
@@ -82,8 +82,8 @@ pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     Some((OPEN_COMMAND.into(), figure))
 }
 
-/// Returns the range of heights in m. It contains the profile, and the surface at all indentations
-/// of the loop, unless the surface is far above the profile.
+/// Returns the range of heights in m for the vertical axis. It contains the profile and the surface
+/// at all indentations of the loop, but not a surface that is far above the profile.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);

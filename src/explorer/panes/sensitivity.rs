@@ -13,8 +13,8 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Number of rows that are not available for bars: results of the scene, heading, and horizontal
-/// axis with its numbers and its label.
+/// Number of rows that cannot be used for bars: they contain the results of the scene, the heading,
+/// and the horizontal axis with its numbers and its label.
 const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
@@ -64,8 +64,7 @@ fn panel(app: &App, size: Size) -> Panel {
     if let Some(missing) = sensitivity.missing() {
         return Panel::of_text(title, missing);
     }
-    // Each number of the scene has two bars, one for its decrease and one for its increase. Each
-    // bar takes a row.
+    // Each number of the scene takes two rows: a bar for its decrease and a bar for its increase.
     let bars = usize::from(size.height.saturating_sub(BESIDE));
     let of_range = sensitivity.range.iter().len();
     let most = (bars / 2).saturating_sub(of_range).max(1);
@@ -92,11 +91,11 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Columns of the table that contain results: F_a and two other results.
+/// Columns of the table that contain results: F_a and two further results.
 const RESULTS: [usize; 3] = [3, 5, 6];
 
-/// Returns the results of the unchanged scene. Each comes after its name, which is in the heading
-/// of the table.
+/// Returns the results of the unchanged scene. Before each result is its name from the heading of
+/// the table.
 fn results(heading: &[String; 7], present: &[String; 7]) -> Vec<Part> {
     let mut parts = Vec::new();
     for column in RESULTS {
@@ -106,8 +105,8 @@ fn results(heading: &[String; 7], present: &[String; 7]) -> Vec<Part> {
     parts
 }
 
-/// Returns the labels of the rows, with as many results as fit into this number of columns; `None`
-/// if not even the first result fits.
+/// Returns the labels of the rows with as many results as fit into this number of columns; `None`
+/// if there is no room for a result.
 fn labels_within(rows: &[[String; 7]], columns: usize) -> Option<Vec<String>> {
     for results in (1..=RESULTS.len()).rev() {
         let labels = labels(rows, results);
@@ -118,8 +117,8 @@ fn labels_within(rows: &[[String; 7]], columns: usize) -> Option<Vec<String>> {
     None
 }
 
-/// Returns the rows of the table as texts of equal width. They contain the name of the number, its
-/// change, and the changes of the first `results` results.
+/// Returns the rows of the table as texts of equal width. Each text contains the name of a number,
+/// its change, and the changes of the first `results` results.
 fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
     let mut columns = vec![0, 2];
     columns.extend(&RESULTS[..results]);

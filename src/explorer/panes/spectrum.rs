@@ -1,5 +1,5 @@
-//! Spectra over the wave number on logarithmic axes: the measured spectrum, the fitted spectrum and
-//! the spectrum of the profile.
+//! The pane of spectra over the wave number, on logarithmic axes: the measured spectrum, the fitted
+//! spectrum and the spectrum of the profile.
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
@@ -114,8 +114,8 @@ fn relative_error(moment: Moment) -> String {
 }
 
 /// Returns the adhesion force with two kinds of scatter: over the random profiles, and due to the
-/// fit of the spectrum. Both are given as far as they are computed. `None` if the profile of the
-/// scene is not the equivalent line of a measured surface.
+/// fit of the spectrum. A scatter that is not computed yet is left out. `None` if the profile of
+/// the scene is not the equivalent line of a measured surface.
 fn adhesion(app: &App) -> Option<String> {
     if !is_sampled(&app.solved.as_ref()?.scene) {
         return None;
@@ -145,8 +145,8 @@ fn is_sampled(scene: &Scene) -> bool {
     is_measured && is_adhesive && !scene.measured_as_line()
 }
 
-/// Returns the study that computes the adhesion force of the random profiles that are still
-/// missing.
+/// Returns the study (background computation) that computes the adhesion force of those random
+/// profiles that have not been computed yet.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);

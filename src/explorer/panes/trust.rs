@@ -1,5 +1,5 @@
-//! How accurate the adhesion force is. The pane shows errors over computing times (the cost of
-//! accuracy), the errors from each source, and what other theories say about the same surface.
+//! The pane of accuracy of the adhesion force. It shows errors over computing times (the cost of
+//! accuracy), the errors from each source, and what other theories state about the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
@@ -35,7 +35,8 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Time limit of the whole measurement, the same as the default of `asperity cost`.
+/// Time limit of the whole measurement of errors and times. It is equal to the default of
+/// `asperity cost`.
 const BUDGET: Duration = Duration::from_secs(10);
 
 #[derive(Clone, Debug, Default)]
@@ -44,8 +45,9 @@ pub struct Costs {
     pub trying: Option<String>,
 }
 
-/// Returns the study that measures the errors and computing times of a scene. The times are only
-/// comparable within one measurement, so a measurement that was interrupted begins again.
+/// Returns the study (background computation) that measures the errors and computing times of a
+/// scene. Times are comparable only within one measurement, so an interrupted measurement starts
+/// again from the beginning.
 fn study(computed: &SolvedScene) -> Study {
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, true, move |_, mut control| {
@@ -75,13 +77,14 @@ fn report(app: &App) -> Exported<'_> {
     Some(("asperity cost".into(), Box::new(report)))
 }
 
-/// Returns the comparison with the contact in three dimensions, if it is computed.
+/// Returns the comparison with the contact of square surfaces on an elastic half-space, if it is
+/// computed.
 fn reference(app: &App) -> Option<&Reference> {
     app.studies.value::<SquareLoops>()?.reference.as_ref()
 }
 
-/// Relative errors that are drawn as horizontal lines. For each of them, a text states the
-/// necessary number of springs and the time.
+/// Relative errors that the chart marks by horizontal lines. A text states the number of springs
+/// and the time that each of them needs.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
 /// Smallest height of the chart in rows.
@@ -110,8 +113,8 @@ fn panel(app: &App, size: Size) -> Panel {
     let entries = entries(&chart, app.view.appearance);
     let legend = filled(entries, "  ", size.width.into());
     let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
-    // In a small window, the texts on other theories are left out first, then the chart, and the
-    // errors last.
+    // In a small window, the texts on other theories are left out first, then the chart, and
+    // finally the texts on errors.
     let needed = words.cost.len() + words.errors.len() + 1;
     if beside_chart < needed && beside_chart < words.count() {
         let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
@@ -129,12 +132,12 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Returns the measured errors and times; `None` before the first are measured.
+/// Returns the measured errors and times; `None` before the first ones are measured.
 fn cost_table(app: &App) -> Option<&CostTable> {
     app.studies.value::<Costs>()?.table.as_ref()
 }
 
-/// Returns the chart of errors over times; `None` before it has a curve.
+/// Returns the chart of errors over computing times; `None` before the chart has a curve.
 fn chart(app: &App) -> Option<Chart> {
     let table = cost_table(app)?;
     let chart = work_precision("", table, reference(app)).charts.pop()?;
@@ -144,10 +147,10 @@ fn chart(app: &App) -> Option<Chart> {
     Some(with_scene(chart, app, table))
 }
 
-/// Texts below the chart, the most important first.
+/// Texts below the chart, in the order of their importance.
 #[derive(Default)]
 struct Words {
-    /// Error and computing time of the scene, and the time that smaller errors need.
+    /// Error and computing time of the scene, and the computing time for smaller errors.
     cost: Vec<Line<'static>>,
     /// Errors of the adhesion force from each source, the largest first.
     errors: Vec<Line<'static>>,
@@ -160,8 +163,8 @@ impl Words {
         self.cost.len() + self.errors.len() + self.theories.len()
     }
 
-    /// Returns the texts in at most this number of rows. If some are left out, the last row says
-    /// how many.
+    /// Returns the texts in at most this number of rows. If some texts are left out, the last row
+    /// states how many.
     fn within(self, rows: usize, app: &App) -> Vec<Line<'static>> {
         let mut lines = [self.cost, self.errors, self.theories].concat();
         if lines.len() <= rows {
@@ -189,7 +192,7 @@ fn words(app: &App, width: u16) -> Words {
     };
     let ensemble = app.studies.value::<Ensemble>();
     let mut errors = errors(app, computed);
-    // The last error is the largest, so it moves to the first row.
+    // `errors` ends with the largest error, which is moved to the first row.
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(&computed.scene, &computed.outcome, ensemble);
@@ -202,7 +205,7 @@ fn words(app: &App, width: u16) -> Words {
     }
 }
 
-/// Returns the errors of the adhesion force. Each has the name of its source and a text.
+/// Returns the errors of the adhesion force, each as the name of its source and a text.
 fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let estimate = app.studies.value::<Estimate>();
@@ -227,8 +230,8 @@ fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     )
 }
 
-/// Returns rows of names and texts as lines of this width. The names have a column of their own. A
-/// text that needs several lines stays beside this column.
+/// Returns rows of names and texts as lines of this width. The names have a column of their own,
+/// and all lines of a text are on its right.
 fn lines_of_rows(
     app: &App,
     rows: &[(&str, String)],
@@ -251,7 +254,7 @@ fn lines_of_rows(
     lines
 }
 
-/// Returns the text that replaces the chart as long as there is none.
+/// Returns the text that is shown until there is a chart.
 fn nothing_yet(app: &App) -> String {
     let text = if app.is_computing() {
         "the scene is still being computed…"
@@ -269,8 +272,8 @@ fn nothing_yet(app: &App) -> String {
     text.to_owned()
 }
 
-/// Adds the target errors and the marker of the scene to the chart, and lets the axis end at the
-/// smallest error of interest.
+/// Adds the target errors and the marker of the scene to the chart, and limits its vertical axis to
+/// errors above [`LOWEST`].
 fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span {
@@ -296,8 +299,8 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     chart
 }
 
-/// Returns the texts on cost: error and time of the scene, number of springs and time of the
-/// fastest setting for each target, and the setting that is being tried.
+/// Returns the texts on cost: error and computing time of the scene; for each target, number of
+/// springs and time of the fastest setting; and the setting that is being measured.
 fn sentence(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     if app.is_current() {
@@ -359,7 +362,7 @@ fn time_of(seconds: f64) -> String {
     format_rounded(seconds, 2, "s")
 }
 
-/// Returns the number of springs and the time of the fastest setting whose relative error is at
+/// Returns the number of springs and the time of the fastest setting with a relative error of at
 /// most `bound`; `None` if there is no such setting yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     let mut fastest: Option<(f64, &CostRow)> = None;
@@ -371,7 +374,7 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
             continue;
         };
         let seconds = seconds.minimum;
-        // If two settings take the same time, the first is shown.
+        // Of two settings with the same time, the first one is shown.
         if fastest.is_none_or(|(least, _)| seconds.total_cmp(&least).is_lt()) {
             fastest = Some((seconds, row));
         }

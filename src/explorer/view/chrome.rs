@@ -1,4 +1,4 @@
-//! The lines above and below the panes: title, status, footer.
+//! The lines above and below the panes: title, status line and footer.
 
 use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
@@ -22,8 +22,8 @@ use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
 /// Returns the lines of the title: the name of the scene, a sign for unsaved changes, and the
-/// notice. If the scene has unsaved changes but still its old notice, the notice is left out,
-/// because it may no longer be true.
+/// notice of the scene. If the scene has changed and its notice has not, the notice is left out,
+/// because it may be wrong now.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let document = &app.edit.document;
     let scene = document.scene();
@@ -46,8 +46,8 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// Returns the lines of the status, at most this number of rows: the headline figures, a question,
-/// an error, or the typed text.
+/// Returns the status lines below the panes, at most `rows`: the main results of the scene, a
+/// question, an error, or the typed text.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     if let Some(prompt) = &app.prompt
         && let Some(lines) = status_of_prompt(app, prompt, width, rows)
@@ -65,8 +65,8 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     }
 }
 
-/// Returns the lines of the status for a prompt. `None` if the prompt leaves these lines to the
-/// headline figures and messages.
+/// Returns the status lines for an open prompt. `None` if the prompt does not use these lines, so
+/// that they show results and messages.
 fn status_of_prompt(
     app: &App,
     prompt: &Prompt,
@@ -77,7 +77,8 @@ fn status_of_prompt(
         return Some(status_of_refused(app, prompt, why, width, rows));
     }
     match &prompt.purpose {
-        // A value is typed in its row in the list of parameters, and the help has no typed line.
+        // In these prompts, the typed value is in its row in the list of parameters, or there is no
+        // typed line.
         Purpose::Value
         | Purpose::Topics {
             is_typed: false, ..
@@ -101,8 +102,8 @@ fn status_of_prompt(
     }
 }
 
-/// Returns the reason why a typed text is refused and, if there is room, the text below it. A typed
-/// value is not repeated here, because it is in its row in the list of parameters.
+/// Returns the reason why a typed text is refused and, if there is room, the typed text below it.
+/// The value of a parameter is not repeated here, because the list of parameters shows it.
 fn status_of_refused(
     app: &App,
     prompt: &Prompt,
@@ -138,7 +139,7 @@ fn question_before_leaving(app: &App) -> String {
     )
 }
 
-/// Returns the message of what was done, followed by as much of the headline as fits.
+/// Returns a message on what was done, followed by as many main results of the scene as fit.
 fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     if Span::raw(text).width() + 2 > width.into() {
         return wrapped_within(&Line::raw(text.to_owned()), width, rows);
@@ -149,7 +150,8 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     vec![line]
 }
 
-/// Returns the line that the user is typing: its label, the typed text, and what the text means.
+/// Returns the line that the user is typing: its label, the typed text, and the meaning of this
+/// text.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let label = Span::raw(label(app, prompt, width));
     let meaning = typed::understood(app).map_or_else(String::new, |text| format!("→ {text}"));
@@ -184,12 +186,12 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Smallest widths in columns of a status line: the first for the error of F_a, the second for this
-/// error in addition to the random profiles.
+/// Smallest widths in columns at which the status line shows the error of F_a (`WITH_ERROR`), and
+/// both this error and the results of the random profiles (`WITH_BOTH`).
 const WITH_ERROR: usize = 48;
 const WITH_BOTH: usize = 100;
 
-/// Returns the line of the headline: as many facts about the loop as fit.
+/// Returns the line with the main results of the loop, as many as fit.
 fn headline(app: &App, width: usize) -> Line<'static> {
     if app.solved.is_none() {
         return Line::raw("computing…");
@@ -205,8 +207,8 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     }
 }
 
-/// Returns a line with the first facts, as many as fit into this width. `wording` changes the text
-/// of each fact.
+/// Returns a line with the first of the facts, as many as fit into this width. `wording` may
+/// shorten the text of a fact.
 fn line_of_facts(
     app: &App,
     facts: &[Fact],
@@ -227,7 +229,7 @@ fn first_line(parts: Vec<Part>, between: &'static str, width: usize) -> Line<'st
     lines.into_iter().next().unwrap_or_default()
 }
 
-/// A fact about the loop in the headline.
+/// A main result of the loop, as shown in the status line.
 struct Fact {
     text: String,
     meaning: Meaning,
@@ -242,7 +244,7 @@ impl Fact {
     }
 }
 
-/// Returns the facts about the loop for a line of this width, the most important first.
+/// Returns the main results of the loop for a line of this width, the most important first.
 fn facts(app: &App, width: usize) -> Vec<Fact> {
     let Some(outcome) = app.outcome() else {
         return Vec::new();
@@ -305,8 +307,8 @@ fn facts_of_preview(app: &App) -> Vec<Fact> {
     ]
 }
 
-/// Returns the adhesion force: over random profiles and of the shown profile, with its error. If
-/// there is no tensile force, it returns the largest force instead.
+/// Returns the adhesion force over the random profiles, and that of the shown profile with its
+/// error. If the force is never tensile, returns the largest force instead.
 fn facts_of_force(app: &App, outcome: &Outcome, width: usize) -> Vec<Fact> {
     let is_wide = width >= WITH_ERROR;
     let error = if is_wide { error(app) } else { None };
@@ -346,7 +348,7 @@ fn after_comma(text: Option<String>) -> String {
     text.map_or_else(String::new, |text| format!(", {text}"))
 }
 
-/// Returns how well the scene describes the measured curve, as text.
+/// Returns the misfit, which states how well the scene describes the measured curve, as text.
 fn misfit(app: &App) -> String {
     if let Some(why) = measured::failure(&app.studies) {
         return why.to_owned();
@@ -357,12 +359,12 @@ fn misfit(app: &App) -> String {
     }
 }
 
-/// Smallest width in columns in which the beginning of a warning can be understood.
+/// Smallest width in columns at which the beginning of a warning is shown.
 const LEAST_WARNING: usize = 30;
 
-/// Adds the first warning to the facts, with the number of warnings. If there is little room, the
-/// warning is cut. If there is too little room even for that, only the number is added, after the
-/// first fact.
+/// Adds the first warning and the number of warnings to the facts. If there is little room, the
+/// warning is shortened. If there is less room than [`LEAST_WARNING`], only the number of warnings
+/// is added, after the first fact.
 fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     let Some(first) = warnings.first() else {
         return;
@@ -395,8 +397,9 @@ fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     }
 }
 
-/// Returns what is known of the loops of random squares in three dimensions, and their difference
-/// from the profile. If the computation has failed, it returns as much of the reason as fits.
+/// Returns the progress of the loops of random square surfaces on an elastic half-space and, after
+/// the first results, a comparison with the profiles. If the computation has failed, returns as
+/// much of the reason as fits.
 fn fact_of_squares(app: &App, width: usize) -> Fact {
     if let Some(why) = app.studies.failure::<SquareLoops>() {
         let text = format!("three dimensions: {why}");
@@ -412,7 +415,7 @@ fn fact_of_squares(app: &App, width: usize) -> Fact {
 }
 
 /// Returns the median and the quartiles of the adhesion force over the random profiles computed so
-/// far. If `is_wide` is true, the number of profiles follows.
+/// far. If `is_wide` is true, also states the number of profiles.
 fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     let ensemble = app.studies.value::<Ensemble>()?;
     let (quantity, symbol, unit) = if app.is_normalised() {
@@ -436,8 +439,8 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     Some(Fact::new(text, Meaning::Title))
 }
 
-/// Returns the estimated error of the headline figure as text. It is `± …` while the error is being
-/// computed, and `None` if no error is computed.
+/// Returns the estimated error of the adhesion force as text: `± …` while the error is being
+/// computed, `None` if no error is computed.
 fn error(app: &App) -> Option<String> {
     if let Some(estimate) = app.studies.value::<Estimate>() {
         return Some(estimate.words());
@@ -472,7 +475,7 @@ fn searching(app: &App) -> Option<String> {
     Some(format!("fitting, {curves} curves computed…"))
 }
 
-/// Returns the line of the footer, which shows the valid keys.
+/// Returns the footer: a line with the keys that are valid now.
 pub fn footer(app: &App, width: u16) -> Line<'static> {
     if let Some(note) = app.view.demo {
         return Line::styled(note, app.style(Meaning::Quiet));
@@ -492,7 +495,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     first_line(items, "  ", width.into())
 }
 
-/// Returns a line with the names of paths, without their folders.
+/// Returns a line with the names of files and folders, taken from their paths.
 fn candidates(app: &App, paths: &[String], width: u16) -> Line<'static> {
     let mut names = Vec::new();
     for path in paths {

@@ -1,5 +1,5 @@
-//! Lists of a prompt, which replace the panes: the help or the commands in sections, or the scenes
-//! with the selected scene on the right.
+//! Lists of a prompt, which are drawn in place of the panes: the help or the commands in sections,
+//! or the scenes, with the selected scene on the right.
 
 use crate::explorer::layout::inside;
 use crate::explorer::panel;
@@ -12,14 +12,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-/// Width in columns of the names beside their texts.
+/// Width in columns of the names that are beside their texts.
 const NAMES: usize = 20;
-/// Smallest width in columns of a window in which names are beside their texts. In a narrower
-/// window, they are above their texts.
+/// Smallest width in columns of a window in which the names are beside their texts. In a narrower
+/// window, each name is above its text.
 const BESIDE_FROM: u16 = 56;
 /// Indentation in columns of a text below its name.
 const INDENT: usize = 4;
-/// Smallest width in columns of a window that shows the selected scene beside the list.
+/// Smallest width in columns of a window that shows the selected scene on the right of the list.
 const WITH_SCENE: u16 = 62;
 
 /// A list that replaces the panes.
@@ -27,7 +27,7 @@ struct List<'a> {
     name: &'a str,
     /// Number of all entries, including the entries that are not shown.
     length: usize,
-    /// Text that replaces the rows if no entry matches the typed text.
+    /// Text that is shown if no entry matches the typed text.
     none: &'a str,
     rows: Vec<Line<'static>>,
     /// Index of the selected row.
@@ -55,8 +55,8 @@ impl List<'_> {
     }
 }
 
-/// Draws the help or the list of commands. It shows the topics that match the typed text or, as
-/// long as nothing is typed, all topics in sections.
+/// Draws the help or the list of commands. If the user has typed a text, it shows the topics that
+/// match this text, otherwise all topics in sections.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,
@@ -91,8 +91,8 @@ pub fn draw_topics(
     panel::draw(&list.panel(prompt), area, false, look, buffer);
 }
 
-/// Returns the rows of a topic, with its name and its text. In a wide window, the text is beside
-/// the name, otherwise below it.
+/// Returns the rows of a topic, with its name and its text. In a wide window, the text is on the
+/// right of the name, otherwise below the name.
 fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> Vec<Line<'static>> {
     let mut rows = Vec::new();
     let is_wide = width >= BESIDE_FROM;
@@ -101,7 +101,7 @@ fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> 
     let mark = if is_selected { "›" } else { " " };
     let name = format!("{mark} {}", topic.name);
     let name = fitted(Line::styled(name, theme.style(Meaning::Key)), width);
-    // The row to which the next line of the text is added.
+    // The row that is being filled with lines of the text.
     let mut begun = Line::default();
     if is_beside {
         begun = name;
@@ -165,8 +165,8 @@ pub fn draw_scenes(
     panel::draw(&scene, right, false, look, buffer);
 }
 
-/// Returns the row of a scene in the list: the number with which a built-in scene can be found, the
-/// name of the scene, and its source.
+/// Returns the row of a scene in the list: the number by which the user can search for a built-in
+/// scene, the name of the scene, and its source.
 fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) -> Line<'static> {
     let mark = if entry.error().is_some() {
         "! "

@@ -15,8 +15,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
-    // The window may have changed since its size was stored in the state, so the layout uses the
-    // size of the frame.
+    // The layout uses the size of the frame. The size in the state may be older than the last
+    // change of the window.
     let area = frame.area();
     let layout = Layout::within(app, (area.width, area.height));
     let look = app.view.appearance;
@@ -25,7 +25,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         panel::draw_lines(&chrome::title(app, area.width, area.height), area, buffer);
     }
     draw_body(app, &layout, buffer);
-    // If the status is long, it also takes the row of the keys.
+    // A long status text also takes the row of the footer.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
     let status_area = Rect {
@@ -43,7 +43,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     }
 }
 
-/// Draws the panes, or the list of a prompt instead.
+/// Draws the panes or, if a prompt has a list, this list.
 fn draw_body(app: &App, layout: &Layout, buffer: &mut Buffer) {
     let look = app.view.appearance;
     if let Some(prompt) = &app.prompt {

@@ -31,8 +31,7 @@ fn text_of(sample: Sample) -> String {
 }
 
 /// Returns the entries of the legend of these charts for a terminal. Each entry is a list of
-/// coloured texts: first a sample of each line, area or marker with this name, and at the end the
-/// name.
+/// coloured texts: first a sample of each layer with the name of the entry, and then this name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {

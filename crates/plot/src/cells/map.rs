@@ -1,5 +1,5 @@
-//! Heat maps in terminal cells: colours or characters for the values, letters for the classes, and
-//! bars along the contour.
+//! Heat maps in terminal cells. Colours or characters show the values, letters the classes, and
+//! bars the contour.
 
 use super::style::{CellStyle, Colours};
 use crate::axis::ChartAxis;
@@ -14,8 +14,7 @@ use std::ops::Range;
 /// Characters that show the values of a heat map in a terminal without colours, from the lowest to
 /// the highest value.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
-/// Smallest width, in columns of the screen, at which a cell of the map shows the letter of its
-/// class.
+/// Smallest width, in columns of the screen, of a map cell that shows the letter of its class.
 const WITH_LETTER: usize = 3;
 
 /// Returns, for each screen cell along an axis, the index of the value that this cell shows. The
@@ -82,8 +81,8 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the character that shows a value. In a terminal with colours it is a blank, because the
-/// background shows the value.
+/// Returns the character that shows a value. In a terminal with colours, the background shows the
+/// value, so that the character is a blank.
 fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static str {
     match value {
         Some(value) if style.colours == Colours::None => SHADES[step(map.key.share(value))],
@@ -91,8 +90,8 @@ fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static s
     }
 }
 
-/// Returns the style of a cell with this value. In a terminal without colours, the style depends on
-/// the class of the cell instead.
+/// Returns the style of a screen cell. In a terminal with colours, the style depends on the value,
+/// otherwise on the class.
 fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellStyle<'_>) -> Style {
     let Some(value) = value else {
         return Style::new();
@@ -107,7 +106,7 @@ fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellS
 }
 
 fn step(share: f64) -> usize {
-    // If `share` is NaN, the conversion gives 0, the lowest step.
+    // If `share` is NaN, the conversion to an integer gives 0, which is the lowest step.
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
@@ -123,10 +122,10 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     (first < contour.level) != (second < contour.level)
 }
 
-/// Returns the colour scale of a heat map as a list of styled texts, to be written one after the
-/// other. The scale has six numbers with a coloured piece between neighbouring numbers. In a
-/// terminal without colours, the pieces consist of the characters [`SHADES`]. If the scale would
-/// need more than `columns` columns, it shows only the first and the last number.
+/// Returns the colour scale of a heat map as a list of styled texts, which are to be written one
+/// after the other. The scale has six numbers, with a coloured piece between each two. In a
+/// terminal without colours, the pieces consist of the characters [`SHADES`]. If the scale has no
+/// room in `columns` columns, it has only the first and the last number.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

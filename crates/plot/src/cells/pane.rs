@@ -1,5 +1,5 @@
-//! A chart in a pane of the screen. The name of each curve is written beside the curve. Further
-//! charts can be on the right of the chart and below it.
+//! A chart in a pane of the screen. The name of each curve is written beside the curve. The pane
+//! may have one more chart on the right and one more below.
 
 use super::legend::legend;
 use super::plot::{CellPlot, Name, is_blank};
@@ -13,15 +13,15 @@ use ratatui::style::Style;
 use ratatui::text::Span as Text;
 use std::ops::RangeInclusive;
 
-/// Entry of the legend: first the samples, at the end the name.
+/// Entry of the legend: first a sample of each layer, then the name.
 type Entry = Vec<Text<'static>>;
 
 /// Width in columns of the chart on the right, including the dividing line.
 const BESIDE: u16 = 14;
 /// Smallest width in columns of an area that is divided into two charts side by side.
 const WITH_BESIDE: u16 = 54;
-/// Largest number of rows for which the scales of the chart on the right are laid out. The plot
-/// itself has as many rows as the main plot.
+/// Largest height in rows that is used to decide which numbers and labels the chart on the right
+/// has. The plot of this chart has as many rows as the main plot.
 const MOST_BESIDE: u16 = 15;
 /// Smallest height in rows of an area that shows a second chart below the main chart.
 const WITH_BELOW: u16 = 11;
@@ -80,7 +80,8 @@ pub fn split(area: Rect) -> (Rect, Option<Rect>) {
 const NAMED_AT: usize = 19;
 
 /// Returns the points of a curve beside which its name may be written, as fractions of the curve
-/// from 0 to 1. The first is the middle; the others follow alternately on both sides of it.
+/// from 0 to 1. The middle of the curve comes first. The others lie alternately on its left and its
+/// right, at increasing distances.
 fn shares() -> impl Iterator<Item = f64> {
     let step = 0.5 / (NAMED_AT as f64 + 1.0);
     (0..NAMED_AT).map(move |place| {
@@ -89,15 +90,15 @@ fn shares() -> impl Iterator<Item = f64> {
     })
 }
 
-/// Name of a curve with the points beside which it may be written, and the entry of the curve in
-/// the legend.
+/// Name of a curve, with the points beside which the name may be written, and the legend entry of
+/// the curve.
 struct NamedEntry {
     name: Name,
     entry: Entry,
 }
 
-/// Returns the entries of the legend of a chart, each with the name to write beside the curve.
-/// Entries to which no layer belongs are left out.
+/// Returns the legend entries of a chart, each with the name that is written beside the curve.
+/// Entries without a layer are left out.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<NamedEntry> {
     let mut named = Vec::new();
     for entry in legend(std::slice::from_ref(chart), style) {
@@ -160,8 +161,8 @@ impl PaneChart {
         (self.scaled(left, &self.chart), right)
     }
 
-    /// Divides an area between a plot and its scales. If the pane has contact signs, one row below
-    /// the plot is left free for them.
+    /// Divides an area between a plot and the numbers along its axes. If the pane shows signs for
+    /// the contact, one row below the plot is left free for these signs.
     fn scaled(&self, area: Rect, chart: &Chart) -> CellPlot {
         if self.has_signs(area) {
             CellPlot::above(area, chart, 1)
@@ -174,7 +175,7 @@ impl PaneChart {
         !self.contact.springs.is_empty() && area.height >= WITH_CONTACT
     }
 
-    /// Returns the height in rows of the chart below the main chart; 0 if it is not shown.
+    /// Returns the height in rows of the chart below the main chart; 0 if this chart is not shown.
     fn rows_below(&self, area: Rect) -> u16 {
         if self.below.is_none() || area.height < WITH_BELOW {
             return 0;
@@ -182,9 +183,9 @@ impl PaneChart {
         (area.height / 4).clamp(*BELOW.start(), *BELOW.end())
     }
 
-    /// Draws the chart [`Self::below`] under the plot of the main chart. The numbers at the ends of
-    /// its vertical axis are on the left. The name of this axis is written on a blank row, if there
-    /// is one.
+    /// Draws the chart [`Self::below`] under the plot of the main chart. The two ends of its
+    /// vertical axis have numbers on the left. The name of this axis is written on a blank row of
+    /// the plot, if there is one.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
         let Some(below) = &self.below else {
@@ -265,8 +266,7 @@ impl PaneChart {
         let area = Rect {
             x: right.x + 1,
             width: right.width - 1,
-            // The label of the horizontal axis gets no row of its own if the area has at most this
-            // height.
+            // With at most this height, the label of the horizontal axis gets no row of its own.
             height: right.height.min(MOST_BESIDE),
             ..right
         };
@@ -276,8 +276,8 @@ impl PaneChart {
         beside.draw(buffer, chart, style);
     }
 
-    /// Marks the point of the present scene on a map with pointers on both axes, and with a blank
-    /// on each side of the point. The point is then visible even without colours.
+    /// Marks the position of the present scene on a map: by pointers on both axes, and by a blank
+    /// on each side of the position, so that it is visible even without colours.
     fn point_at_mark(
         &self,
         place: &CellPlot,
@@ -314,7 +314,7 @@ impl PaneChart {
             && ["│", "┤"].contains(&cell.symbol())
         {
             cell.set_symbol("▶").set_style(style);
-            // The value at the mark replaces any number of the axis in this row.
+            // The value at the mark is written over any number of the vertical axis in this row.
             let number = format_rounded(point.1, 2, &self.chart.y.unit);
             let columns = usize::from(plot.x.saturating_sub(area.x + 2));
             if number.chars().count() <= columns {
@@ -324,8 +324,8 @@ impl PaneChart {
     }
 }
 
-/// Draws the vertical axis of the chart below, with the numbers at its two ends, in the columns to
-/// the left of `place`.
+/// Draws the vertical axis of the chart `below` in the columns on the left of `place`, with the
+/// numbers at its two ends.
 fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer: &mut Buffer) {
     let columns = usize::from(place.x - area.x).saturating_sub(1);
     if columns == 0 {
@@ -340,7 +340,7 @@ fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer
             None
         };
         let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
-        // The blank after the number is omitted if there is no column for it.
+        // If the number takes all columns, the blank after the number is left out.
         let number = match columns.checked_sub(number.len()) {
             None => String::new(),
             Some(0) => number,

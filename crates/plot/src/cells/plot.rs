@@ -23,14 +23,14 @@ const WITH_SCALE_BELOW: u16 = 5;
 /// Smallest height in rows of an area that has a line between the plot and the numbers below it.
 const WITH_LINE_BELOW: u16 = 12;
 /// Smallest height in rows of an area in which the label of the horizontal axis may get a row of
-/// its own. It gets this row only if it would otherwise cover a number.
+/// its own. The label gets this row only if it would cover a number otherwise.
 const WITH_LABEL_BELOW: u16 = 16;
 /// Number of columns of Braille dots in a cell.
 const COLUMNS_OF_DOTS: u16 = 2;
 /// Number of rows of Braille dots in a cell.
 const ROWS_OF_DOTS: u16 = 4;
 
-/// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
+/// Text that [`CellPlot::draw_name`] writes beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
     /// Points (x, y), as numbers on the axes of the chart, beside which the text may be written.
@@ -58,7 +58,7 @@ pub struct CellPlot {
     has_label_row: bool,
 }
 
-/// Column or row of the plot, and the number of the axis that is written there.
+/// Column or row of the plot, and the number that the axis shows there.
 type PlacedNumber = (u16, String);
 
 impl CellPlot {
@@ -86,8 +86,8 @@ impl CellPlot {
             let widths = numbers.iter().map(|(_, text)| text.chars().count() as u16);
             left = widths.max().unwrap_or(0) + 2;
         }
-        // Names on the vertical axis may take more room than numbers, because the bars beside them
-        // repeat what the names say.
+        // Names on the vertical axis may take more room than numbers, because the names already
+        // state what the bars beside them show.
         let most = if chart.y.names.is_empty() {
             area.width / 2
         } else {
@@ -151,7 +151,8 @@ impl CellPlot {
             let row = ((nearest_down * f64::from(plot.height)) as u16).min(plot.height - 1);
             return Some((plot.x + column, plot.y + row));
         }
-        // NaN differs from itself, so a position that is not a number returns `None` here.
+        // The comparison is also true if a position is NaN, so that `None` is returned in this case
+        // too.
         if (nearest_across, nearest_down) != (across, down) {
             return None;
         }
@@ -228,7 +229,8 @@ impl CellPlot {
         let right = column + 2;
         let left = column - 1 - width;
         let middle = column - width / 2;
-        // The row of the point is tried first, then the row below, then the row above.
+        // The text is tried first in the row of the point, then in the row below, then in the row
+        // above.
         let places = [
             (right, row),
             (left, row),
@@ -247,9 +249,9 @@ impl CellPlot {
         None
     }
 
-    /// Returns true if a text of this width that begins at the cell (x, y) lies inside the plot on
-    /// blank cells. The columns before and after the text must be blank too, unless the plot ends
-    /// there. The cell of the named `point` may have content.
+    /// Returns true if there is room for a text of this width that begins at the cell (x, y): it
+    /// lies inside the plot, and its cells, the cell before and the cell after are blank. Cells
+    /// outside the plot need not be blank, nor the cell of the named `point`.
     fn is_free(&self, buffer: &Buffer, point: (u16, u16), x: i32, y: i32, width: i32) -> bool {
         let plot = self.plot;
         let first = i32::from(plot.x);
@@ -275,11 +277,12 @@ impl CellPlot {
             else {
                 continue;
             };
-            // The canvas has already drawn points of this kind as dots.
+            // Markers of this kind have already been drawn as Braille dots.
             if *sign == Sign::Point {
                 continue;
             }
-            // Signs are drawn in at most every second column, so that they stay apart.
+            // At most every second column gets a marker, so that neighbouring markers can be
+            // distinguished.
             let every = (2 * points.len())
                 .div_ceil(usize::from(self.plot.width))
                 .max(1);
@@ -350,7 +353,8 @@ impl CellPlot {
         } else {
             plot.right() - label_width
         };
-        // If the label is in the same row as the numbers, one blank is kept before the label.
+        // If the label is in the same row as the numbers, there must be a blank between the last
+        // number and the label.
         let end_of_numbers = end.max(from + 1) + u16::from(self.has_label_row);
         let mut free = from;
         for (column, text) in numbers {
@@ -391,16 +395,16 @@ fn number_at(axis: &ChartAxis, share: f64) -> f64 {
     axis.scale.number(axis.span.low + share * axis.span.width())
 }
 
-/// Returns the cell at the position `share` (0 to 1) along an axis of `cells` cells. The position
-/// is first rounded to one of the `dots` dots of each cell, as the canvas does, so that signs and
+/// Returns the cell at the position `share` (0 to 1) along an axis of `cells` cells. As curves are
+/// drawn with `dots` dots in each cell, the position is first rounded to a dot, so that signs and
 /// ticks coincide with the curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots
 }
 
-/// Returns the numbers of the vertical axis of a plot of this height, each with the row in which it
-/// is written.
+/// Returns the numbers on the vertical axis of a plot of this height, each with the row in which
+/// the number is written.
 fn scale_beside(chart: &Chart, height: u16) -> Vec<PlacedNumber> {
     let span = chart.y.span;
     let row = |number: f64| cell_at((span.high - number) / span.width(), height, ROWS_OF_DOTS);
@@ -409,9 +413,9 @@ fn scale_beside(chart: &Chart, height: u16) -> Vec<PlacedNumber> {
     numbers_at(&chart.y, fewest..=most, row, |_| true)
 }
 
-/// Returns the numbers of an axis, each with its column or row from the function `place`. The
-/// number of ticks is the smallest in the range `ticks` for which at least two numbers are visible.
-/// If there is no such number of ticks, it is the smallest of the range.
+/// Returns the numbers on an axis, each with its column or row, which the function `place` gives.
+/// The number of ticks is the smallest one in the range `ticks` for which at least two numbers are
+/// visible, or the smallest one in the range if there is none.
 fn numbers_at(
     axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
@@ -428,7 +432,8 @@ fn numbers_at(
     for most in ticks {
         let numbers = numbers(most);
         let mut seen = numbers.iter().filter(|number| is_seen(number));
-        // Two numbers in the same cell count as one, because the second hides the first.
+        // Two numbers in the same cell count as one, because the second number is written over the
+        // first.
         if let Some((first, _)) = seen.next()
             && seen.any(|(place, _)| place != first)
         {
@@ -438,9 +443,9 @@ fn numbers_at(
     numbers(fewest)
 }
 
-/// Returns the numbers of the horizontal axis of a plot of this width, each with its column, and
-/// the label of the axis. If the label does not fit its row, or half of the row that it shares with
-/// the numbers, it contains only the symbol and the unit.
+/// Returns the numbers on the horizontal axis of a plot of this width, each with its column, and
+/// the label of the axis. If the label does not fit, it contains only the symbol and the unit. The
+/// label may take a whole row (`has_own_row`), or half of the row that it shares with the numbers.
 fn scale_below(chart: &Chart, width: u16, has_own_row: bool) -> (Vec<PlacedNumber>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if has_own_row { width } else { width / 2 };
@@ -457,14 +462,14 @@ fn scale_below(chart: &Chart, width: u16, has_own_row: bool) -> (Vec<PlacedNumbe
     (numbers, label)
 }
 
-/// Returns true if a label at the right end of the same row would cover this number.
+/// Returns true if a label at the right end of the same row would be written over this number.
 fn is_covered(number: &PlacedNumber, width: u16, label: &str) -> bool {
     let (column, text) = number;
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     usize::from(*column) + text.chars().count().div_ceil(2) > end
 }
 
-/// Returns true if the label of the horizontal axis would cover a number.
+/// Returns true if the label of the horizontal axis would be written over a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
     let (numbers, label) = scale_below(chart, width, true);
     numbers
@@ -563,8 +568,8 @@ mod tests {
             {
                 let cell = place.cell(&chart, (x, y)).unwrap();
                 let (across, up) = place.data_at(&chart, cell).unwrap();
-                // If several values share a screen cell, the value found lies in this cell or in a
-                // neighbour.
+                // If several values share a screen cell, `across` and `up` belong to this cell or
+                // to a neighbouring cell.
                 let (column, row) = place.cell(&chart, (across, up)).unwrap();
                 assert!(
                     column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1,
@@ -577,7 +582,8 @@ mod tests {
                 );
                 assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
             }
-            // A point beyond the map gets a cell at its edge. A cell outside the plot has no point.
+            // A point beyond the map belongs to a cell at the edge of the map. A cell outside the
+            // plot belongs to no point.
             let corner = Some((place.plot.right() - 1, place.plot.y));
             assert_eq!(place.cell(&chart, (9.0, 1e9)), corner);
             assert_eq!(
@@ -680,8 +686,8 @@ mod tests {
         assert!(found > 10, "{found}");
     }
 
-    /// Each of thousands of points paints its own dot, and a line drawn above the points keeps its
-    /// cells.
+    /// Each of thousands of points is painted as a dot. A line that is drawn after the points
+    /// replaces the dots in its cells.
     #[test]
     fn points_are_dots_below_a_line() {
         let cloud = (0..2000).map(|at| {

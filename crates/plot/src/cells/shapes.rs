@@ -56,16 +56,17 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Shades the area inside a closed line: paints every dot inside the line for which
-    /// [`Self::is_shaded`] returns true. A dot is inside if the line crosses the column below the
-    /// dot an odd number of times.
+    /// Shades the area inside a closed line: paints every dot that is inside the line and for which
+    /// [`Self::is_shaded`] returns true. A dot is inside if the line crosses the column an odd
+    /// number of times below the dot.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let Some((last, _)) = painter.get_point(1.0, 0.0) else {
             return;
         };
         let mut shares: Vec<Share> = Vec::new();
         for (x, y) in border {
-            // Zero on a logarithmic axis has no finite position. It is placed far below the chart.
+            // Zero on a logarithmic axis has no finite position, so the point is placed far below
+            // the chart.
             let up = self.chart.y.share(*y).clamp(-9.0, 9.0);
             shares.push((self.chart.x.share(*x), up));
         }
@@ -85,7 +86,7 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Returns true for the dots that shade an area: every second dot, or in the quiet ink every
+    /// Returns true for the dots that shade an area: every second dot or, for [`Ink::Quiet`], every
     /// eighth dot.
     fn is_shaded(&self, column: usize, row: usize) -> bool {
         if self.ink == Ink::Quiet {
@@ -173,8 +174,8 @@ impl CanvasShape for LayerShape<'_> {
     }
 }
 
-/// Returns true if a line with this stroke paints its dot with the number `dot`. The strokes differ
-/// in their gaps, so that lines can be distinguished without colours.
+/// Returns true if a line with this stroke has a dot at the place `dot`, counted along the line.
+/// The strokes differ in their gaps, so that lines can be distinguished without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,
@@ -185,8 +186,8 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// Returns the dots on the straight line between two dots, without the dot `from`. If both dots are
-/// the same, it returns this dot.
+/// Returns the dots on the straight line between two dots, without the dot `from`. If the two dots
+/// are the same, returns this dot.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let dx = to.0 as f64 - from.0 as f64;
     let dy = to.1 as f64 - from.1 as f64;

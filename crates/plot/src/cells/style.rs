@@ -1,4 +1,5 @@
-//! Appearance of charts in terminal cells: inks, colours, characters of signs.
+//! Appearance of charts in terminal cells: styles of inks, available colours, and characters of
+//! markers.
 
 use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};

@@ -1,4 +1,4 @@
-//! Figures as text for a terminal, or for a file.
+//! Figures as text, which is written to a terminal or to a file.
 
 use super::legend::legend;
 use super::map;
@@ -19,18 +19,18 @@ const FEWEST_COLUMNS: usize = 40;
 const MOST_COLUMNS: usize = 160;
 /// Largest width in columns of a chart of curves.
 const WIDEST_PLOT: u16 = 110;
-/// Height in rows of a chart of curves, including the scale below.
+/// Height in rows of a chart of curves, including the numbers below the plot.
 const ROWS: u16 = 20;
 /// Largest width in columns of a cell of a heat map.
 const WIDEST_CELL: usize = 5;
-/// Smallest height in rows of the cells of a heat map together.
+/// Smallest height in rows of all cells of a heat map together.
 const FEWEST_ROWS: usize = 10;
-/// Largest height in rows of the cells of a heat map together.
+/// Largest height in rows of all cells of a heat map together.
 const MOST_ROWS: usize = 48;
 
-/// Returns a figure as text for a terminal or a file. The charts follow one below the other. A line
-/// has at most `columns` characters. A value of `columns` below 40 counts as 40, and a value above
-/// 160 as 160.
+/// Returns a figure as text for a terminal or a file, with each chart below the previous one. A
+/// line has at most `columns` characters. A value of `columns` below 40 counts as 40, and a value
+/// above 160 as 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(FEWEST_COLUMNS, MOST_COLUMNS);
     let ink = |ink: Ink| match (ink, colours) {
@@ -146,8 +146,8 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
 /// Escape sequence that returns to the default colours.
 const RESET: &str = "\x1b[0m";
 
-/// Appends a line that consists of styled texts. Blanks at the end of the line are left out, unless
-/// they are coloured. The colours become escape sequences.
+/// Appends a line of styled texts, in which escape sequences set the colours. Blanks at the end of
+/// the line are left out, unless they are coloured.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     let mut runs = runs;
     while let [before @ .., (blank, style)] = runs {

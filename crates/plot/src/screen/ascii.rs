@@ -4,11 +4,11 @@ use super::{Glyph, dots, glyphs};
 use ratatui::buffer::{Buffer, Cell};
 use std::sync::LazyLock;
 
-/// ASCII characters, each with the patterns of 2 × 4 dots that it resembles. A pattern has one
-/// letter for each of the four rows, from above: `L` for the left dot, `R` for the right dot, `B`
-/// for both, `0` for none. If two characters are equally near to a pattern, the first is taken, so
-/// characters that draw lines precede characters that fill. The characters `^`, `v`, `*`, `o` and
-/// `@` are left out, because they are markers on curves.
+/// ASCII characters, each with the patterns of 2 × 4 dots that look like the character. A pattern
+/// has one letter for each of the four rows, from above: `L` for the left dot, `R` for the right
+/// dot, `B` for both, `0` for none. If a pattern resembles two characters equally, the first one is
+/// taken, so characters that look like lines come before characters that fill the cell. The
+/// characters `^`, `v`, `*`, `o` and `@` are left out, because they are markers on curves.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -27,7 +27,7 @@ const SHAPES: [(char, &[&str]); 15] = [
     ('#', &["BBBB", "BBB0", "0BBB"]),
 ];
 
-/// For each pattern of dots, the character whose pattern differs from it in the fewest dots.
+/// For each of the 256 patterns of dots, the most similar character.
 static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     let mut nearest = [' '; 256];
     for (pattern, character) in nearest.iter_mut().enumerate().skip(1) {
@@ -36,8 +36,8 @@ static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     nearest
 });
 
-/// Returns the character that differs from a pattern in the fewest dots. If several characters do,
-/// it is the first of them in [`SHAPES`].
+/// Returns the character that differs from a pattern in the smallest number of dots. If there are
+/// several such characters, returns the first one in [`SHAPES`].
 fn nearest_character(pattern: usize) -> char {
     let mut nearest = ' ';
     let mut fewest = u32::MAX;
@@ -68,9 +68,9 @@ fn bits(shape: &str) -> u8 {
     bits
 }
 
-/// Table of replacements. Each group between blanks is an ASCII character, followed by the
-/// characters that it replaces. A Greek letter becomes a letter that looks or sounds similar. An
-/// accented letter loses its accent.
+/// Table of replacements. Each group of characters between blanks begins with an ASCII character,
+/// which replaces the other characters of the group. A Greek letter is replaced by a letter that
+/// looks or sounds similar, an accented letter by the letter without accent.
 const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ @●◉◎ #■█▉▊ &▓ +▪▫□±┌┐└┘├┤┬┴┼ _▁▄ .·⋅∙ :░¦ %▒ \
     -─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
     8⁸₈∞ 9⁹₉ V∇√ DΔ dδ∂ GΓ gγ SΣ∑∫ sσς PΠΨ pπψ OΩΘ wω LΛ lλℓ FΦ fφϕ aα bβ eεϵ hηℎ iι Kκϰ nⁿₙ rρ tτ uµμ zζ XΞ \
@@ -105,8 +105,8 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// Returns true if the cell with the index `zero` is the zero in a power of ten such as `10⁵`. If
-/// this zero is replaced by `e`, the exponent stays readable: `1e5`.
+/// Returns true if the cell with the index `zero` is the zero in a power of ten such as `10⁵`. In
+/// this case, the zero is replaced by `e`, so that the exponent can be read: `1e5`.
 fn begins_power_of_ten(row: &[Cell], zero: usize) -> bool {
     let is = |index: usize, signs: &str| {
         row.get(index)
@@ -115,15 +115,14 @@ fn begins_power_of_ten(row: &[Cell], zero: usize) -> bool {
     if !is(zero, "0") || !is(zero + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹") {
         return false;
     }
-    // The digit 1 before the zero must not be the last digit of a longer number.
+    // The 1 before the zero must not be the last digit of a longer number such as 210.
     zero > 0 && is(zero - 1, "1") && (zero == 1 || is(zero - 2, " │┤"))
 }
 
 /// Returns the ASCII character for a symbol. Combining marks are dropped.
 fn of_glyph(glyph: &Glyph<'_>) -> char {
     match glyph.symbol().chars().next() {
-        // A wide character fills two cells, and no ASCII character is wide, so a wide character
-        // becomes `?`.
+        // A wide character fills two cells. There are no wide ASCII characters, so it becomes `?`.
         Some(character) if glyph.width == 1 || character == ' ' => of_character(character),
         _ => '?',
     }

@@ -1,4 +1,4 @@
-//! Screens for use outside of the terminal: as plain text, in ASCII, and as an SVG document.
+//! Screens of a terminal as plain text, in ASCII, or as an SVG document.
 
 pub(crate) mod ascii;
 pub(crate) mod svg;
@@ -16,7 +16,7 @@ struct Glyph<'a> {
 }
 
 impl<'a> Glyph<'a> {
-    /// Returns the symbol in the cell. If the symbol has no width, it returns a blank.
+    /// Returns the symbol in the cell, or a blank if the symbol has no width.
     fn symbol(&self) -> &'a str {
         if self.cell.symbol().cell_width() == 0 {
             " "
@@ -55,11 +55,12 @@ fn glyphs(buffer: &Buffer) -> Vec<Glyph<'_>> {
     glyphs
 }
 
-/// Returns the dots of a Braille character, two across and four down, as bits: row by row from the
-/// upper left dot. `None` for other characters.
+/// Returns the dots of a Braille character, two in each of four rows, as bits: row by row,
+/// beginning with the upper left dot. Returns `None` for other characters.
 fn dots(character: char) -> Option<u8> {
-    /// Unicode numbers the three upper dots of the left column, then the three upper dots of the
-    /// right column, and at last the two dots of the lowest row.
+    /// Place of each Unicode bit among the returned bits. Unicode first numbers the three upper
+    /// dots of the left column, then the three upper dots of the right column, and then the two
+    /// dots of the lowest row.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
     let pattern = u32::from(character)
         .checked_sub(0x2800)

@@ -1,7 +1,7 @@
-//! The screen as an SVG document, for slides and for pages on the web.
+//! Screens of a terminal as an SVG document, for slides and web pages.
 //!
-//! Each word begins at its first cell and is stretched to the width of its cells. Dots, blocks and
-//! the lines of frames are drawn as shapes, so that they join across cells in any font.
+//! Each word begins at its first cell and is stretched to the width of its cells. Braille dots,
+//! blocks and the lines of frames are drawn as shapes, so that they join across cells in any font.
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Palette, Rgb, hex};
@@ -24,10 +24,10 @@ const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 const FONT_SIZE: f64 = 13.3;
 
-/// Share in per cent of the text colour in a dimmed colour; the rest is background.
+/// A dimmed colour consists of this percentage of the text colour; the rest is background.
 const DIMMED: u8 = 60;
 
-/// Kind of a shape. Shapes are drawn in the order of the kinds.
+/// Kind of a shape. The shapes of one kind are drawn after all shapes of the kinds before it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Ground,
@@ -84,7 +84,8 @@ fn stroke(colour: &str, width: f64, cap: &str) -> String {
     format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
 }
 
-/// Returns the backgrounds and the drawn characters as path data, grouped by kind and colour.
+/// Returns the path data of backgrounds and of characters that are drawn as shapes. Shapes of the
+/// same kind and colour share a path.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
@@ -107,7 +108,7 @@ fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
-/// Adjacent letters of one colour and weight.
+/// Letters in adjacent cells that have the same colour and weight.
 struct Word {
     column: u16,
     row: u16,
@@ -154,7 +155,7 @@ impl Word {
     }
 }
 
-/// Colours of the symbol and of the background of a cell.
+/// Colours of a cell: `ink` of the symbol, `ground` of the background.
 struct CellColours {
     ink: Rgb,
     ground: Rgb,
@@ -175,8 +176,9 @@ impl CellColours {
     }
 }
 
-/// Returns the colour in `palette` for a terminal colour, or `reset` for the default colour. Only
-/// the sixteen ANSI colours are known, because the explorer uses no others.
+/// Returns the colour in `palette` for a terminal colour, or `reset` for the default colour. Any
+/// colour other than the sixteen ANSI colours also gives `reset`, because the explorer uses no
+/// others.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen \
                         LightYellow LightBlue LightMagenta LightCyan White";
@@ -199,8 +201,8 @@ fn mixed(first: Rgb, second: Rgb, percent: u8) -> Rgb {
 /// Returns the kind and the path of a character that is drawn as a shape; `None` for a character
 /// that is written as text.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
-    /// The four lines from the middle of a cell to its left, right, upper and lower edge: for each
-    /// line, the characters that contain it, and its path.
+    /// The four lines from the middle of a cell to its left, right, upper and lower edge. Each has
+    /// the characters that contain the line, and the path of the line.
     const ENDS: [(&str, &str); 4] = [
         ("─┐┘┤┬┴", "h-4"),
         ("─┌└├┬┴", "h4"),
@@ -228,7 +230,8 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
             Some((Kind::Block, boxed(glyph, width)))
         }
         _ => {
-            // The bits describe the dots row by row from the upper left, two across and four down.
+            // The bits of the dots are ordered row by row, two in a row, beginning with the upper
+            // left dot.
             let bits = dots(character)?;
             for bit in 0..8 {
                 if bits >> bit & 1 == 1 {
@@ -249,7 +252,7 @@ mod tests {
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 
-    /// Draws a screen of one row and returns the elements within the margins.
+    /// Draws a screen of one row and returns the SVG elements inside the margins.
     fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
@@ -301,7 +304,7 @@ mod tests {
         assert_eq!(drawn("a<b  漢c", Style::new()), words);
         let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
-        // 60 % of the foreground colour and 40 % of the background colour.
+        // The colour of dimmed text consists of 60 % foreground colour and 40 % background colour.
         assert_eq!(
             drawn("x", Style::new().dim()),
             [text(8, 1, r##""#8d9297""##, "x")]
@@ -350,7 +353,7 @@ mod tests {
     fn colours_can_be_read() {
         for palette in [Palette::DARK, Palette::LIGHT] {
             assert!(contrast(palette.foreground, palette.background) > 12.0);
-            // Black and white are left out, because one of them may be equal to the background.
+            // Black and white are left out, because one of the two may be equal to the background.
             for colour in &palette.ansi[1..15] {
                 assert!(contrast(*colour, palette.background) > 4.5, "{colour:02x?}");
             }

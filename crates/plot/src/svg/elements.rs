@@ -8,13 +8,13 @@ use std::fmt::{Arguments, Write};
 pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
 pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 pub(super) const PAPER: Rgb = Palette::LIGHT.background;
-/// Colour of map cells without a value: a grey that occurs in no colour scale.
+/// Colour of map cells without a value: a grey that does not occur in any colour scale.
 pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 
 /// Position in a picture, in px from the upper left corner.
 pub(super) type Place = (f64, f64);
 
-/// Point of a label that lies at the given position. Vertically it is always the middle of the
+/// Point of a label that is placed at the given position. Its height is always the middle of the
 /// label.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
@@ -153,8 +153,9 @@ impl Svg {
         ));
     }
 
-    /// Fills rectangles, each given by its upper left and its lower right corner. Each is drawn at
-    /// least 0.5 px wide and high. Rectangles with a common edge meet without a gap.
+    /// Fills rectangles, each given by its upper left and its lower right corner. A smaller
+    /// rectangle is enlarged to a width and height of 0.5 px. Rectangles with a common edge meet
+    /// without a gap.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -181,8 +182,8 @@ impl Svg {
         ));
     }
 
-    /// Writes labels one below the other, the first at the position `first`. Returns the height at
-    /// which the next label would be.
+    /// Writes labels one below the other. The first one is at the position `first`. Returns the
+    /// vertical position of a further label.
     pub(super) fn lines(
         &mut self,
         lines: &[Label],
@@ -223,7 +224,8 @@ impl Svg {
     }
 }
 
-/// Rounds a length in px to a hundredth. Adjacent rectangles then share the same edge.
+/// Rounds a length in px to a hundredth. Due to the rounding, adjacent rectangles share the same
+/// edge.
 fn rounded(value: f64) -> f64 {
     (100.0 * value).round() / 100.0
 }
@@ -251,8 +253,8 @@ fn runs(label: &Label, size: f64) -> String {
         let text = with_minus(text);
         let after = text.trim_start_matches(is_blank);
         let inner = after.trim_end_matches(is_blank);
-        // Some viewers drop blanks at the ends of an element. Therefore blanks are written between
-        // the elements, as no-break spaces.
+        // Some viewers drop blanks at the beginning or end of an element. Therefore blanks are
+        // written outside the elements, as no-break spaces.
         push_blanks(&mut elements, &text[..text.len() - after.len()]);
         if inner.is_empty() {
             continue;

@@ -1,4 +1,4 @@
-//! Frame of a chart, which converts numbers to positions in the picture, and its axes.
+//! Frame of a chart and its axes. The frame converts numbers to positions in the picture.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::axis::{Axes, Share};
@@ -9,7 +9,7 @@ use crate::ticks::Tick;
 pub(super) const LABEL: f64 = 13.0;
 /// Font size in px of the numbers at ticks.
 pub(super) const NUMBER: f64 = 11.5;
-/// Largest number of labelled ticks of a vertical axis, approximately.
+/// Approximate largest number of ticks with labels on a vertical axis.
 const TICKS: usize = 6;
 
 /// Rectangle of a chart in a picture, with its two axes.
@@ -39,7 +39,8 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    /// Converts a position in the chart, with shares from 0 to 1, to a position in the picture.
+    /// Converts a position in the chart, with shares of the axes from 0 to 1, to a position in the
+    /// picture in px.
     pub(super) fn at(&self, share: Share) -> Place {
         let (x, y) = share;
         (
@@ -52,7 +53,7 @@ impl Frame<'_> {
         shares.into_iter().map(|share| self.at(share)).collect()
     }
 
-    /// Converts coordinates on the two axes to a position in the picture.
+    /// Converts coordinates on the two axes to a position in the picture in px.
     pub(super) fn place_of_coordinates(&self, x: f64, y: f64) -> Place {
         let Axes {
             x: x_axis,
@@ -118,8 +119,8 @@ impl Frame<'_> {
         }
     }
 
-    /// Returns the position in px of the edge of the frame on this side: y below, x on the left or
-    /// right.
+    /// Returns the position in px of the edge of the frame on this side. The position is vertical
+    /// for the lower edge, and horizontal for the left and the right edge.
     fn edge(&self, side: Side) -> f64 {
         match side {
             Side::Below => self.to.1,
@@ -128,7 +129,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Returns the approximate number of labelled ticks on a side.
+    /// Returns the approximate number of ticks with labels on a side.
     fn ticks(&self, side: Side) -> usize {
         // A wide frame has more ticks on its horizontal axis, and a low frame has fewer on its
         // vertical axis.
@@ -140,7 +141,8 @@ impl Frame<'_> {
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
-    /// Returns the width in px that a vertical axis takes beside the frame.
+    /// Returns the width in px that the numbers and the label of a vertical axis take beside the
+    /// frame.
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.axes.y.ticks(self.ticks(side));
         beside(&ticks) + 0.7 * LABEL

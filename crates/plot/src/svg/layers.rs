@@ -14,7 +14,7 @@ const SIGN_DISTANCE: f64 = 13.0;
 /// Half the size of a marker in px.
 pub(super) const SIGN: f64 = 2.7;
 
-/// Draws the layers of a chart into its frame: first areas, then lines.
+/// Draws the layers of a chart into its frame. Areas come first, so that lines are drawn over them.
 pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
     for layer in layers.iter().filter(|layer| !is_line(layer)) {
         draw_layer(svg, frame, layer);
@@ -141,8 +141,8 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
 }
 
 /// Returns the positions of the lower and the upper end of a band at one x. An end without a
-/// coordinate, such as 0 on a logarithmic axis, is drawn at the end of the axis. `None` if an end
-/// is NaN or infinite.
+/// coordinate, such as 0 on a logarithmic axis, gets the position of the end of the axis. `None` if
+/// one of the two ends is NaN or infinite.
 fn ends_of_band(frame: &Frame<'_>, point: (f64, f64, f64)) -> Option<(Place, Place)> {
     let (x, low, high) = point;
     if !low.is_finite() || !high.is_finite() {
@@ -153,7 +153,7 @@ fn ends_of_band(frame: &Frame<'_>, point: (f64, f64, f64)) -> Option<(Place, Pla
     Some((frame.at(low), frame.at(high)))
 }
 
-/// Draws a marker. `r` is half its size in px.
+/// Draws a marker. `r` is half the size of the marker in px.
 pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, place: Place, r: f64, colour: Rgb) {
     let (x, y) = place;
     match sign {
@@ -230,8 +230,8 @@ fn draw_cells(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
         .iter()
         .map(|value| value.map(|value| map.shade(value)))
         .collect();
-    // One path for each colour keeps the figure short. If the values of a few cells change, only a
-    // few of its lines change.
+    // One path contains all cells of a colour, so that the document is short. If the values of a
+    // few cells change, only a few lines of the document change.
     let mut boxes: BTreeMap<Option<usize>, Vec<(Place, Place)>> = BTreeMap::new();
     for (cells, up) in shades.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
         let mut column = 0;
@@ -249,7 +249,7 @@ fn draw_cells(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
 }
 
 /// Draws the markers of the classes of a map. `columns` and `rows` are the coordinates of the
-/// middles of the cells.
+/// middles of the columns and rows of cells.
 fn draw_classes(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap, columns: &[f64], rows: &[f64]) {
     let every_column = distance_of_signs(columns.len(), frame.width());
     let every_row = distance_of_signs(rows.len(), frame.height());
@@ -269,8 +269,8 @@ fn draw_classes(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap, columns: &[f64]
     }
 }
 
-/// Returns the number of cells from one marker to the next, if `cells` cells cover a length of
-/// `pixels` px.
+/// Returns the distance between two neighbouring markers as a number of cells, if `cells` cells
+/// have a total length of `pixels` px.
 fn distance_of_signs(cells: usize, pixels: f64) -> usize {
     ((SIGN_DISTANCE * cells as f64 / pixels).ceil() as usize).max(1)
 }

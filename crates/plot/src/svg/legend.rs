@@ -1,4 +1,4 @@
-//! Legend of a figure: rows of entries, each with samples and a name.
+//! Legend of a figure: rows of entries, each with samples of its layers and a name.
 
 use super::elements::{Anchor, EMPTY, Pen, Place, Svg};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
@@ -25,8 +25,8 @@ struct Row<'a> {
     width: f64,
 }
 
-/// Draws the entries in rows that are centred at x = `middle`, begin at y = `top` and are at most
-/// `most` px wide. Returns the y of the lower end of the legend.
+/// Draws the entries in rows of at most `most` px. The rows are centred at x = `middle` and begin
+/// at y = `top`. Returns the y of the lower end of the legend.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most: f64) -> f64 {
     let mut y = top;
     for row in rows(entries, most) {

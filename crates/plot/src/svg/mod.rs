@@ -12,7 +12,7 @@ use super::label::Label;
 use elements::{Anchor, PAPER, Pen, Place, Svg, TEXT, escaped};
 use frame::{Frame, LABEL, Side};
 
-/// Fonts of figures. The first available one is used; their letters have nearly the same widths.
+/// Fonts of figures, in the order of preference. Their letters have nearly the same widths.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
 /// Height in px below a chart for its horizontal axis.
 const BELOW: f64 = 50.0;
@@ -30,13 +30,13 @@ const TITLE: f64 = 14.5;
 const TEXT_SIZE: f64 = LABEL - 1.0;
 /// Height in px of a line in the heading of a chart.
 const HEADING: f64 = 18.0;
-/// Smallest width in px of a frame beside other frames, in a figure with a given width.
+/// Smallest width in px of a frame that has other frames beside it, in a figure with a given width.
 const LEAST: f64 = 110.0;
-/// Largest width in px of a figure with several charts, if no width is given.
+/// Largest width in px of a figure with several charts, if the user has given no width.
 const WIDEST: f64 = 1400.0;
-/// Width in px up to which a frame is at least as high as it is wide.
+/// A frame up to this width in px is at least as high as it is wide.
 const SQUARE: f64 = 150.0;
-/// Largest ratio of height to width of frames that are one below the other.
+/// Largest ratio of height to width of a frame, if charts are placed one below the other.
 const LOW: f64 = 0.62;
 /// Largest height in px (240 mm) of a figure with a given width.
 const PAGE: f64 = 907.0;
@@ -45,13 +45,13 @@ const LOWEST: f64 = 60.0;
 /// Height in px of each name on an axis.
 const NAME: f64 = 14.0;
 
-/// Width of a figure, and sizes of its frames.
+/// Width of a figure, with the sizes of its frames and the room beside them.
 struct Layout {
     /// Width of the picture in px.
     width: f64,
     /// Width and height in px of the frames.
     size: (f64, f64),
-    /// Room beside the frames, for each column of charts.
+    /// Room on the left and right of the frames, for each column of charts.
     rooms: Vec<Rooms>,
 }
 
@@ -68,7 +68,7 @@ impl Figure {
         let mut layout = self.layout();
         let (mut svg, mut height) = self.drawn(&layout);
         if let Some(wanted) = self.wanted_height(height) {
-            // Only the heights of the frames can change; the other elements keep their height.
+            // Only the frames can change their height; all other elements keep theirs.
             let rows = self.charts.len().div_ceil(layout.rooms.len()).max(1) as f64;
             layout.size.1 = (layout.size.1 - (height - wanted) / rows).max(LOWEST);
             (svg, height) = self.drawn(&layout);
@@ -84,8 +84,8 @@ impl Figure {
         document.finish()
     }
 
-    /// Returns the height in px that the picture should have, if its present height is `height`;
-    /// `None` if this height is right.
+    /// Returns the height in px that the picture must have instead of `height`; `None` if `height`
+    /// is right.
     fn wanted_height(&self, height: f64) -> Option<f64> {
         if self.height.is_some() {
             return self.height;
@@ -134,7 +134,7 @@ impl Figure {
         (svg, y)
     }
 
-    /// Returns the layout with the fewest rows of charts at which the charts fit the width.
+    /// Returns the layout with the smallest number of rows in which the charts fit the width.
     fn layout(&self) -> Layout {
         let count = self.charts.len().max(1);
         for rows in 1..count {
@@ -154,14 +154,14 @@ impl Figure {
     fn layout_in_columns(&self, columns: usize) -> Layout {
         let mut size = self.size;
         if let Some(width) = self.width {
-            // The room beside the frames depends on the numbers at the ticks, which depend on the
-            // size of the frames. Therefore the size is computed repeatedly.
+            // The room beside the frames depends on the numbers at the ticks, and these numbers
+            // depend on the size of the frames. Therefore the size is computed twice.
             for _ in 0..2 {
                 size = self.size_in_columns(columns, width, &self.rooms(columns, size));
             }
         }
         let names = self.charts.iter().map(|chart| chart.y.names.len()).max();
-        // On an axis with names, each name needs the height of a line.
+        // On a vertical axis with names, each name needs the height of a line.
         size.1 = size.1.max(NAME * names.unwrap_or(0) as f64);
         let rooms = self.rooms(columns, size);
         Layout {
@@ -171,8 +171,8 @@ impl Figure {
         }
     }
 
-    /// Returns the width and height in px of the frames, if the charts in these columns have the
-    /// total width `width` and this room beside the frames.
+    /// Returns the width and height in px of the frames, if the charts of a row have the total
+    /// width `width` and the room `rooms` beside their frames.
     fn size_in_columns(&self, columns: usize, width: f64, rooms: &[Rooms]) -> (f64, f64) {
         let across = ((width - width_of(rooms, 0.0)) / columns as f64).max(MARGIN);
         let are_below_each_other = columns < self.charts.len().max(1);
@@ -181,8 +181,8 @@ impl Figure {
         (across, (across * ratio).max(across.min(SQUARE)))
     }
 
-    /// Returns the room beside the frames of each column, which is the largest room that a chart of
-    /// the column needs.
+    /// Returns the room beside the frames of each column of charts: the largest room that a chart
+    /// of this column needs.
     fn rooms(&self, columns: usize, size: (f64, f64)) -> Vec<Rooms> {
         let mut all = vec![Rooms::default(); columns];
         for (index, chart) in self.charts.iter().enumerate() {
@@ -194,8 +194,8 @@ impl Figure {
         all
     }
 
-    /// Draws charts side by side, with their upper end at `y`. `first` is the index of the first of
-    /// them in the figure. Returns the y below the charts.
+    /// Draws charts side by side, with their upper end at `y`. `first` is the index of the leftmost
+    /// chart in the figure. Returns the y of the lower end of the charts.
     fn draw_row(
         &self,
         svg: &mut Svg,
@@ -352,7 +352,7 @@ mod tests {
             (400.0, 300.0)
         );
         let circles = elements(&svg, "circle");
-        // Three circles belong to the points that have coordinates, and one to the legend.
+        // Each of the three points with coordinates has a circle, and the legend has one more.
         assert_eq!(circles.len(), 4);
         for (circle, (across, up)) in
             circles
@@ -369,7 +369,7 @@ mod tests {
                 "{circle} {place:?}"
             );
         }
-        // The ticks below have labels at 0, 2, … 10 nm.
+        // The ticks below the chart have labels at 0, 2, … 10 nm.
         let below = corner.1 + 300.0;
         for (number, share) in [("0", 0.0), ("2", 0.2), ("10", 1.0)] {
             let x = corner.0 + 400.0 * share;
@@ -415,7 +415,7 @@ mod tests {
         let svg = figure.svg();
         let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
         let areas: Vec<String> = elements(&svg, "polygon").iter().map(looks).collect();
-        // The figure has two bands, and the legend has a sample of each that looks the same.
+        // The figure has two bands, and the legend repeats the look of each.
         assert_eq!(areas.len(), 4);
         assert_eq!(areas[..2], areas[2..]);
         for ink in inks {
@@ -428,7 +428,8 @@ mod tests {
                 .count();
             assert_eq!(dashes, 2, "a line and its sample");
         }
-        // The end of the band that has no logarithm is at the bottom of the chart.
+        // An end of the band has no logarithm. It is drawn at the bottom of the chart, so that all
+        // coordinates are finite.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(small(Vec::new()).svg().len() < svg.len());
     }
