@@ -147,9 +147,11 @@ fn joined(remedies: &[Remedy], wording: Wording) -> Option<String> {
 /// ```
 /// use asperity_data::{Note, Remedy};
 ///
-/// let note = Note::new("A drift remains.").with(Remedy::RemoveDrift).then(&Note::new("Noise 1 nN."));
+/// let drift = Note::new("A drift remains.").with(Remedy::RemoveDrift);
+/// let note = drift.then(&Note::new("Noise 1 nN."));
 /// assert_eq!(note.to_string(), "A drift remains. Noise 1 nN.");
-/// assert_eq!(note.in_words(|_| "take it off".to_owned()), "A drift remains: take it off. Noise 1 nN.");
+/// let words = note.in_words(|_| "take it off".to_owned());
+/// assert_eq!(words, "A drift remains: take it off. Noise 1 nN.");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Note {

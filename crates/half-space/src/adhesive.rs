@@ -11,9 +11,9 @@
 //! * A cell closes if the mean over its neighbours in contact is below [`CLOSING`] times the work
 //!   of adhesion on closing.
 //!
-//! Between the two limits there is a hysteresis that is due to the lattice of cells. This hysteresis
-//! is 5 to 12 % of the work of adhesion. A dissipated energy that is smaller than the hysteresis is
-//! not a property of the contact.
+//! Between the two limits there is a hysteresis that is due to the lattice of cells. This
+//! hysteresis is 5 to 12 % of the work of adhesion. A dissipated energy that is smaller than the
+//! hysteresis is not a property of the contact.
 
 use super::error::HalfSpaceError;
 use super::half_space::{Square, check_cells, highest, positive};

@@ -118,8 +118,8 @@ pub const FACTS: [&str; 9] = [
 const ENDINGS: [&str; 3] = ["", "_low", "_high"];
 
 impl CurveRow {
-    /// Fits the scene to one curve and makes the row of this curve. If the curve was not read or its
-    /// fit fails, [`Self::error`] states the reason.
+    /// Fits the scene to one curve and makes the row of this curve. If the curve was not read or
+    /// its fit fails, [`Self::error`] states the reason.
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,

@@ -405,8 +405,8 @@ impl<'a> ForceLoop<'a> {
                 Direction::Unloading => "unloading",
             });
         };
-        // If the loop has a name, only one direction has an entry in the legend: the unloading or, if
-        // there is none, the loading.
+        // If the loop has a name, only one direction has an entry in the legend: the unloading or,
+        // if there is none, the loading.
         let unloads = self
             .curves
             .iter()

@@ -46,8 +46,8 @@ pub struct PaneChart {
     pub contact: ContactRow,
 }
 
-/// Row of characters below a chart that shows which springs are in contact. Each character shows the
-/// springs above it: `■` if all of them are in contact, `▪` if some are, and `·` if none is.
+/// Row of characters below a chart that shows which springs are in contact. Each character shows
+/// the springs above it: `■` if all of them are in contact, `▪` if some are, and `·` if none is.
 #[derive(Default)]
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. If the list is empty,
