@@ -12,8 +12,8 @@ use std::borrow::Cow;
 
 /// Largest magnitude of a displacement in m, and of a force in N, that a file may contain.
 const LARGEST: [f64; 2] = [1e3, 1e6];
-/// Distance from the range of the central nine tenths of all displacements, in units of this range,
-/// beyond which a few displacements count as errors of the file.
+/// Distance from the central nine tenths of all displacements, in units of the range of these nine
+/// tenths. A few displacements beyond this distance count as errors of the file.
 const WILD: f64 = 10.0;
 
 /// Label that a file gives to the points of one part of the curve.
@@ -320,8 +320,9 @@ impl Rows {
         self.parts
     }
 
-    /// Sets the displacements of a file with forces only: the first half of the points is evenly
-    /// spaced over the travel `ramp` of the piezo in m, and the second half over the same way back.
+    /// Sets the displacements in a file with forces only. The first half of the points is evenly
+    /// spaced over the travel `ramp` of the piezo in m, and the second half is evenly spaced on the
+    /// way back.
     fn spread_over_ramp(&mut self, ramp: f64) {
         let Some(columns) = self.parts.first_mut() else {
             return;
