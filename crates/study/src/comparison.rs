@@ -211,7 +211,8 @@ impl Comparison<'_> {
                 displacement,
                 stiffness,
             },
-            // Without an instrument the displacement of the drive is the indentation of the body.
+            // Without an instrument, the displacement of the drive equals the indentation of the
+            // body.
             (Some(&Move::ToDisplacement(displacement)), None) => Turn::Indentation(displacement),
             _ => Turn::Force(preload),
         };

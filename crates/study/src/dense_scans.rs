@@ -170,8 +170,8 @@ impl Case {
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     questions: usize,
-    /// Number of answers that follow from a proof. The next field counts the answers that state
-    /// that crossings may be missed.
+    /// Number of answers that are proven. `may_miss` is the number of answers that state that
+    /// crossings may be missed.
     proven: usize,
     may_miss: usize,
     /// Number of questions for which the quantity crosses the target in the dense scan.

@@ -109,8 +109,8 @@ pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// Effective modulus E* of random bodies in Pa. The next constants are their length in m, and their
-/// rms height or largest height in m.
+/// Effective modulus E* of random bodies in Pa. `LENGTH` is their length in m, and `HEIGHT` is
+/// their rms height or largest height in m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
