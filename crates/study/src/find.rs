@@ -2,7 +2,7 @@
 //! quantity reach a target?
 //!
 //! Each profile is searched separately. The adhesion force never falls with the preload. It
-//! therefore crosses the target only once, between two preloads, and bisection finds this crossing.
+//! therefore crosses the target only once, and bisection finds this crossing between two preloads.
 //! Any other quantity is first computed at several numbers over the searched range.
 
 use super::axis::Axis;
@@ -31,8 +31,9 @@ pub struct Found {
     /// Reason why the scene could not be computed with a searched value of the number; `None` if it
     /// could be computed with all searched values.
     pub refused: Option<String>,
-    /// Premises of the model that the profiles do not meet at the median answer, each with the
-    /// number of these profiles. Without a median answer the list is for the scene of the question.
+    /// Premises of the model that the profiles do not meet, each with the number of these profiles.
+    /// The scene has the median answer or, if there is no median answer, is the scene of the
+    /// question.
     pub warnings: Vec<CountedWarning>,
 }
 

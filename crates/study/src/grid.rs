@@ -37,8 +37,8 @@ pub struct GridLayer {
     pub quantity: Quantity,
     /// Scale of the means of the quantity in a figure, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest of the means of the quantity in the [cells](GridCell). A logarithmic
-    /// scale counts only means above zero. `None` if there is no such mean.
+    /// Smallest and largest mean of the quantity over the [cells](GridCell). If the scale is
+    /// logarithmic, only means above zero are included. `None` if there is no such mean.
     pub range: Option<(f64, f64)>,
 }
 

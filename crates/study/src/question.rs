@@ -69,14 +69,14 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target, or becomes equal to
-    /// the target and stays equal. Each has a relative error of at most 1e-9. If only some values
-    /// are allowed, such as whole numbers, the allowed value beside the crossing is given at which
-    /// the quantity is at least the target, apart from rounding errors.
+    /// Ascending values of the number at which the quantity crosses the target, or at which it
+    /// becomes equal to the target and stays equal. Each has a relative error of at most 1e-9. If
+    /// only some values are allowed, such as whole numbers, an allowed value next to the crossing
+    /// is given: the one at which the quantity is at least the target, apart from rounding errors.
     pub crossings: Vec<f64>,
     /// True if there may be more crossings than the listed ones, because the quantity comes close
     /// to the target between two numbers at which it was computed. Even the first crossing may be
-    /// missing then.
+    /// missing from the list then.
     pub may_miss: bool,
     /// True if the crossings follow from a proof: the quantity is monotonic, or is known in closed
     /// form, or was computed at all allowed numbers. Otherwise the quantity was computed only at

@@ -1,10 +1,10 @@
-//! Comparison of random profiles with random squares in three dimensions that have the same
+//! Comparison of random profiles with random square surfaces in three dimensions that have the same
 //! spectrum.
 //!
-//! A free rigid square of the side L is compared with a profile (line) of the length L, and no
-//! constant is fitted. The heights of line and square are drawn independently, so only means over
-//! many of them are compared. At the same force the area of contact of the line is 1.1 to 4.2 times
-//! the area in three dimensions.
+//! A free rigid square of the side L on an elastic half-space is compared with a profile (line) of
+//! the length L. No constant is fitted. The heights of square and line are drawn independently, so
+//! only means over many squares and many lines are compared. At the same force the contact area of
+//! the line model is 1.1 to 4.2 times the contact area in three dimensions.
 
 use super::compared::Compared;
 use super::ensemble::Ensemble;
@@ -15,15 +15,15 @@ use asperity_data::CountedWarning;
 use asperity_scene::Scene;
 use serde::Serialize;
 
-/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells
-/// along the side of a square.
+/// Options of a [`Reference`]: numbers of random profiles, of random square surfaces in three
+/// dimensions, and of grid cells along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
-    /// Number of grid cells along the side of a square, a power of two.
+    /// Number of grid cells along the side of a square surface, a power of two.
     pub cells: usize,
-    /// Number of random squares.
+    /// Number of random square surfaces in three dimensions.
     pub maps: u64,
-    /// Number of random profiles.
+    /// Number of random profiles, the one-dimensional model of the surfaces.
     pub lines: u64,
 }
 
@@ -45,64 +45,67 @@ impl ReferenceOptions {
     }
 }
 
-/// Comparison of random profiles with random squares in three dimensions under one force, without
-/// adhesion.
+/// Comparison of random profiles with random square surfaces in three dimensions at one force,
+/// without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
-    /// Force on each profile and on each square, N.
+    /// Force in N on each profile and on each square surface.
     pub force: f64,
     /// Indentation in m at this force, counted from first touch.
     pub indentation: Compared,
     /// Stiffness of the contact in N/m at this force: the change of force divided by the change of
     /// indentation.
     pub stiffness: Compared,
-    /// Mean area of contact of the squares at this force, m².
+    /// Mean contact area of the square surfaces at this force, m².
     pub area: f64,
-    /// Mean number of grid cells of a square in contact at this force.
+    /// Mean number of grid cells of a square surface that are in contact at this force.
     pub cells: f64,
 }
 
 impl Loaded {
-    /// Smallest mean number of grid cells in contact with which a force is compared.
+    /// Smallest mean number of grid cells in contact with which profiles and square surfaces are
+    /// compared at a force.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns the larger of the errors [`Compared::grid`] of indentation and stiffness.
+    /// Returns [`Compared::grid`], the error due to the grid, of the indentation or of the
+    /// stiffness, whichever is larger.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
 }
 
-/// Force at which profiles and squares are not compared because too few grid cells of the squares
-/// are in contact.
+/// Force at which profiles and square surfaces are not compared because too few grid cells of the
+/// square surfaces are in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// Force on each square, N.
+    /// Force on each square surface, N.
     pub force: f64,
-    /// Mean number of grid cells of a square in contact, less than [`Loaded::LEAST_CELLS`].
+    /// Mean number of grid cells of a square surface in contact, less than [`Loaded::LEAST_CELLS`].
     pub cells: f64,
-    /// Number of grid cells along the side of a square with which enough cells would be in contact;
-    /// `None` if it is more than the solver allows.
+    /// Number of grid cells along the side of a square surface with which enough cells would be in
+    /// contact; `None` if the solver does not allow so many cells.
     pub grid: Option<usize>,
 }
 
-/// Roughness of the profiles and of the squares of a comparison.
+/// Roughness of the profiles and of the square surfaces that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoughnessOfBoth {
     /// Roughness of the profiles.
     pub line: ComparedRoughness,
-    /// Roughness of the squares without adhesion. It has the rms height of the profiles.
+    /// Roughness of the square surfaces for the contacts without adhesion, with the rms height of
+    /// the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the squares with adhesion, with the elastic energy of the profiles; `None` for
-    /// a scene without adhesion.
+    /// Roughness of the square surfaces for the contacts with adhesion, with the elastic energy of
+    /// the profiles; `None` for a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
 /// Comparison of a scene on random profiles with the same scene on random squares in three
 /// dimensions. A square is a rigid rough body of the side L on an elastic half-space.
 ///
-/// Profile and square are loaded in the same way: from separation to the same force or indentation,
-/// and back to separation. If the loading of the scene has several loops, the last one counts. It
-/// turns at the stage with the largest force after the last separation.
+/// A profile and a square are loaded in the same way: from separation to the same force or
+/// indentation, and back to separation. If the loading of the scene has several such loops, only
+/// the last loop is compared. It turns at the end of its stage with the largest force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Numbers of profiles, squares and grid cells with which the comparison was computed.
@@ -116,10 +119,10 @@ pub struct Reference {
     pub omitted: Option<u64>,
     /// Roughness of profiles and squares; `None` for a smooth body.
     pub roughness: Option<RoughnessOfBoth>,
-    /// Work of adhesion on opening in J/m², the same on profiles and squares; `None` without
+    /// Work of adhesion on opening in J/m², the same for profiles and squares; `None` without
     /// adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Stages of the loop of profiles and squares.
+    /// Two stages of the loop in which profiles and squares are compared: loading and separation.
     pub compared_loading: [Move; 2],
     /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement
     /// of the instrument, this is the mean force of the profiles there.
