@@ -32,8 +32,9 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns the decompressed size in bytes of compressed points. A header states their number
-/// `points`, and each point has `size` bytes. Returns an error for a size above the limits.
+/// Returns the size in bytes of compressed points after decompression. `points` is the number of
+/// points that a header states, and each point has `size` bytes. Returns an error if the size is
+/// above the limits.
 pub(super) fn unpacked_size(
     points: usize,
     size: usize,

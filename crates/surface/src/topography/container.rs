@@ -184,8 +184,8 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Returns the polynomial that has to be removed from the heights by the index of the
-    /// container; `None` if the index names only the mean, which is the default of such containers.
+    /// Returns the polynomial that the index file requests to be removed from the heights. Returns
+    /// `None` if it requests only the removal of the mean, which is the default of such containers.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,

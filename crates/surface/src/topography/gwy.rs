@@ -263,7 +263,7 @@ mod tests {
         .concat()
     }
 
-    /// Returns a file with channels of 2 × 2 heights in these units.
+    /// Returns a file that has, for each of these units, a channel of 2 × 2 heights.
     fn file(units: &[&str]) -> Vec<u8> {
         let channel = |(number, unit): (usize, &&str)| {
             let unit_of = |unit: &str| {

@@ -24,7 +24,7 @@ mod flag {
 /// A version of the file format.
 struct Version {
     number: u16,
-    /// Size in bytes of the header of the file.
+    /// Size in bytes of the header of the file, with which the file begins.
     file_header: usize,
     /// Size in bytes of the header of the wave. This header follows the header of the file.
     wave_header: usize,

@@ -183,8 +183,8 @@ struct Image<'a> {
 }
 
 impl Image<'_> {
-    /// Describes the channel. It counts as a channel of heights if its numbers are lengths and its
-    /// name says that they are heights.
+    /// Returns the label of the channel. It counts as a channel of heights if its numbers are
+    /// lengths and its name says that it contains heights.
     fn label(&self) -> Label {
         let name = title(self.section);
         Label {

@@ -9,9 +9,11 @@ use super::unit::Unit;
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states none for them; `None` means the unit in `unit`.
+    /// Unit of the heights if the file states no unit for them. `None` means that [`Self::unit`] is
+    /// used.
     pub height_unit: Option<Unit>,
-    /// Unit of positions and heights that is assumed if the file states none and `unit` is `None`.
+    /// Unit of positions and heights that is assumed if the file states no unit and [`Self::unit`]
+    /// is `None`.
     pub convention: Option<Unit>,
     /// Distance between neighbouring points in m if the file states none.
     pub spacing: Option<f64>,
