@@ -10,7 +10,7 @@ use super::transpose::reverse_rows;
 use super::unit::Unit;
 use crate::error::{SurfaceError, refused};
 
-/// Value of the first tag of Park Systems, by which their files are recognised.
+/// Value of [`tag::MARK`] in files of Park Systems, by which these files are recognised.
 const MARK: f64 = 235_082_497.0;
 
 /// First version whose header states the type of the heights. In earlier versions the heights are
