@@ -69,7 +69,7 @@ impl fmt::Display for Place {
 }
 
 impl Place {
-    /// Returns this place and all places inside which it lies, from the outermost to the innermost.
+    /// Returns this place and the places nested in it, from the outermost to the innermost.
     fn all(&self) -> impl Iterator<Item = &Place> {
         std::iter::successors(Some(self), |place| match place {
             Place::Measurement(_, inner) | Place::Surface(_, inner) => Some(&**inner),
@@ -198,8 +198,8 @@ impl SurfaceError {
         }
     }
 
-    /// Returns the first result of `said_by` for this place and the places inside it, from the
-    /// outermost to the innermost.
+    /// Returns the first result that `said_by` gives for the place of the error and the places
+    /// nested in it, from the outermost to the innermost.
     fn find<T>(&self, said_by: impl Fn(&Place) -> Option<T>) -> Option<T> {
         self.place().all().find_map(said_by)
     }

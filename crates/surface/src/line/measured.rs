@@ -101,8 +101,8 @@ impl MeasuredProfile {
 
     /// Returns the pieces of the polyline between neighbouring points.
     fn pieces(&self) -> impl Iterator<Item = Piece> {
-        // The first height is subtracted, because an offset far larger than the roughness would
-        // cost digits.
+        // The first height is subtracted: an offset that is far larger than the roughness would
+        // increase the rounding errors.
         let level = self.heights[0];
         let positions = self.positions.windows(2);
         positions
