@@ -29,15 +29,16 @@ const EVENTS_OF_PROFILES: u64 = 100;
 const ROUNDING: f64 = 1e-9;
 
 impl Reference {
-    /// Compares the contact of a checked scene on random profiles with its contact on random
-    /// squares in three dimensions. `simulation` has the folder of the measured files of the scene.
-    /// `control` receives each event. Only the computing times depend on the number of threads.
+    /// Compares the contact of a checked scene on random profiles with its contact on random square
+    /// surfaces in three dimensions. `simulation` has the folder of the measured files of the
+    /// scene. `control` receives each event. Only the computing times depend on the number of
+    /// threads.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no body in three dimensions
     /// or no preload above zero, if the number of grid cells is not allowed, or if the memory does
-    /// not suffice. It is also an error if the squares would take more than a day, if too few grid
-    /// cells are in contact for any comparison, or if `control` stops the computation.
+    /// not suffice. It is also an error if the square surfaces would take more than a day, if too
+    /// few grid cells are in contact for any comparison, or if `control` stops the computation.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -77,7 +78,7 @@ impl Reference {
 struct Comparison<'a> {
     resolved: Resolved,
     options: ReferenceOptions,
-    /// Seed of the first profile and of the first square.
+    /// Seed of the first profile and of the first square surface.
     seed: u64,
     /// Number of threads that share the profiles.
     threads: usize,

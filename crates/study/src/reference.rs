@@ -16,7 +16,7 @@ use asperity_scene::Scene;
 use serde::Serialize;
 
 /// Options of a [`Reference`]: numbers of random profiles, of random square surfaces in three
-/// dimensions, and of grid cells along the side of a square.
+/// dimensions, and of grid cells along the side of a square surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square surface, a power of two.
@@ -27,14 +27,14 @@ pub struct ReferenceOptions {
     pub lines: u64,
 }
 
-/// Number of random profiles for each square. A profile takes about a thousandth of the computing
-/// time of a square.
+/// Number of random profiles for each square surface. A profile takes about a thousandth of the
+/// computing time of a square surface.
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16
-    /// random profiles for each square. `maps` is the number of squares. `None` means 12 squares
-    /// for a scene with adhesion, and 24 without adhesion.
+    /// Returns the usual options for a scene: 64 grid cells along the side of a square surface, and
+    /// 16 random profiles for each square surface. `maps` is the number of square surfaces. `None`
+    /// means 12 square surfaces for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions {
@@ -108,28 +108,29 @@ pub struct RoughnessOfBoth {
 /// the last loop is compared. It turns at the end of its stage with the largest force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Numbers of profiles, squares and grid cells with which the comparison was computed.
+    /// Numbers of profiles, square surfaces and grid cells with which the comparison was computed.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Longest and shortest wave of the roughness on profiles and squares, each as its number of
-    /// periods over the length L; `None` for a smooth body.
+    /// Longest and shortest wave of the roughness on profiles and square surfaces, each as its
+    /// number of periods over the length L; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
     /// Number of periods over L of the shortest wave of the scene, if the comparison omits this
-    /// wave because the grid of the squares is too coarse; otherwise `None`.
+    /// wave because the grid of the square surfaces is too coarse; otherwise `None`.
     pub omitted: Option<u64>,
-    /// Roughness of profiles and squares; `None` for a smooth body.
+    /// Roughness of profiles and square surfaces; `None` for a smooth body.
     pub roughness: Option<RoughnessOfBoth>,
-    /// Work of adhesion on opening in J/m², the same for profiles and squares; `None` without
-    /// adhesion.
+    /// Work of adhesion on opening in J/m², the same for profiles and square surfaces; `None`
+    /// without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Two stages of the loop in which profiles and squares are compared: loading and separation.
+    /// Two stages of the loop in which profiles and square surfaces are compared: loading and
+    /// separation.
     pub compared_loading: [Move; 2],
     /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement
     /// of the instrument, this is the mean force of the profiles there.
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the
-    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square are
-    /// in contact.
+    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square
+    /// surface are in contact.
     pub loading: Vec<Loaded>,
     /// Forces at which fewer than [`Loaded::LEAST_CELLS`] grid cells are in contact.
     pub left_out: Vec<LeftOut>,
@@ -143,7 +144,8 @@ pub struct Reference {
     /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
     /// True for a smooth body of revolution for which the method of dimensionality reduction is
-    /// exact, so that every difference between profile and square is an error of the square.
+    /// exact, so that every difference between profile and square surface is an error of the square
+    /// surface.
     pub line_is_exact: bool,
     /// Errors of the comparison of adhesion forces, or of indentations for a scene without
     /// adhesion, one for each source.
@@ -152,28 +154,30 @@ pub struct Reference {
     /// profiles among the first [`Reference::profiles_for_warnings`].
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
-    /// Number of convolutions over the grid of a square that the solver computed for all squares
-    /// together, a measure of the computing work. The coarser squares, which show the error of the
-    /// grid, are not counted.
+    /// Number of convolutions over the grid of a square surface that the solver computed for all
+    /// square surfaces together, as a measure of the computing work. The computations on
+    /// the coarser grid, which show the error of the grid, are not counted.
     pub convolutions: u64,
-    /// Computing time in s: first of all profiles together, then of all squares together.
+    /// Computing time in s: first of all profiles together, then of all square surfaces together.
     pub seconds: [f64; 2],
-    /// Mean computing time of one square in s, without its coarser square.
+    /// Mean computing time of one square surface in s, without the computation of the same surface
+    /// on the coarser grid.
     pub seconds_of_square: f64,
 }
 
-/// Event that [`Reference::of`] reports while it compares profiles with squares.
+/// Event that [`Reference::of`] reports while it compares profiles with square surfaces.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
     /// Memory and computing time are estimated, and the computation of the profiles begins.
     Begins {
-        /// Number of squares, which is one for a body without random roughness.
+        /// Number of square surfaces, which is one for a body without random roughness.
         maps: u64,
-        /// Number of threads that share the squares.
+        /// Number of threads that share the square surfaces.
         threads: usize,
         /// Memory in bytes that all threads need together.
         bytes: u64,
-        /// Computing time of all squares in s, estimated from smaller squares.
+        /// Computing time of all square surfaces in s, estimated from surfaces with fewer grid
+        /// cells.
         seconds: f64,
     },
     /// Another hundredth (about) of the profiles is computed.
@@ -184,23 +188,25 @@ pub enum ReferenceEvent {
         /// in the loop and without adhesion.
         lines: u64,
     },
-    /// All profiles are computed, and the computation of the squares begins.
+    /// All profiles are computed, and the computation of the square surfaces begins.
     ProfilesEnd {
         /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene
         /// has no adhesion.
         lines: Vec<f64>,
     },
-    /// The contact of a square is computed at one more force or indentation.
+    /// The contact of a square surface is computed at one more force or indentation.
     Loaded {
-        /// Share of the work on all squares that this step is, estimated from smaller squares.
+        /// Share of this step in the work on all square surfaces, estimated from surfaces with
+        /// fewer grid cells.
         share: f64,
     },
-    /// The computation of a square is finished.
+    /// The computation of a square surface is finished.
     Square {
-        /// Points of the force curve of the square, each with indentation in m and force in N.
+        /// Points of the force curve of the square surface, each with indentation in m and force in
+        /// N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene
-        /// has no adhesion.
+        /// Adhesion force of the square surface in N, or its indentation at the preload in m if the
+        /// scene has no adhesion.
         headline: f64,
     },
 }

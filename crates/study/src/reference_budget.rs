@@ -17,7 +17,7 @@ pub struct ReferenceBudget {
     /// difference is used instead. `None` if half as many cells are too few.
     pub grid: Option<f64>,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
-    /// ratio; `None` for fewer than two profiles or squares.
+    /// ratio; `None` for fewer than two profiles or square surfaces.
     pub sample: Option<f64>,
     /// Mean over the profiles divided by the mean over the square surfaces, minus 1; `None` if this
     /// ratio is unknown.

@@ -31,10 +31,10 @@ pub struct SquareLoops {
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`].
-    /// `simulation` has the folder of the measured files of the scene. `control` receives the
-    /// curves so far at the beginning, after each hundredth of the computation, and after each
-    /// square.
+    /// Computes the force curves of square surfaces for a scene, with the options
+    /// [`ReferenceOptions::of`]. `simulation` has the folder of the measured files of the scene.
+    /// `control` receives the curves so far at the beginning, after each hundredth of the
+    /// computation, and after each square surface.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
@@ -94,10 +94,10 @@ impl SquareLoops {
         values.compared()
     }
 
-    /// Returns the mean and the scatter of the force of the computed squares as a function of the
-    /// indentation. There is one band for loading, and a second band for unloading if the scene has
-    /// adhesion. A band is three curves: mean force minus standard deviation, mean force, and mean
-    /// force plus standard deviation.
+    /// Returns the mean and the scatter of the force of the computed square surfaces as a function
+    /// of the indentation. There is one band for loading, and a second band for unloading if the
+    /// scene has adhesion. A band is three curves: mean force minus standard deviation, mean force,
+    /// and mean force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let loadings: Vec<Curve> = self.curves.iter().map(|curve| loading_of(curve)).collect();
         let unloadings: Vec<Curve> = self

@@ -241,7 +241,7 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<
     Some(coefficients)
 }
 
-/// Returns a row of the inverse of an upper triangular matrix.
+/// Returns the row with this index of the inverse of an upper triangular matrix.
 fn inverse_row(triangle: &[Vec<f64>], index: usize) -> Vec<f64> {
     let mut row = vec![0.0; triangle.len()];
     row[index] = 1.0 / triangle[index][index];

@@ -372,8 +372,9 @@ fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
     unit(text, si_unit)
 }
 
-/// Returns the unit of a column of deflections in a unit of length or voltage. The value of the
-/// result is the force in N that a deflection of 1 means. Returns `None` for another unit.
+/// Returns the unit of a column that contains deflections (in a unit of length or voltage) instead
+/// of forces. Its value is the force in N that corresponds to the number 1 in the column. Returns
+/// `None` for another unit.
 fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, SurfaceError>> {
     let mut factors = String::new();
     let deflection = match unit(text, "m") {

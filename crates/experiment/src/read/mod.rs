@@ -48,7 +48,7 @@ pub(crate) fn parse(
     Ok(columns)
 }
 
-/// Reads the content of a NumPy file.
+/// Reads the columns of a curve from the content of a NumPy file.
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
     // A column with one of these names shows that this program has written the file, in SI units,

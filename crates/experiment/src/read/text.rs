@@ -221,7 +221,7 @@ fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
     Some(names.join("\t"))
 }
 
-/// Reads the content of a text file.
+/// Reads the columns of a curve from the content of a text file.
 pub(crate) fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let Some(beginning) = beginning(bytes)? else {
         return Ok(Vec::new());

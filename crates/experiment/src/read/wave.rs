@@ -14,7 +14,7 @@ use asperity_surface::{Place, SurfaceError};
 /// Largest allowed number of columns in a wave.
 const MOST_COLUMNS: usize = 64;
 
-/// Reads the content of a binary wave.
+/// Reads the columns of a curve from the content of a binary wave (an array file of Igor).
 pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [points, names, ..] = &wave.dimensions;

@@ -203,9 +203,9 @@ impl FormTable {
     /// f′(r)/√(x² − r²) dr from this row to the radius `end` in m, which lies in the interval and
     /// is at most x.
     ///
-    /// Let u be the radius of the row, δ = arcsin(r/x) − arcsin(u/x) and w = √(x² − u²). Then r = u
-    /// + w sin δ − u (1 − cos δ), and the integral is taken over δ. In this form no nearly equal
-    /// numbers are subtracted, however close the rows are.
+    /// Let u be the radius of the row, δ = arcsin(r/x) − arcsin(u/x) and w = √(x² − u²). Then
+    /// r = u + w sin δ − u (1 − cos δ), and the integral is taken over δ. In this form no nearly
+    /// equal numbers are subtracted, however close the rows are.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let u = self.radii[row];
         let Cubic { a, b, c } = self.cubics[row];
