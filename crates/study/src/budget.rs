@@ -90,7 +90,7 @@ impl Budget {
     }
 }
 
-/// Returns an error if it is a finite number, otherwise `None`.
+/// Returns `error` if its value is finite, otherwise `None`.
 fn finite(error: Option<f64>) -> Option<f64> {
     error.filter(|error| error.is_finite())
 }

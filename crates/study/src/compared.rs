@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 pub struct Compared {
     /// Statistics of the quantity over the random profiles.
     pub line: Statistics,
-    /// Statistics of the quantity over the random squares in three dimensions.
+    /// Statistics of the quantity over the random square surfaces in three dimensions.
     pub half_space: Statistics,
     /// Mean of the quantity over the profiles divided by its mean over the square surfaces.
     pub ratio: f64,

@@ -63,7 +63,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the nearest allowed value. At least one wave must fit on the length.
+    /// Returns the allowed value nearest to `number`. At least one wave must fit on the length.
     pub fn nearest(self, number: f64) -> f64 {
         match (self, self.count(number)) {
             (_, None) => number,

@@ -64,7 +64,7 @@ struct Case {
 }
 
 impl Case {
-    /// Draws a random question; `None` if the scene does not allow it.
+    /// Draws a random question; `None` if the drawn scene does not allow this question.
     fn random(random: &mut ChaCha8Rng) -> Option<Case> {
         let path = PATHS[random.random_range(0..PATHS.len())];
         let quantity = QUANTITIES[random.random_range(0..QUANTITIES.len())];

@@ -203,7 +203,7 @@ impl<'a> HeaderText<'a> {
         })
     }
 
-    /// Returns the text after a key.
+    /// Returns the text that follows a key of the header.
     fn entry(&self, key: &str) -> Result<&'a str, SurfaceError> {
         let Some((_, rest)) = self.text.split_once(&format!("'{key}'")) else {
             return Err(self.wrong(&format!("no {key}")));
