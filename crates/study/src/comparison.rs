@@ -345,8 +345,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the quantity that shows the progress of the profiles: the adhesion force of each
-    /// profile in N or, without adhesion, its indentation in m at the preload.
+    /// Returns the adhesion force of each profile in N or, for a scene without adhesion, the
+    /// indentation of each profile at the preload in m.
     fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
             lines
