@@ -15,11 +15,12 @@ pub const MOST_VALUES: u64 = 1_000_000;
 /// 0.15 would become 0.15000000000000002.
 const DIGITS: usize = 12;
 
-/// Smallest relative difference of two values of an axis. A smaller difference is a rounding error.
+/// Smallest relative difference with which two values of an axis count as different. A smaller
+/// difference is a rounding error.
 const APART: f64 = 1e-6;
 
-/// Smallest ratio of the last to the first of single values for which they have a logarithmic
-/// scale.
+/// Smallest ratio of the largest to the smallest value of an axis with which figures show it on a
+/// logarithmic scale, if its values are listed one by one.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -127,7 +128,7 @@ impl Axis {
         })
     }
 
-    /// Reads and checks an axis of a plan.
+    /// Creates an axis from the text of a plan, and checks it.
     ///
     /// # Errors
     /// Returns a message if the axis has an error. The message says what is allowed.
@@ -142,7 +143,8 @@ impl Axis {
             .map_err(|what| format!("axis {path}: {what}"))
     }
 
-    /// Returns the axis with the values that the text lists or spaces between two ends.
+    /// Adds the values to the axis: those that `text` lists, or those that it requests between two
+    /// ends.
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
         let mut axis = self;
         match *text {
@@ -207,8 +209,8 @@ impl Axis {
         Ok(())
     }
 
-    /// Returns `count` values from one end to the other. `value` returns the value at a share of
-    /// the way, from 0 to 1. Values between the ends are rounded to 12 significant digits, or to
+    /// Returns `count` values from `from` to `to`. `value` returns the value at a share of the
+    /// distance, from 0 to 1. Values between the ends are rounded to 12 significant digits, or to
     /// whole numbers if the quantity has only whole numbers.
     fn between(&self, from: f64, to: f64, count: u64, value: impl Fn(f64) -> f64) -> Vec<f64> {
         let last = count - 1;
@@ -276,8 +278,8 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol or name of the axis and one of its values, such as `H = 0.3`. `place` is
-    /// the index of the value.
+    /// Returns the symbol or name of the axis and its value with the index `place`, such as `H =
+    /// 0.3`.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!(
@@ -287,9 +289,9 @@ impl Axis {
         )
     }
 
-    /// Returns the value of the axis that is `steps` values above `value`, or below `value` if
-    /// `steps` is negative, but at most the last one in this direction. `None` if the axis has no
-    /// value in this direction. The values of the axis must ascend.
+    /// Returns the value of the axis that is `steps` places after `value`, or before `value` if
+    /// `steps` is negative. If the axis has fewer values in this direction, its last value in this
+    /// direction is returned; if it has none, `None`. The values of the axis must ascend.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let values = &self.values;
         let apart = APART * value.abs();
@@ -319,12 +321,12 @@ impl Axis {
     }
 }
 
-/// Paths of numbers that cannot be varied. The version is not a parameter of the contact, and the
-/// seeds follow from the seed of the plan.
+/// Paths of the numbers of a scene that cannot be varied. The version is not a parameter of the
+/// contact, and the seeds of the profiles follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
-/// Endings of the paths of numbers: none for a single number, `.0` and `.1` for the numbers of a
-/// pair.
+/// Endings of the paths of numbers. A single number has no ending; the two numbers of a pair have
+/// the endings `.0` and `.1`.
 const ENDS: [&str; 3] = ["", ".0", ".1"];
 
 /// Quantity that an axis varies.
@@ -341,18 +343,21 @@ pub(super) enum Target {
     SpringsPerWave,
 }
 
-/// Part of the computation that has to be repeated if a number changes. Later variants repeat less.
+/// Part of the computation that has to be repeated if a number of the scene changes. A later
+/// variant of this enum repeats less than an earlier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shapes {
-    /// The heights of the roughness are computed by a Fourier transform, and everything after it.
+    /// The heights of the roughness are computed by a Fourier transform, followed by all later
+    /// steps.
     Roughness,
-    /// The profile is made from known heights, and everything after it is computed.
+    /// The profile is made from known heights, followed by the contact tree and the loading.
     Profile,
     /// Only the loading is computed again, on the same profile and contact tree.
     Passes,
 }
 
-/// Returns the field that holds the number at a path; `None` for a path that cannot be varied.
+/// Returns the field of a scene that holds the number at a path; `None` for a path that cannot be
+/// varied.
 fn number(path: &str) -> Option<&'static Field> {
     for end in ENDS {
         let Some(field) = path.strip_suffix(end).and_then(|path| field(path, None)) else {
@@ -370,8 +375,8 @@ fn number(path: &str) -> Option<&'static Field> {
     None
 }
 
-/// Returns a question such as `did you mean roughness.hurst?` for the path nearest to a wrong path;
-/// empty if no path is near.
+/// Returns a question such as `did you mean roughness.hurst?` that names the path most similar to a
+/// wrong path; empty if no path is similar.
 fn nearest_path(path: &str) -> String {
     if let Some(parameter) = RoughnessParameter::named(path) {
         return format!("; did you mean {}?", parameter.path());
@@ -603,7 +608,8 @@ mod tests {
             (to(6.0, 1), to(6.0, -1), to(6.0, 4)),
             (Some(6.73), Some(5.66), Some(11.3))
         );
-        // A value that differs from a value of the axis only by rounding counts as this value.
+        // If the present value differs from a value of the axis only by rounding, the next value of
+        // the axis follows.
         assert_eq!(
             (to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)),
             (Some(1.19), Some(0.841))

@@ -1,9 +1,10 @@
 //! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ but hardly ever to zero, because a single spring still
-//! adheres. The boundary κ* is therefore where the mean of F_a(d=0) over the profiles falls below a
-//! share of the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so
-//! each boundary in κ is also a boundary in e_el/γ.
+//! F_a(d=0), the adhesion force after the first touch, falls about exponentially with κ. It hardly
+//! ever becomes zero, because a single spring still adheres. The boundary κ* is therefore defined
+//! by the mean of F_a(d=0) over the profiles: there it falls below a share of the ideal adhesion
+//! force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each boundary in κ is also a
+//! boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -88,13 +89,13 @@ pub struct Boundaries {
     pub found: Vec<AdhesionBoundary>,
 }
 
-/// Ascending κ or e_el/γ, each with F_a(d=0)/F_a,max or F_a(F=0)/F_a,max on each profile. All
-/// values have the same profiles.
+/// Shares of F_a,max as a function of κ or e_el/γ: for each ascending value, F_a(d=0)/F_a,max or
+/// F_a(F=0)/F_a,max on each profile. The profiles are the same for all values.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Returns the shares of F_a,max in the cells along an axis, on the profiles that have a share in
-/// all of these cells. `first` is the cell at the first value of the axis. Cells without any share
-/// are left out.
+/// Returns the shares of F_a,max in the cells along the axis with index `along`. `first` is the
+/// cell at the first value of this axis. Cells without a share on any profile are left out, and so
+/// are profiles without a share in one of the other cells.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
@@ -122,7 +123,7 @@ fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve
     curve
 }
 
-/// Returns the index of the first axis of κ or e_el/γ, and the parameter on this axis.
+/// Returns the index of the first axis whose quantity is κ or e_el/γ, and this quantity.
 fn parameter_axis(plan: &Plan) -> Option<(usize, RoughnessParameter)> {
     for (index, axis) in plan.axes.iter().enumerate() {
         if let Some(parameter) = axis.target.parameter() {
@@ -132,8 +133,8 @@ fn parameter_axis(plan: &Plan) -> Option<(usize, RoughnessParameter)> {
     None
 }
 
-/// Returns the function that converts κ or e_el/γ in a cell to the other parameter; `None` if the
-/// scene does not determine the other parameter.
+/// Returns a function that converts κ to e_el/γ in a cell, or e_el/γ to κ; `None` if the scene does
+/// not determine the other parameter.
 fn conversion(
     plan: &Plan,
     cell: u64,
@@ -274,9 +275,9 @@ fn resampled_interval(curve: &Curve, count: usize, level: f64) -> Option<(f64, f
     quantile(&values, 0.025).zip(quantile(&values, 0.975))
 }
 
-/// Returns the κ above which the mean over the chosen profiles stays below a share. The logarithm
-/// of the mean is interpolated linearly between two values of κ. If the crossing lies beyond an end
-/// of the curve, this end is returned.
+/// Returns the κ or e_el/γ above which the mean over the chosen profiles stays below a share. The
+/// logarithm of the mean is interpolated linearly between two values of the parameter. If the
+/// crossing lies beyond an end of the curve, this end is returned.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean =
         |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
@@ -307,7 +308,7 @@ fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
 mod tests {
     use super::*;
 
-    /// Returns for each κ the shares exp(−rate κ) of profiles with different rates.
+    /// Returns, for each of 40 values of κ, the shares exp(−rate κ) of profiles with these rates.
     fn falling(rates: &[f64]) -> Vec<(f64, Vec<f64>)> {
         let kappas = (0..40).map(|k| 0.25 * f64::from(k));
         kappas

@@ -1,37 +1,36 @@
-//! Search for the number at which a quantity reaches a target, between two numbers at which it is
-//! on different sides of the target.
+//! Search for the number at which a quantity reaches a target. The search starts with two numbers
+//! between which the quantity crosses the target.
 
 use super::coordinates::Coordinates;
 use super::scan::Tried;
 use asperity_scene::RunError;
 use std::mem::replace;
 
-/// Relative distance between the ends of the interval that contains the sought number, at which the
-/// search ends.
+/// The search ends when the interval that contains the sought number has this relative width.
 pub const WITHIN: f64 = 1e-9;
 
-/// Width of the interval, as a share of the searched range, at which the search ends in any case.
-/// It is needed for a sought number near zero, whose relative precision has no meaning.
+/// The search also ends when the interval has this width, as a share of the searched range. This
+/// limit is needed for a sought number near zero, whose relative precision has no meaning.
 const LEAST: f64 = 1e-18;
 
 /// Way in which a quantity reaches a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passage {
     pub target: f64,
-    /// True if the quantity falls to exactly the target and stays there, false if it passes the
-    /// target.
+    /// True if the quantity falls to exactly the target and remains equal to it, false if it
+    /// crosses the target.
     pub falls_onto: bool,
 }
 
 impl Passage {
-    /// Returns a number that is zero or positive on the side of the target that belongs to the
-    /// answer, and negative on the other side. If the scene does not allow the number, so that
-    /// `value` is NaN, the target is not reached.
+    /// Returns a number with the sign of the side of the target: zero or positive on the side that
+    /// contains the answer, negative on the other side. If `value` is NaN, because the scene does
+    /// not allow the number, the result is negative.
     fn excess(self, value: f64) -> f64 {
         let excess = value - self.target;
         if self.falls_onto {
-            // Only the sign is used, which leads to bisection, since the quantity is constant on
-            // the target.
+            // Only a sign is returned, so that the search bisects: the quantity is constant at the
+            // target, and interpolation would not help.
             return if excess <= 0.0 { 1.0 } else { -1.0 };
         }
         if excess.is_nan() {
@@ -42,17 +41,17 @@ impl Passage {
     }
 }
 
-/// Point of a bracket: coordinate of a number, and value of [`Passage::excess`] there.
+/// End of the interval: coordinate of a number, and [`Passage::excess`] at this number.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     place: f64,
     excess: f64,
 }
 
-/// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the
-/// quantity is smooth enough, otherwise bisection. Returns the end of the last interval on the side
-/// of the target that belongs to the answer. If only whole numbers are allowed, the interval is
-/// bisected until none lies between its ends.
+/// Narrows the interval between `ends` by the method of Chandrupatla: inverse quadratic
+/// interpolation where the quantity is smooth enough, otherwise bisection. Returns the end of the
+/// last interval that lies on the side of the target with the answer. If only whole numbers are
+/// allowed, the interval is bisected until no whole number lies between its ends.
 pub(super) fn passage(
     coordinates: &Coordinates,
     passage: Passage,
@@ -73,15 +72,15 @@ pub(super) fn passage(
         let least = coordinates
             .distance(WITHIN, [last.place, other.place])
             .max(floor);
-        // The next point keeps a distance from both ends, so that the interval becomes narrower on
-        // both sides.
+        // The next point keeps a distance from both ends, so that the interval can become narrower
+        // at either end.
         let margin = (0.5 * least / width).min(0.5);
         let place = last.place + share.clamp(margin, 1.0 - margin) * (other.place - last.place);
         if width <= least || place == last.place || place == other.place {
             let end = if last.excess >= 0.0 { last } else { other };
             let number = coordinates.number(end.place);
-            // The ends were given as numbers, which have no rounding error of the conversion from
-            // coordinates.
+            // If the result is an end that was given, its number is returned as it was given,
+            // without the rounding error of the conversion from its coordinate.
             let known = ends
                 .iter()
                 .find(|tried| coordinates.coordinate(tried.number) == end.place);
@@ -102,8 +101,9 @@ pub(super) fn passage(
     }
 }
 
-/// Returns the next point as a share of the way from `last` to `other`. It is where an inverse
-/// quadratic interpolation has no excess, or the middle if the three points are not suitable.
+/// Returns the position of the next point as a share of the distance from `last` to `other`. It is
+/// the point at which an inverse quadratic interpolation of the excess is zero, or the middle if
+/// the three points are not suitable for interpolation.
 fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     let place_share = (last.place - other.place) / (before.place - other.place);
     let excess_share = (last.excess - other.excess) / (before.excess - other.excess);
@@ -120,7 +120,7 @@ fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     if share.is_nan() { 0.5 } else { share }
 }
 
-/// Bisects an interval in which only some numbers are allowed.
+/// Bisects an interval in which only some numbers, such as whole numbers, are allowed.
 fn between_whole(
     coordinates: &Coordinates,
     passage: Passage,
@@ -146,8 +146,8 @@ mod tests {
     use crate::coordinates::Allowed;
     use asperity_data::AxisScale;
 
-    /// Searches the number at which an increasing function reaches a target. Returns the number and
-    /// the count of calls.
+    /// Returns the number at which an increasing function reaches a target, and the number of calls
+    /// of the function.
     fn searched(
         coordinates: &Coordinates,
         ends: [f64; 2],
@@ -176,8 +176,8 @@ mod tests {
         (number, calls)
     }
 
-    /// The functions are smooth curves and steps over many decades. The ranges begin at zero and
-    /// above zero.
+    /// Tests smooth curves and steps over many decades, with ranges that begin at zero or above
+    /// zero.
     #[test]
     fn numbers_have_the_stated_precision() {
         let functions: [(&dyn Fn(f64) -> f64, f64); 6] = [

@@ -56,7 +56,8 @@ impl Budget {
         let sample = finite(interval.map(|(low, high)| 0.5 * (high - low) / median));
         let surface = finite(deviation.map(|deviation| 2.0 * deviation / median));
         let mut largest = None;
-        // A premise that does not hold may cause a larger error than all that are known.
+        // A premise of the model that does not hold may cause a larger error than all known errors.
+        // Then no error counts as the largest.
         if !outcome.warnings.iter().any(Warning::exceeds_errors) {
             largest = largest_source([("grid", grid), ("sample", sample), ("surface", surface)]);
         }
@@ -69,8 +70,8 @@ impl Budget {
         })
     }
 
-    /// Returns these errors with [`Budget::model`] set, which may be unknown. An error of 0 is
-    /// never the largest.
+    /// Returns these errors with [`Budget::model`] set to `model`, where `None` means unknown. A
+    /// model error of 0 is never the largest error.
     pub fn with_model(self, model: Option<f64>) -> Budget {
         let others = [self.grid, self.sample, self.surface]
             .into_iter()
@@ -89,12 +90,12 @@ impl Budget {
     }
 }
 
-/// Returns an error if it is a finite number, otherwise `None`.
+/// Returns `error` if its value is finite, otherwise `None`.
 fn finite(error: Option<f64>) -> Option<f64> {
     error.filter(|error| error.is_finite())
 }
 
-/// Returns the name of the largest known error. If two errors are equal, the last one counts.
+/// Returns the name of the largest known error. Of equal errors the last one is returned.
 fn largest_source(errors: [(&'static str, Option<f64>); 3]) -> Option<&'static str> {
     let mut largest = None;
     let mut most = f64::NEG_INFINITY;
@@ -151,8 +152,8 @@ mod tests {
         let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
         let median = all.quartiles[1];
         let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
-        // With this number of profiles the error of the median is about half the distance of the
-        // quartiles.
+        // With this number of profiles the error of the median is about half the distance between
+        // the quartiles.
         let quartiles = 0.5 * (all.quartiles[2] - all.quartiles[0]) / median;
         assert!(
             (sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2,

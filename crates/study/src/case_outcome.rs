@@ -1,4 +1,5 @@
-//! The outcome of one loading on one profile, from which all recorded quantities are read.
+//! The outcome of one loading on one profile. All quantities that a study records are taken from
+//! it.
 
 use asperity_contact::{
     Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
@@ -10,20 +11,21 @@ use asperity_scene::{Governing, Regime, Scene};
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
-    /// Properties of the profile that are recorded on request.
+    /// Properties of the profile, which are computed if a study records them.
     pub profile: ProfileRecord,
-    /// Scene of the case. Its field `loading` is ignored, because a preload may replace it.
+    /// Scene that was computed. Its field `loading` is ignored, because a preload may replace the
+    /// loading.
     pub scene: &'o Scene,
-    /// Adhesion force turned at first touch, F_a(d=0), N.
+    /// Adhesion force F_a(d=0) in N, if the loading turns at first touch.
     pub first_touch: Option<f64>,
-    /// Adhesion force turned at zero force, F_a(F=0), N.
+    /// Adhesion force F_a(F=0) in N, if the loading turns at zero force.
     pub zero_force: Option<f64>,
     /// Adhesion force F_smooth in N of the smooth body after the same preload. It is computed only
-    /// if a regime is recorded.
+    /// if a study records a regime.
     pub smooth: Option<f64>,
     /// Outcome of the loading.
     pub loading: LoadingOutcome,
-    /// Premises of the model that the case does not meet.
+    /// Premises of the model that this scene and profile do not meet.
     pub warnings: Vec<Warning>,
 }
 
@@ -60,8 +62,8 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading on a profile from separation to the end of the move `leg`,
-    /// where `reversal` turns, and back to separation.
+    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` goes up
+    /// to the turning point, and `reversal` describes the turn and the way back.
     pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -93,8 +95,8 @@ impl ProfileRecord {
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
         let count = gaps.len() as f64;
         let mean = gaps.iter().sum::<f64>() / count;
-        // Heights are divided by the largest gap, and later by the rms height, because powers of
-        // heights in m could be too small for a number.
+        // The deviations of the heights are divided by the largest gap, and later by the rms
+        // height, because powers of heights in m could be too small for a number.
         let squares = gaps.iter().map(|gap| ((gap - mean) / deepest).powi(2));
         let square = squares.sum::<f64>() / count;
         let rms = if deepest > 0.0 {
@@ -153,7 +155,7 @@ impl CaseOutcome<'_> {
         self.governing.tabor_number(self.scene)
     }
 
-    /// Returns the index in [`Regime::ALL`] of the regime of this loading. `first_touch` is
+    /// Returns the regime of this loading as its index in [`Regime::ALL`]. `first_touch` is
     /// F_a(d=0) in N.
     pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
         Some(Regime::of_loading(&self.loading.figures, first_touch, self.smooth)? as u8 as f64)
@@ -178,7 +180,8 @@ mod tests {
             skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12,
             "{skewness} {kurtosis}"
         );
-        // One of four heights is different. The deviations from the mean are −1, −1, −1 and 3.
+        // One of four heights is different. In units of a quarter of this difference the deviations
+        // from the mean are −1, −1, −1 and 3.
         let one_high = of(&[4.0, 4.0, 4.0, 0.0]);
         let (skewness, kurtosis) = one_high.shape.unwrap();
         assert!((skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
@@ -187,8 +190,8 @@ mod tests {
         assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
     }
 
-    /// The cases are rough, smooth and nonadhesive bodies, with one and two works of adhesion, and
-    /// with both rules for the edges of patches.
+    /// Tests rough, smooth and nonadhesive bodies, with one and two works of adhesion, and with
+    /// both rules for the edges of patches of contact.
     #[test]
     fn the_outcome_of_a_reversal_is_that_of_a_run() {
         for name in [

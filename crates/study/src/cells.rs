@@ -1,31 +1,31 @@
-//! Order and division of the computation of a plan.
+//! Order in which a plan is computed, and division of this computation among threads.
 //!
 //! A *cell* is one combination of values on the axes. A *streak* consists of all cells that differ
 //! only in the preload, and is computed with a single loading. A *unit* consists of streaks on one
-//! random profile with the same roughness. It is computed by one thread, so that the roughness of
-//! the profile is made only once.
+//! random profile with the same roughness. A unit is computed by one thread, so that the roughness
+//! of its profile is made only once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 
 /// If the plan has fewer units than this number, the streaks of one profile are divided into
-/// several units, to use all threads.
+/// several units, so that all threads have work.
 const ENOUGH_UNITS: u64 = 256;
-/// Smallest number of streaks in a unit of a divided profile. With fewer streaks, making the
-/// profile would take longer than computing the streaks.
+/// Smallest number of streaks in a unit if the streaks of a profile are divided. In a smaller unit,
+/// making the profile would take longer than computing the streaks.
 const LEAST_STREAKS: u64 = 16;
 
 /// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Indices of the axes except preloads, sorted by [`Shapes`], so that the first axes change the
-    /// profile.
+    /// Indices of the axes without a preload axis, sorted by [`Shapes`]: first the axes that change
+    /// the roughness.
     order: Vec<usize>,
     /// Number of streaks on one profile with the same roughness.
     steps: u64,
     preloads: u64,
-    /// Number of streaks in one unit. The next field is the number of units of one profile.
+    /// Number of streaks in one unit. `chunks` is the number of units of one profile.
     chunk: u64,
     chunks: u64,
 }
@@ -69,8 +69,8 @@ impl<'p> Cells<'p> {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// Returns the streaks of a unit, ordered so that as little as possible of the profile is made
-    /// anew. Units with the same spectrum are consecutive.
+    /// Returns the streaks of a unit, in an order in which few parts of the profile have to be made
+    /// again. Units with the same spectrum are consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let start = unit % self.chunks * self.chunk;
         let group_and_line = unit / self.chunks;

@@ -1,22 +1,24 @@
-//! Comparison of one quantity between random profiles and random squares: the ratio of the means
-//! and its errors.
+//! Comparison of one quantity between random profiles (the model of this program) and random square
+//! surfaces in three dimensions: the ratio of the means and its errors.
 
 use super::quantity::Quantity;
 use super::statistics::Statistics;
 use asperity_data::{mean, student_quantile};
 use serde::Serialize;
 
-/// Largest rounding error of a number of degrees of freedom.
+/// Largest deviation of a number of degrees of freedom from a whole number that counts as a
+/// rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Comparison of one quantity between random profiles and random squares in three dimensions.
+/// Comparison of one quantity between random profiles and random square surfaces in three
+/// dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
     /// Statistics of the quantity over the random profiles.
     pub line: Statistics,
-    /// Statistics of the quantity over the random squares in three dimensions.
+    /// Statistics of the quantity over the random square surfaces in three dimensions.
     pub half_space: Statistics,
-    /// Mean of the quantity over the profiles divided by its mean over the squares.
+    /// Mean of the quantity over the profiles divided by its mean over the square surfaces.
     pub ratio: f64,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t;
     /// `None` for fewer than two profiles or squares.
@@ -33,19 +35,21 @@ impl Compared {
     }
 }
 
-/// Values of one quantity on profiles and squares.
+/// Values of one quantity on all random profiles and on all random square surfaces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Values {
-    /// Value of each random profile.
+    /// Value on each random profile.
     pub lines: Vec<f64>,
-    /// Value of each random square.
+    /// Value on each random square surface.
     pub squares: Vec<f64>,
-    /// Value of each square with half as many grid cells along the side; empty if there are none.
+    /// Value on each square surface, computed with half as many grid cells along the side; empty if
+    /// the surfaces are not computed so.
     pub coarse: Vec<f64>,
 }
 
 impl Values {
-    /// Returns the statistics of both models and the ratio of their means; `None` without values.
+    /// Compares the statistics over profiles and squares and the ratio of their means; `None` if
+    /// there are no values.
     pub fn compared(self) -> Option<Compared> {
         let bounds = Quantity::AdhesionForce.bounds();
         let grid = self.grid_error();
@@ -74,8 +78,8 @@ impl Values {
     }
 }
 
-/// Returns the half-width of the 95 % confidence interval of the ratio of two means. The number of
-/// degrees of freedom of Student's t follows from the relative standard errors of both means by the
+/// Returns half the width of the 95 % confidence interval of the ratio of two means. The number of
+/// degrees of freedom of Student's t follows from the relative standard errors of the means by the
 /// rule of Welch and Satterthwaite.
 fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     let line_error = line.spread?.standard_error / line.mean;
@@ -85,7 +89,8 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     if error == 0.0 {
         return Some(0.0);
     }
-    // Squares of the shares are used, because powers of a small error could underflow.
+    // The errors are divided by their root sum of squares before they are raised to powers, because
+    // powers of a small error could underflow.
     let line_share = (line_error / error).powi(2);
     let square_share = (square_error / error).powi(2);
     let freedom = (line_share.powi(2) / (line.count - 1) as f64
@@ -96,10 +101,10 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     Some(quantile * ratio * widened_error)
 }
 
-/// Returns the relative standard error of the mean over the squares. For a skewed quantity, such as
-/// F_a(d=0), few squares often miss the rare large values, and their scatter is then too small.
-/// There are many profiles. So the relative scatter of the squares counts as at least that of the
-/// profiles.
+/// Returns the relative standard error of the mean over the square surfaces. The relative scatter
+/// of the square surfaces is assumed to be at least that of the profiles. The reason is a skewed
+/// quantity, such as F_a(d=0): a few square surfaces often miss its rare large values, so that
+/// their scatter is too small, but many profiles contain them.
 fn widened_square_error(line: &Statistics, square: &Statistics) -> Option<f64> {
     let of_line = line.spread?.standard_deviation / line.mean;
     let of_square = square.spread?.standard_deviation / square.mean;
@@ -123,8 +128,8 @@ mod tests {
     fn a_ratio_has_its_errors() {
         let found = compared(&[2.0; 40], &[1.0, 2.0, 3.0], &[1.5, 2.0, 3.1]).unwrap();
         assert_eq!(found.ratio, 1.0);
-        // The mean over the lines has no error. The squares have two degrees of freedom, and their
-        // mean of 2 has the standard error 1/√3.
+        // All lines have the same value, so their mean has no error. The squares have two degrees
+        // of freedom, and their mean of 2 has the standard error 1/√3.
         let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
         assert!(
             (found.error.unwrap() / expected - 1.0).abs() < 1e-9,
@@ -132,7 +137,8 @@ mod tests {
         );
         assert!((found.grid.unwrap() - 0.1).abs() < 1e-12, "{found:?}");
         assert!(found.difference() == 0.0);
-        // Both means have the same relative error, which doubles the number of degrees of freedom.
+        // Both means have the same relative error, so the number of degrees of freedom is twice
+        // that of one mean.
         let both = compared(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], &[]).unwrap();
         let expected = 10.0 * 2.776_445_105 * (2.0_f64 / 3.0).sqrt() / 2.0;
         assert!(
@@ -142,16 +148,17 @@ mod tests {
         assert_eq!(both.grid, None);
     }
 
-    /// If the squares scatter less than the lines by chance, the interval does not become narrow.
+    /// If the squares by chance scatter less than the lines, the scatter of the lines keeps the
+    /// confidence interval wide.
     #[test]
     fn the_scatter_of_the_lines_counts_for_few_squares() {
         let lines: Vec<f64> = (0..100).map(|line| 1.0 + f64::from(line % 2)).collect();
         let wide = compared(&lines, &[2.0, 2.01], &[]).unwrap().error.unwrap();
-        // The relative standard deviation of the lines is 1/3. The standard error of their mean is
-        // small.
+        // The relative standard deviation of the lines is 1/3. It replaces that of the two squares.
+        // The standard error of the mean of the lines is negligible.
         let of_squares = 1.0 / 3.0 / 2.0_f64.sqrt();
         assert!(wide > 1.9 * 0.75 * of_squares, "{wide}");
-        // If the squares scatter more than the lines, their own scatter counts.
+        // If the squares scatter more than the lines, the scatter of the squares is used.
         let own = compared(&lines, &[1.0, 9.0], &[]).unwrap();
         let narrow = compared(&[1.5; 100], &[1.0, 9.0], &[]).unwrap();
         assert!(

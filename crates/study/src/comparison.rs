@@ -1,4 +1,5 @@
-//! Computation of a comparison: first the profiles, then the squares, with the same loading.
+//! Computation of a comparison with three dimensions: first on random profiles, then on random
+//! square surfaces, with the same loading.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -18,25 +19,26 @@ use asperity_scene::{CheckedScene, Outcome, Simulation};
 use std::sync::mpsc::Sender;
 use std::time::Instant;
 
-/// Forces of the comparison without adhesion, as shares of the preload.
+/// Forces at which the bodies without adhesion are compared, as shares of the preload.
 const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
-/// Number of steps of the indentation from the preload to pull-off.
+/// Number of steps of the indentation of a square surface from the preload to pull-off.
 const STEPS: f64 = 40.0;
-/// Number of events while the profiles are computed.
+/// Number of progress events that are reported while the profiles are computed.
 const EVENTS_OF_PROFILES: u64 = 100;
 /// Share of a length or of a number of cells below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 impl Reference {
-    /// Compares the contact of a checked scene on random profiles with its contact on random
-    /// squares in three dimensions. `simulation` has the folder of the measured files of the scene.
-    /// `control` receives each event. Only the computing times depend on the number of threads.
+    /// Compares the contact of a checked scene on random profiles with its contact on random square
+    /// surfaces in three dimensions. `simulation` has the folder of the measured files of the
+    /// scene. `control` receives each event. Only the computing times depend on the number of
+    /// threads.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no body in three dimensions
     /// or no preload above zero, if the number of grid cells is not allowed, or if the memory does
-    /// not suffice. It is also an error if the squares would take more than a day, if too few grid
-    /// cells are in contact for any comparison, or if `control` stops the computation.
+    /// not suffice. It is also an error if the square surfaces would take more than a day, if too
+    /// few grid cells are in contact for any comparison, or if `control` stops the computation.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -72,18 +74,18 @@ impl Reference {
     }
 }
 
-/// Data of a comparison of profiles with squares that is still to be computed.
+/// Settings of a comparison between profiles and square surfaces.
 struct Comparison<'a> {
     resolved: Resolved,
     options: ReferenceOptions,
-    /// Seed of the first profile and of the first square.
+    /// Seed of the first profile and of the first square surface.
     seed: u64,
     /// Number of threads that share the profiles.
     threads: usize,
     stop: &'a Stop<'a>,
 }
 
-/// Loading of the scene, computed on the profile with the seed of the scene.
+/// Result of the scene's loading on the scene's own profile, which has the seed of the scene.
 struct OwnLoading {
     turn: Turn,
     /// Preload, N.
@@ -94,7 +96,7 @@ struct OwnLoading {
     is_full: bool,
 }
 
-/// Results of the loop of a random profile.
+/// Results of loading one random profile to the preload and back to separation (a loop).
 struct LineLoop {
     preload: f64,
     /// Distance between the indentations of preload and pull-off, m.
@@ -104,7 +106,7 @@ struct LineLoop {
     dissipated_energy: Option<f64>,
 }
 
-/// State of a profile at one force, computed without adhesion.
+/// Indentation and stiffness of a profile without adhesion at one force.
 #[derive(Clone, Copy, Default)]
 struct PressedLine {
     indentation: f64,
@@ -112,20 +114,21 @@ struct PressedLine {
     stiffness: f64,
 }
 
-/// Results of the profiles.
+/// Results on all random profiles.
 struct Lines {
     loops: Vec<LineLoop>,
-    /// State of each profile at each force of the comparison without adhesion.
+    /// For each profile, its state at each force of the comparison without adhesion.
     pressed: Vec<Vec<PressedLine>>,
     loading: SquareLoading,
     preload: f64,
 }
 
-/// Result of a random square, and of the same square on a coarser grid, if it is computed.
+/// Result of a random square surface. `coarse` is the result of the same surface on a coarser grid,
+/// if it is computed.
 struct SquareResult {
     fine: Loads,
     coarse: Option<Loads>,
-    /// Computing time of the square on the finer grid, s.
+    /// Computing time in s of the surface on the finer grid.
     seconds: f64,
 }
 
@@ -169,7 +172,7 @@ impl Comparison<'_> {
         self.resolved.body.bytes(self.options.cells)
     }
 
-    /// Returns the largest number of threads for which the memory suffices.
+    /// Returns the largest number of threads on which the square surfaces fit into the memory.
     fn threads_for_squares(&self) -> Result<usize, StudyError> {
         let bytes = self.bytes_of_square();
         let maps = usize::try_from(self.options.maps).unwrap_or(usize::MAX);
@@ -209,12 +212,14 @@ impl Comparison<'_> {
                 displacement,
                 stiffness,
             },
-            // Without an instrument the displacement of the drive is the indentation of the body.
+            // Without an instrument, the displacement of the drive equals the indentation of the
+            // body.
             (Some(&Move::ToDisplacement(displacement)), None) => Turn::Indentation(displacement),
             _ => Turn::Force(preload),
         };
         let is_full = largest.contact_length >= line.length * (1.0 - ROUNDING);
-        // The computed preload may differ from the stated force by rounding errors.
+        // If the scene states the preload, it is used instead of the computed one, which may have a
+        // rounding error.
         let preload = if let Turn::Force(force) = turn {
             force
         } else {
@@ -228,8 +233,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the loads of a square. `preload` is in N, and `depth` is the distance in m between
-    /// the indentations of preload and pull-off.
+    /// Returns the loading of a square surface. `preload` is in N, and `depth` is the distance in m
+    /// between the indentations at the preload and at pull-off.
     fn square_loading(&self, turn: Turn, preload: f64, depth: f64) -> SquareLoading {
         SquareLoading {
             forces: SHARES.map(|share| share * preload).to_vec(),
@@ -238,7 +243,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Estimates the computing time of the squares, and refuses a comparison that takes too long.
+    /// Estimates the computing time of the square surfaces. Returns an error if it is too long.
     fn estimate(&self, own: &OwnLoading, threads: usize) -> Result<SquareTime, StudyError> {
         let ReferenceOptions { cells, maps, .. } = self.options;
         let loading = self.square_loading(own.turn, own.preload, own.depth);
@@ -248,8 +253,8 @@ impl Comparison<'_> {
         Ok(time)
     }
 
-    /// Computes the profiles. Their loops come first, because the loads of the squares follow from
-    /// the mean preload and the mean depth of the loops.
+    /// Computes the profiles. Their loops with adhesion come first, because the loading of the
+    /// square surfaces depends on the mean preload and the mean depth of these loops.
     fn lines(
         &self,
         own: &OwnLoading,
@@ -284,7 +289,7 @@ impl Comparison<'_> {
 
         let bare_scene = self.resolved.line.with(|scene| {
             scene.adhesion = None;
-            // A stage `ToForce` ends exactly at its force, so no interpolation is needed.
+            // Each stage `ToForce` ends exactly at its force, so the curve needs no interpolation.
             scene.loading = loading
                 .forces
                 .iter()
@@ -306,8 +311,8 @@ impl Comparison<'_> {
     }
 
     /// Computes a scene on all profiles, and returns the result of `figures` for each outcome.
-    /// `passes` is the number of times that this function is called in the comparison, and is
-    /// needed to report the progress.
+    /// `passes` is the number of such computations in the whole comparison, and is needed to report
+    /// the progress.
     fn each_line<F: Send>(
         &self,
         scene: &CheckedScene,
@@ -340,8 +345,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the adhesion force of each profile in N, or its indentation in m at the preload if
-    /// the scene has no adhesion.
+    /// Returns the adhesion force of each profile in N or, for a scene without adhesion, the
+    /// indentation of each profile at the preload in m.
     fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
             lines
@@ -377,8 +382,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Computes square number `map`, and the same square with half as many cells along the side if
-    /// this grid is not too coarse. The difference of both shows the error of the grid.
+    /// Computes the square surface with number `map` and, if half as many cells along the side are
+    /// enough, the same surface on this coarser grid. The difference shows the error of the grid.
     fn square(
         &self,
         loading: &SquareLoading,
@@ -419,8 +424,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Collects the comparison from the results of profiles and squares. It is an error if no
-    /// quantity can be compared because too few grid cells are in contact.
+    /// Collects the comparison from the results of profiles and square surfaces. Returns an error
+    /// if no quantity can be compared because too few grid cells are in contact.
     fn gather(
         &self,
         own: &OwnLoading,
@@ -492,8 +497,9 @@ impl Comparison<'_> {
         })
     }
 
-    /// Compares profiles and squares at the forces at which enough grid cells are in contact, and
-    /// returns the forces at which too few are in contact as well.
+    /// Compares profiles and square surfaces without adhesion at each force at which enough grid
+    /// cells are in contact. Also returns the forces that are left out because too few cells are in
+    /// contact.
     fn compared_loading(
         &self,
         lines: &Lines,
@@ -509,7 +515,8 @@ impl Comparison<'_> {
                 .collect();
             let area = mean(&areas);
             let cells = area / cell;
-            // The area is a sum over cells, so the number of cells has rounding errors.
+            // The number of cells in contact has rounding errors, because it follows from the
+            // contact area, which is a sum over cells.
             if cells < Loaded::LEAST_CELLS * (1.0 - ROUNDING) {
                 left_out.push(LeftOut {
                     force,
@@ -541,8 +548,9 @@ impl Comparison<'_> {
         (loading, left_out)
     }
 
-    /// Returns the number of grid cells along the side of a square with which enough cells would be
-    /// in contact, if `cells` are in contact now; `None` if the solver does not allow such a grid.
+    /// Returns the number of grid cells along the side of a square surface with which enough cells
+    /// would be in contact, if only `cells` cells are in contact now. Returns `None` if the solver
+    /// does not allow such a grid.
     fn finer_grid(&self, cells: f64) -> Option<usize> {
         let times = (Loaded::LEAST_CELLS / cells.max(1.0)).sqrt();
         let finer = ((self.options.cells as f64 * times).ceil() as usize).next_power_of_two();
@@ -605,21 +613,21 @@ fn run(
         .map_err(of_scene)
 }
 
-/// Returns the distance in m between the indentations of preload and pull-off.
+/// Returns the distance in m between the indentations at the preload and at pull-off.
 fn depth(outcome: &Outcome) -> f64 {
     let deepest = outcome.figures.preload_indentation.unwrap_or(0.0);
     let pull_off = outcome.figures.pull_off_indentation.unwrap_or(0.0);
     (deepest - pull_off).abs()
 }
 
-/// Returns the states at the ends of the stages of a loading without adhesion. `modulus` is E* in
-/// Pa.
+/// Returns the state of a profile at the end of each stage of a loading without adhesion. `modulus`
+/// is E* in Pa.
 fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
     let mut states = Vec::with_capacity(outcome.history.legs.len());
     for leg in &outcome.history.legs {
         let end = leg.curve.last().copied().unwrap_or_default();
-        // Each spring in contact has the stiffness E* Δx, so the stiffness of all is E* times the
-        // length in contact.
+        // Each spring in contact has the stiffness E* Δx, so the stiffness of the contact is E*
+        // times the contact length.
         let stiffness = modulus * end.contact_length;
         states.push(PressedLine {
             indentation: end.indentation,
@@ -629,7 +637,7 @@ fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
     states
 }
 
-/// Compares a result of the loops with adhesion.
+/// Compares one result of the loops with adhesion between profiles and square surfaces.
 fn compared_loops(
     lines: impl Iterator<Item = Option<f64>>,
     squares: &[SquareResult],
@@ -651,7 +659,7 @@ fn compared_loops(
     values.compared()
 }
 
-/// Compares a result of the contacts without adhesion.
+/// Compares one result of the contacts without adhesion between profiles and square surfaces.
 fn compared_pressings(
     lines: impl Iterator<Item = f64>,
     squares: &[SquareResult],
@@ -680,8 +688,8 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns the results of `lines` profiles and `maps` squares of a rough scene with changed
-    /// fields.
+    /// Returns the results on `lines` profiles and `maps` squares for a rough scene, some fields of
+    /// which are changed.
     fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
         let scene = concat!(
             env!("CARGO_MANIFEST_DIR"),
@@ -728,8 +736,8 @@ mod tests {
         squares: Vec<f64>,
     }
 
-    /// Returns the values of the quantities that a comparison states: the results of the loop if
-    /// the body adheres, and the indentation at the preload without adhesion.
+    /// Returns the values of the quantities that a comparison contains: with adhesion the results
+    /// of the loop, without adhesion the indentation at the preload.
     fn populations(fields: &[(&str, &str)], maps: u64, count: u64) -> Vec<Population> {
         let (lines, squares) = population(fields, maps, count);
         let of_lines = |figure: fn(&LineLoop) -> Option<f64>| -> Vec<f64> {
@@ -792,8 +800,8 @@ mod tests {
         }
     }
 
-    /// Returns the smallest share of samples whose confidence interval contains the ratio, over all
-    /// quantities of some spectra and over samples of 3, 6 and 12 squares.
+    /// For all quantities of some spectra and for samples of 3, 6 and 12 squares, returns the
+    /// smallest share of samples whose confidence interval contains the true ratio.
     fn least_held(spectra: &[&[(&str, &str)]], seed: u64) -> f64 {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut least = 1.0_f64;
@@ -812,8 +820,8 @@ mod tests {
     }
 
     /// In at least 93 of 100 samples with few squares, the confidence interval contains the ratio
-    /// over all lines and squares. The rule by which the interval is widened was found with these
-    /// two spectra.
+    /// over all lines and squares. The rule that widens the interval was found with these two
+    /// spectra.
     #[test]
     #[ignore = "computes 128 squares, minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio() {
@@ -835,8 +843,8 @@ mod tests {
         assert!(least >= 0.93, "{least}");
     }
 
-    /// The confidence interval is also right for spectra that were not used to find the rule by
-    /// which it is widened: with and without a roll-off, with and without adhesion.
+    /// The confidence interval is also right for spectra that were not used to find the rule that
+    /// widens it. The spectra have and lack a roll-off and adhesion.
     #[test]
     #[ignore = "computes 256 squares, minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio_of_other_spectra() {

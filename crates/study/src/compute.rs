@@ -18,23 +18,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
 
-/// Records of a computed streak, a loading with all its preloads; see [`Streak`].
+/// Results of a computed streak, which is a loading with all its preloads; see [`Streak`].
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
-    /// Premises that the records do not meet, each list with the number of its cell.
+    /// For each cell with such warnings, its number and the premises of the model that it does not
+    /// meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
-/// Streaks of a plan that are still to be computed.
+/// Streaks of a plan, with what is needed to compute those that are missing.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
     /// Numbers of the units of the plan that are to be computed.
     pub units: &'a [u64],
-    /// Returns true for a streak with a missing record.
+    /// Returns true for a streak of which at least one record is missing and has to be computed.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
-    /// Measured roughness of the plan, if it has one. It is read once, so that all threads compute
-    /// from the same bytes.
+    /// Measured roughness of the plan, if it has one. The files are read once, so that all threads
+    /// compute from the same bytes.
     pub profile: Option<&'a Arc<MeasuredRoughness>>,
 }
 
@@ -157,7 +158,7 @@ fn check(plan: &Plan, control: &Control<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Computes a plan. `measured` is the measured roughness of the plan, if it has one.
+/// Computes a plan in memory. `measured` is the measured roughness of the plan, if it has one.
 fn compute_on(
     plan: &Plan,
     measured: Option<Arc<MeasuredRoughness>>,
@@ -176,7 +177,8 @@ fn compute_on(
     let mut results = Results::empty(plan.clone())?;
     let (sender, receiver) = channel();
     let work = move || {
-        // Sending fails only after the receiver has been dropped, which ends the computation.
+        // Sending fails only if the receiver has been dropped. The value false then ends the
+        // computation.
         let send = move |solved| sender.send(solved).is_ok();
         streaks.compute(plan, threads, stop, &send)
     };
@@ -232,8 +234,8 @@ mod tests {
         .unwrap()
     }
 
-    /// Each record is that of a separate computation. A record that cannot be computed has its
-    /// reason.
+    /// Each record equals that of a separate computation. For a record that cannot be computed the
+    /// reason is kept.
     #[test]
     fn a_plan_in_memory_has_the_records_of_single_cells() {
         let plan = plan();

@@ -1,4 +1,5 @@
-//! Coordinates on which a range of numbers is searched, and the allowed numbers in the range.
+//! Coordinates in which a range of numbers is searched, and the numbers that are allowed in the
+//! range.
 
 use super::axis::{Axis, Target};
 use asperity_data::AxisScale;
@@ -8,18 +9,18 @@ use asperity_scene::fields::{Field, Range};
 /// Relative deviation from a whole number below which a quotient counts as this whole number.
 const ROUNDING: f64 = 1e-9;
 
-/// Values of a number of a scene that differ in their contact.
+/// Which values of a number of a scene are allowed in a search. Values between them would give the
+/// same contact, or are not possible in a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Allowed {
     /// Any value.
     Any,
     /// Whole numbers.
     Whole,
-    /// This number divided by whole numbers: wavelengths, of which a whole number fits on the
-    /// length of the profile.
+    /// Wavelengths: this length of the profile divided by a whole number of waves that fit on it.
     Fractions(f64),
-    /// Whole multiples of this number: lengths of the profile on which a whole number of given
-    /// wavelengths fits.
+    /// Lengths of the profile: whole multiples of this wavelength, so that whole waves fit on the
+    /// profile.
     Multiples(f64),
 }
 
@@ -41,8 +42,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the number of waves (or the whole number itself) that belongs to a value; `None` if
-    /// any value is allowed.
+    /// Returns the number of waves that belongs to a value, or the value itself if whole numbers
+    /// are allowed; `None` if any value is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -52,7 +53,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the value that belongs to a whole number.
+    /// Returns the value that belongs to a whole number of waves (the inverse of
+    /// [`Allowed::count`]).
     fn of_count(self, count: f64) -> f64 {
         match self {
             Allowed::Any | Allowed::Whole => count,
@@ -61,7 +63,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the nearest allowed value. At least one wave must fit on the length.
+    /// Returns the allowed value nearest to `number`. At least one wave must fit on the length.
     pub fn nearest(self, number: f64) -> f64 {
         match (self, self.count(number)) {
             (_, None) => number,
@@ -70,9 +72,9 @@ impl Allowed {
         }
     }
 
-    /// Returns the allowed value nearest to `number`, but not the allowed value nearest to
-    /// `present`. It lies on the same side of that value as `number`. `None` if there is no such
-    /// value, because at least one wave must fit on the length.
+    /// Returns the allowed value nearest to `number`, but at least one step away from the allowed
+    /// value nearest to `present`, in the direction of `number`. Returns `None` if there is no such
+    /// value because at least one wave must fit on the length.
     pub fn nearest_other(self, present: f64, number: f64) -> Option<f64> {
         let (Some(from), Some(to)) = (self.count(present), self.count(number)) else {
             return Some(number);
@@ -89,8 +91,8 @@ impl Allowed {
         is_allowed.then(|| self.of_count(next))
     }
 
-    /// Returns the smallest and the largest allowed value of a range; `None` if the range has no
-    /// allowed value.
+    /// Returns the smallest and the largest allowed value in a range; `None` if the range contains
+    /// no allowed value.
     fn ends(range: [f64; 2], allowed: Allowed) -> Option<[f64; 2]> {
         let [from, to] = range;
         let ends = match allowed {
@@ -111,14 +113,14 @@ impl Allowed {
     }
 }
 
-/// Rounds a count up. A count that is above a whole number only by a rounding error becomes this
-/// number.
+/// Rounds a count up to a whole number. A count that exceeds a whole number only by a rounding
+/// error becomes this whole number.
 fn rounded_up(count: f64) -> f64 {
     (count * (1.0 - ROUNDING * count.signum())).ceil()
 }
 
-/// Rounds a count down. A count that is below a whole number only by a rounding error becomes this
-/// number.
+/// Rounds a count down to a whole number. A count that is below a whole number only by a rounding
+/// error becomes this whole number.
 fn rounded_down(count: f64) -> f64 {
     (count * (1.0 + ROUNDING * count.signum())).floor()
 }
@@ -128,12 +130,12 @@ fn rounded_down(count: f64) -> f64 {
 enum Map {
     /// The linear or logarithmic scale of an axis.
     Scale(AxisScale),
-    /// Inverse hyperbolic sine of the number divided by this unit. It is linear near zero, and
-    /// logarithmic far from zero on both sides.
+    /// Inverse hyperbolic sine of the number divided by this unit. This function is linear near
+    /// zero, and logarithmic far from zero for positive and negative numbers.
     BothSides(f64),
 }
 
-/// Coordinates on a searched range. The first numbers to be tried have equal distances in these
+/// Coordinates of a searched range. The first numbers that are tried are equally spaced in these
 /// coordinates. Only allowed numbers are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinates {
@@ -144,7 +146,7 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Creates coordinates on a scale. A range that begins at or below zero gets a linear scale.
+    /// Creates coordinates on a scale. If the range begins at or below zero, the scale is linear.
     /// Returns `None` if the range contains no allowed number.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
@@ -160,8 +162,8 @@ impl Coordinates {
         })
     }
 
-    /// Creates coordinates for numbers of either sign. They are linear for numbers smaller than
-    /// `unit` and logarithmic for larger numbers.
+    /// Creates coordinates for positive and negative numbers. They are linear for magnitudes below
+    /// `unit` and logarithmic for larger magnitudes.
     pub fn on_both_sides(unit: f64, range: [f64; 2]) -> Coordinates {
         Coordinates {
             map: Map::BothSides(unit),
@@ -197,21 +199,22 @@ impl Coordinates {
         if from < middle && middle < to {
             return Some(middle);
         }
-        // Rounding to an allowed number may return one of the ends although a whole number lies
-        // between them.
+        // The middle may be rounded to one of the ends although an allowed number lies between
+        // them. The allowed number next to `from` is then returned.
         let first = self.allowed.count(from)?.round();
         let last = self.allowed.count(to)?.round();
         let steps = last - first;
         (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
-    /// Returns the difference of the coordinates of the ends of the range.
+    /// Returns the length of the range in coordinates.
     pub fn length(&self) -> f64 {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Returns the difference in coordinates of two numbers with the relative difference `share`.
-    /// The numbers are near one of the coordinates `places`, the one farther from zero.
+    /// Returns the difference in coordinates of two numbers that differ by the share `share` of
+    /// themselves. The numbers are near that one of the coordinates `places` that is farther from
+    /// zero.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {
@@ -221,7 +224,7 @@ impl Coordinates {
         }
     }
 
-    /// Returns true if only some numbers are allowed, such as whole numbers.
+    /// Returns true if only some numbers are allowed, such as whole numbers or wavelengths.
     pub fn is_discrete(&self) -> bool {
         self.allowed != Allowed::Any
     }
@@ -245,8 +248,9 @@ impl Coordinates {
         Some(all)
     }
 
-    /// Returns the numbers between `intervals` nearly equal intervals of the range. If the range
-    /// has at most `most` allowed numbers, returns all of them, and the second value is true.
+    /// Returns the numbers that divide the range into `intervals` nearly equal intervals, including
+    /// the ends of the range. If the range has at most `most` allowed numbers, all of them are
+    /// returned, and the second value is true.
     pub fn spread(&self, intervals: usize, most: usize) -> (Vec<f64>, bool) {
         if let Some(all) = self.all_between(self.ends, most) {
             return (all, true);

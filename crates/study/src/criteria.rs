@@ -1,8 +1,9 @@
 //! Criteria by which other theories and this program decide whether a randomly rough body adheres
 //! without a preload.
 //!
-//! Each criterion has its own conditions. If they are not met, the criterion gives no verdict but
-//! the reason. The criteria disagree, because their theories have different limits.
+//! Each criterion has its own conditions. If its conditions are not met, the criterion gives a
+//! reason instead of a verdict. The criteria may disagree, because their theories have different
+//! limits.
 
 use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
@@ -25,8 +26,8 @@ const THIS_PROGRAM: Criterion = Criterion::new(
 
 /// Returns the criteria by which other theories and this program judge whether the bodies of a
 /// computed scene adhere without a preload; empty for a scene without adhesion. The criteria of
-/// this program come last. They use medians over `ensemble` or, without an ensemble, the scene's
-/// own profile.
+/// this program come last. They use the medians over `ensemble` or, if there is no ensemble, the
+/// values of the scene's own profile.
 ///
 /// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///
@@ -77,9 +78,9 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
     }
 }
 
-/// Returns the criteria of this program: F_a(d=0) and F_a(F=0), each as a share of the adhesion
-/// force of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion counts as vanished, as in
-/// the definition of the regimes.
+/// Returns the criteria of this program: F_a(d=0) and F_a(F=0), each divided by the adhesion force
+/// of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion counts as vanished, as in the
+/// definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
     let mut first_touch = outcome.first_touch_adhesion_force;
@@ -140,8 +141,8 @@ mod tests {
         criteria(document.scene(), &run(document).unwrap(), ensemble)
     }
 
-    /// Ruby on nanocrystalline diamond (Thimons et al. 2021), a stiff pair with a radius of summits
-    /// of 40 nm.
+    /// Tests ruby on nanocrystalline diamond (Thimons et al. 2021), a stiff pair whose summits have
+    /// a radius of 40 nm.
     #[test]
     fn the_tabor_number_refuses_hard_bodies() {
         let hard = document(
@@ -179,7 +180,8 @@ mod tests {
                 );
             }
         }
-        // The conditions of these criteria are met, because they are made for stiff bodies.
+        // These two criteria are made for stiff bodies. Their conditions are met, and they decide
+        // that the bodies do not stick.
         for name in ["Pastewka & Robbins 2014", "bearing area 2018"] {
             assert_eq!(of(name)[0].sticks, Some(false), "{:?}", of(name));
         }

@@ -50,7 +50,7 @@ impl Criterion {
         }
     }
 
-    /// Returns the reason with `sign` in front, a mark of punctuation; empty without a reason.
+    /// Returns the reason after the punctuation mark `sign`; empty if there is no reason.
     fn reason_after(&self, sign: &str) -> String {
         match &self.reason {
             Some(reason) => format!("{sign} {reason}"),
@@ -83,8 +83,8 @@ impl Criterion {
     }
 
     /// Returns the criterion with its number and its verdict: the bodies adhere if the number is
-    /// below the threshold. If there is a refusal, because a condition of the theory is not met,
-    /// there is no verdict.
+    /// below the threshold. If a condition of the theory is not met, `refusals` contains the
+    /// reason, and there is no verdict.
     pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
         let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
         let value = Some(value).filter(|value| value.is_finite());
@@ -102,12 +102,13 @@ impl Criterion {
     }
 }
 
-/// Returns a number as text with two digits.
+/// Returns a number as text with two significant digits.
 pub(super) fn number(value: f64) -> String {
     format_rounded(value, 2, "1")
 }
 
-/// Returns the reason why a theory of short-ranged attraction does not apply; `None` if it applies.
+/// Returns the reason why a theory of short-ranged attraction does not apply; `None` if the theory
+/// applies.
 pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
     let below = tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
     Some(format!(

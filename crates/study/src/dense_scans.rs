@@ -1,5 +1,5 @@
-//! Comparison of the answers of [`find`](crate::find::find) with dense scans: about 400 runs over
-//! the searched range of each random question.
+//! Comparison of the answers of [`find`](crate::find::find) with dense scans. A dense scan computes
+//! about 400 scenes over the searched range of a random question.
 
 use crate::find::Found;
 use crate::quantity::Quantity;
@@ -11,10 +11,10 @@ use asperity_scene::{CheckedScene, Document, Simulation, open};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-/// Number of runs of a dense scan.
+/// Number of scenes that a dense scan computes.
 const RUNS: usize = 400;
-/// Relative distance from a crossing, below and above, at which the quantity must be on different
-/// sides of the target.
+/// Relative distance below and above a crossing at which the quantity is computed. It must be on
+/// different sides of the target there.
 const BESIDE: f64 = 4e-9;
 
 const SCENES: [&str; 9] = [
@@ -56,7 +56,7 @@ const QUANTITIES: [Quantity; 9] = [
     Quantity::ZeroForceAdhesionForce,
 ];
 
-/// A random question with a scene of few springs.
+/// A random question about a scene of few springs.
 struct Case {
     document: Document,
     path: &'static str,
@@ -64,7 +64,7 @@ struct Case {
 }
 
 impl Case {
-    /// Draws a random question; `None` if the scene does not allow it.
+    /// Draws a random question; `None` if the drawn scene does not allow this question.
     fn random(random: &mut ChaCha8Rng) -> Option<Case> {
         let path = PATHS[random.random_range(0..PATHS.len())];
         let quantity = QUANTITIES[random.random_range(0..QUANTITIES.len())];
@@ -104,8 +104,8 @@ impl Case {
         })
     }
 
-    /// Returns the scene with another value of the number; `None` if the scene does not allow the
-    /// value.
+    /// Returns the scene with `number` as the value of the varied number; `None` if the scene does
+    /// not allow this value.
     fn scene(&self, number: f64) -> Option<CheckedScene> {
         if self.path == "preload" {
             let loading = vec![Move::ToForce(number), Move::ToSeparation];
@@ -123,7 +123,8 @@ impl Case {
             .map(|document| document.scene().clone())
     }
 
-    /// Returns the quantity, computed by a separate run; NaN if the quantity has no value.
+    /// Returns the quantity at `number`, from a separate computation; NaN if the quantity has no
+    /// value.
     fn value(&self, number: f64) -> f64 {
         let Some(scene) = self.scene(number) else {
             return f64::NAN;
@@ -137,7 +138,7 @@ impl Case {
             .unwrap_or(f64::NAN)
     }
 
-    /// Returns the numbers of a dense scan over a range.
+    /// Returns the numbers at which a dense scan of the range computes the quantity.
     fn numbers(&self, question: &Question, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut numbers = vec![from, to];
         for index in 1..RUNS {
@@ -165,21 +166,21 @@ impl Case {
     }
 }
 
-/// Numbers of answers that agree and disagree with dense scans.
+/// Counts of answers that agree or disagree with dense scans.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     questions: usize,
-    /// Number of answers that follow from a proof. The next field counts the answers that state
-    /// that crossings may be missed.
+    /// Number of answers that are proven. `may_miss` is the number of answers that state that
+    /// crossings may be missed.
     proven: usize,
     may_miss: usize,
-    /// Number of questions for which the dense scan crosses the target.
+    /// Number of questions for which the quantity crosses the target in the dense scan.
     crossed: usize,
-    /// Number of missed first crossings of answers that state that crossings may be missed.
+    /// Number of answers that miss the first crossing and state that crossings may be missed.
     missed_as_stated: usize,
-    /// Number of missed first crossings of answers that do not state this.
+    /// Number of answers that miss the first crossing and do not state so.
     missed: usize,
-    /// Number of given crossings at which the quantity does not cross the target.
+    /// Number of answers with a crossing at which the quantity does not cross the target.
     wrong: usize,
 }
 
@@ -194,7 +195,8 @@ impl Counts {
         self.questions += 1;
         self.proven += usize::from(answer.is_proven);
         self.may_miss += usize::from(answer.may_miss);
-        // The quantity is equal to the target at this number, so a crossing lies at or before it.
+        // If the quantity equals the target at a number of the scan, a crossing lies at or before
+        // this number.
         let on_target = numbers
             .iter()
             .zip(&values)
@@ -211,8 +213,9 @@ impl Counts {
         }
         self.crossed += usize::from(first.is_some());
         let given = found.values()[0];
-        // If the quantity reaches the target already at the lower end of the range, this end is the
-        // answer.
+        // An answer misses the first crossing if its own first crossing lies above that of the
+        // scan, or if it has none. If the quantity reaches the target at the lower end of the
+        // range, this end is the answer.
         let is_missed =
             first.is_some_and(|first| given.is_none_or(|given| given > first * (1.0 + 1e-9)));
         if is_missed && answer.may_miss {
@@ -235,8 +238,8 @@ impl Counts {
         }
     }
 
-    /// Returns true if separate runs just below and above each given crossing are on different
-    /// sides of the target, or one of them equals the target.
+    /// Returns true for correct crossings: separate computations just below and just above each
+    /// crossing are on different sides of the target, or one of them equals the target.
     fn are_crossings(&self, case: &Case, question: &Question, answer: &Answer) -> bool {
         let length = case.document.scene().length;
         answer.crossings.iter().all(|&crossing| {
@@ -258,8 +261,8 @@ impl Counts {
             };
             let values = beside.map(|number| case.value(number));
             let is_reached = values[1] >= question.target * (1.0 - 1e-9 * question.target.signum());
-            // Where the quantity hardly changes, rounding errors decide on which side of the target
-            // it is.
+            // Where the quantity hardly changes, only rounding errors decide on which side of the
+            // target it lies. A quantity nearly equal to the target therefore counts as correct.
             let is_on_target =
                 (values[1] / question.target - 1.0).abs() < 1e-11 || values[1] == question.target;
             let has_other = [values[0], values[2]]
@@ -275,7 +278,7 @@ impl Counts {
     }
 }
 
-/// Asks a number of random questions, and compares each answer with a dense scan.
+/// Asks `questions` random questions, and compares each answer with a dense scan.
 fn compared(seed: u64, questions: usize) -> Counts {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut counts = Counts::default();
@@ -297,7 +300,7 @@ fn compared(seed: u64, questions: usize) -> Counts {
         let Ok(question) = ask(0.0) else { continue };
         let (mut from, mut to) = question.searched;
         if random.random_range(0..3) == 0 && from > 0.0 && !question.is_of_whole_waves() {
-            // The question has a narrow range.
+            // The range of the question is narrowed to three tenths of its decades.
             let decades = (to / from).ln();
             (from, to) = (from * (0.3 * decades).exp(), from * (0.6 * decades).exp());
         }
@@ -334,7 +337,7 @@ fn check(counts: &Counts) {
         counts.crossed > counts.questions / 2 && counts.proven > counts.questions / 8,
         "{counts:?}"
     );
-    // Most answers do not state that crossings may be missed.
+    // At most half of the answers state that crossings may be missed.
     assert!(counts.may_miss < counts.questions / 2, "{counts:?}");
 }
 

@@ -17,7 +17,7 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Usual number of random profiles, for a caller that requests no other number.
+    /// Usual number of random profiles, if the caller requests no other number.
     pub const PROFILES: u64 = 16;
 
     /// Sentence that a report shows instead of statistics for a scene with a fixed profile.
@@ -161,8 +161,8 @@ mod tests {
         Ensemble::of(scene, &[], profiles, &mut Simulation::default(), control)
     }
 
-    /// Each profile is that of the scene with the seed of the profile. The results do not depend on
-    /// the number of threads.
+    /// Each profile is that of the scene with another seed. The results do not depend on the number
+    /// of threads.
     #[test]
     fn an_ensemble_is_the_scene_with_the_seeds_that_follow() {
         let scene = scene("pressure-sensitive");

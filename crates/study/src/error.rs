@@ -8,8 +8,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Message for a request of several profiles if the profile of the scene is fixed: what was found,
-/// and what is allowed.
+/// Message for a request of several profiles although the profile of the scene is fixed: the first
+/// text says what was found, and the second what is allowed.
 pub(super) const ONE_PROFILE: (&str, &str) = (
     "more than one profile, and the profile of this scene is fixed",
     "random roughness (SelfAffine, or an equivalent line)",
@@ -120,21 +120,22 @@ impl Remedied for StudyError {
 }
 
 impl From<RunError> for StudyError {
-    /// Makes the error of a computation of a single profile.
+    /// Makes the error of the computation of a single profile.
     fn from(error: RunError) -> StudyError {
         StudyError::at(String::new(), error)
     }
 }
 
 impl StudyError {
-    /// Makes the error of a computation. `place` states the values on the axes and the seed.
+    /// Makes the error of a failed computation. `place` states the values on the axes and the seed
+    /// of the profile.
     pub(super) fn at(place: String, error: RunError) -> StudyError {
         let error = Box::new(error);
         StudyError::Run { place, error }
     }
 
-    /// Makes the error of a value or a request that is not allowed. `place` is the path or the
-    /// argument.
+    /// Makes the error of a value or a request that is not allowed. `place` is the path of the
+    /// number in the scene, or the name of the argument.
     pub(super) fn refused(
         place: Option<&str>,
         found: impl Into<String>,

@@ -2,7 +2,7 @@
 //! quantity reach a target?
 //!
 //! Each profile is searched separately. The adhesion force never falls with the preload. It
-//! therefore crosses the target only once, between two preloads, and bisection finds this crossing.
+//! therefore crosses the target only once, and bisection finds this crossing between two preloads.
 //! Any other quantity is first computed at several numbers over the searched range.
 
 use super::axis::Axis;
@@ -15,9 +15,9 @@ use asperity_contact::Move;
 use asperity_data::{Control, CountedWarning, Remedy, format_quantity, format_range, quantile};
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Largest relative change of a quantity over the searched range for which the number counts as
-/// having no influence. The quantity may change a little without an influence, because the error by
-/// the finite number of springs changes with the scene.
+/// Largest relative change of a quantity over the searched range with which the number counts as
+/// having no influence on it. A small change may have another cause: the error due to the finite
+/// number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
 /// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which
@@ -31,8 +31,9 @@ pub struct Found {
     /// Reason why the scene could not be computed with a searched value of the number; `None` if it
     /// could be computed with all searched values.
     pub refused: Option<String>,
-    /// Premises of the model that the profiles do not meet at the median answer, each with the
-    /// number of these profiles. Without a median answer the list is for the scene of the question.
+    /// Premises of the model that the profiles do not meet, each with the number of these profiles.
+    /// The scene has the median answer or, if there is no median answer, is the scene of the
+    /// question.
     pub warnings: Vec<CountedWarning>,
 }
 
@@ -103,9 +104,9 @@ impl Found {
         Ok(found)
     }
 
-    /// Returns the scene of the question in which the number has its median answer. Without a
-    /// median answer, or if the scene does not allow it, returns the scene of the question itself;
-    /// `None` if this scene is not allowed either.
+    /// Returns the scene of the question with the median answer as the value of the number. If
+    /// there is no median answer, or if a scene cannot have this value, returns the scene of the
+    /// question itself. Returns `None` if this scene is not allowed either.
     fn answered_scene(&self) -> Option<CheckedScene> {
         let plan = &self.question.plan;
         let asked = plan.scene.clone().checked().ok()?;
@@ -129,8 +130,8 @@ impl Found {
         Some(answered.unwrap_or(asked))
     }
 
-    /// Returns an error if the quantity has no value on any profile, if a preload cannot be
-    /// reached, or if the number has no influence on the quantity.
+    /// Returns an error if the quantity has no value on any profile, if no loading can reach a
+    /// preload, or if the number has no influence on the quantity.
     fn check(&self) -> Result<(), StudyError> {
         let question = &self.question;
         let is_of_preload = question.is_of_preload();
@@ -193,9 +194,10 @@ impl Found {
         reachable
     }
 
-    /// Returns the value of the number for each profile, in ascending order. A profile without a
-    /// crossing counts as infinite, at the end of the searched range beyond which its crossing must
-    /// lie: ∞ if the quantity rises with the number and is below the target.
+    /// Returns the value of the number on each profile, in ascending order. A profile without a
+    /// crossing has the value ∞ or −∞, depending on the end of the searched range beyond which its
+    /// crossing must lie. For example, it is ∞ if the quantity rises with the number and is below
+    /// the target.
     fn ascending(&self) -> Vec<f64> {
         let slopes = self
             .answers
@@ -218,7 +220,7 @@ impl Found {
     /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share`
     /// of 0.5. A profile without a value counts as beyond the searched range. If only some values
     /// are allowed, such as whole numbers or lengths with a whole number of waves, the nearest
-    /// allowed value is returned. `None` if the quantile lies beyond the searched range.
+    /// allowed value is returned. Returns `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         // A quantile interpolated between a finite and an infinite value is not finite.
         let value = quantile(&self.ascending(), share).filter(|value| value.is_finite())?;
@@ -236,7 +238,7 @@ impl Found {
     }
 }
 
-/// Returns true if the quantity has about the same value at all searched numbers, or has no value.
+/// Returns true if the quantity is nearly constant over all searched numbers, or has no value.
 fn is_still(answer: &Answer) -> bool {
     match answer.reachable {
         Some((least, most)) => most - least <= STILL * most.abs().max(least.abs()),
@@ -279,7 +281,7 @@ mod tests {
         found.map_err(|error| error.to_string())
     }
 
-    /// Returns the value of a quantity of a scene on one profile, computed without a search.
+    /// Returns the quantity after a loading of a scene on one profile, computed without a search.
     fn alone(scene: &CheckedScene, seed: u64, loading: Move, quantity: Quantity) -> f64 {
         let loading = vec![loading, Move::ToSeparation];
         let scene = scene
@@ -334,7 +336,7 @@ mod tests {
         }
     }
 
-    /// The pull-off force of a sphere is (3/2)πγR for any preload.
+    /// For any preload the pull-off force of a sphere is (3/2)πγR.
     #[test]
     fn a_sphere_has_the_numbers_of_its_closed_form() {
         let sphere = scene("jkr-sphere", 1 << 12);
@@ -342,7 +344,7 @@ mod tests {
             .run(&sphere, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
         let exact = 1.5 * PI * 0.05 * 1e-4;
-        // The relative error of the force by the finite number of springs.
+        // Relative error of the force due to the finite number of springs.
         let error = own.figures.adhesion_force.unwrap() / exact - 1.0;
         assert!(error.abs() < 1e-4, "{error}");
         for (path, slope) in [
@@ -412,8 +414,8 @@ mod tests {
         );
     }
 
-    /// The adhesion force jumps at each found preload, to the stated precision. A fine grid of
-    /// preloads shows no smaller preload that reaches the target.
+    /// At each preload that the search finds, the adhesion force jumps, to the stated precision. On
+    /// a fine grid of preloads, no smaller preload reaches the target.
     #[test]
     fn preloads_are_at_the_steps_that_runs_show() {
         let rough = scene("pressure-sensitive", 2048);
@@ -454,8 +456,8 @@ mod tests {
         );
     }
 
-    /// The number of patches rises with the preload, then falls as patches merge. So it crosses the
-    /// target at least twice.
+    /// The number of patches of contact first rises with the preload, and then falls as patches
+    /// merge. It therefore crosses the target at least twice.
     #[test]
     fn a_quantity_that_rises_and_falls_has_all_its_crossings() {
         let rough = scene("pressure-sensitive", 2048)
@@ -476,8 +478,8 @@ mod tests {
         assert_eq!(found.quantile(0.5), Some(answer.crossings[0]));
     }
 
-    /// A profile without a crossing lies beyond the searched range. If half of the profiles do, the
-    /// median is unknown.
+    /// A profile without a crossing counts as beyond the searched range. If half of the profiles
+    /// have no crossing, the median is unknown.
     #[test]
     fn medians_count_the_profiles_beyond_the_range() {
         let rough = scene("pressure-sensitive", 2048);
@@ -518,8 +520,8 @@ mod tests {
         );
     }
 
-    /// F_a of a sphere does not depend on the preload F_n. So F_a/F_n equals the target at one
-    /// preload, F_a divided by the target.
+    /// F_a of a sphere does not depend on the preload F_n. F_a/F_n therefore equals the target at
+    /// exactly one preload: F_a divided by the target.
     #[test]
     fn ratios_are_found_from_no_preload_upwards() {
         let sphere = scene("jkr-sphere", 1 << 10);
@@ -552,7 +554,7 @@ mod tests {
             );
             assert!((there / ratio - 1.0).abs() < WITHIN, "{there}");
         }
-        // In a range entirely below or above the answer there is no crossing.
+        // A range that lies entirely below or above the answer contains no crossing.
         let range = |ends| asked(&sphere, "preload", "F_a/F_n = 100", 1, Some(ends), 1).unwrap();
         for (ends, reached) in [
             ((1e-6, 1e-3), [false; 2]),
@@ -568,7 +570,7 @@ mod tests {
             assert_eq!(found.answers[0].reached[1], reached[1], "{ends:?}");
             assert!(found.answers[0].is_proven);
         }
-        // A negative preload has no ratio, so the answer lies among the positive preloads.
+        // F_a/F_n has no value for a negative preload, so the answer is a positive preload.
         assert!((range((-1e-6, 1e-3)).values()[0].unwrap() * 100.0 / force - 1.0).abs() < 1e-12);
         let pulled = asked(
             &sphere,
@@ -582,8 +584,8 @@ mod tests {
         assert!(pulled.contains("the scene has no F_a/F_n"), "{pulled}");
     }
 
-    /// A target that is equal to the value at an end of the range, or to a constant value between
-    /// two steps of F_a, counts as reached where the quantity first has this value.
+    /// The target may equal the quantity at an end of the range, or along a constant part between
+    /// two steps of F_a. The answer is then the first number at which the quantity has this value.
     #[test]
     fn targets_at_the_ends_and_on_stairs_are_reached_where_they_begin() {
         let sphere = scene("jkr-sphere", 1 << 10);
@@ -622,8 +624,8 @@ mod tests {
                 && force(preload) == stair
                 && force(preload * (1.0 - 4.0 * WITHIN)) < stair
         );
-        // The searched range lies below the step, above the step with the same F_a, or above the
-        // next step.
+        // The answer depends on the searched range: it may lie below the step, above the step with
+        // the same F_a, or above the next step.
         assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
         assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
         let above = ask(Some((1e-3, 2e-3)));
@@ -686,8 +688,8 @@ mod tests {
         );
     }
 
-    /// Only lengths with a whole number of waves are answers. A wavelength between two of them
-    /// would give the same contact as one of them.
+    /// Only lengths with a whole number of waves are answers, because any other wavelength would be
+    /// rounded to one of these lengths.
     #[test]
     fn wavelengths_and_lengths_are_found_in_whole_waves() {
         let document = open("pressure-sensitive").unwrap();

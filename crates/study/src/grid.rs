@@ -6,7 +6,7 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::AxisScale;
 use asperity_scene::{Regime, RoughnessParameter};
 
-/// A mean is small if it is less than the largest mean divided by this number.
+/// A mean counts as small if it is less than the largest mean divided by this number.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value
@@ -22,8 +22,8 @@ pub struct GridCell {
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime. If `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], they are for this regime, otherwise for
+    /// Returns the numbers of profiles in each regime: the regime
+    /// [`Quantity::RegimeAfterZeroForce`] if `quantity` is this regime, otherwise
     /// [`Quantity::Regime`].
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
@@ -37,14 +37,14 @@ pub struct GridLayer {
     pub quantity: Quantity,
     /// Scale of the means of the quantity in a figure, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest of the means of the quantity in the [cells](GridCell). A logarithmic
-    /// scale counts only means above zero. `None` if there is no such mean.
+    /// Smallest and largest mean of the quantity over the [cells](GridCell). If the scale is
+    /// logarithmic, only means above zero are included. `None` if there is no such mean.
     pub range: Option<(f64, f64)>,
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means. Without a given scale the layer has
-    /// the scale that suits the means.
+    /// Makes a layer of a quantity with the range of its means. If `scale` is `None`, the layer
+    /// gets the scale that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let mut range: Option<(f64, f64)> = None;
@@ -62,8 +62,8 @@ impl GridLayer {
     }
 }
 
-/// Returns the logarithmic scale if all means are above zero and a third of them are below a
-/// fiftieth of the largest. Otherwise returns the linear scale.
+/// Returns the logarithmic scale if all means are above zero and at least a third of them are
+/// small, which means below a fiftieth of the largest mean. Otherwise returns the linear scale.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means
@@ -99,8 +99,8 @@ pub struct Grid {
     /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
     /// computed. An error states why a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
-    /// For each cell the index of the cell whose results are shown: of the cell itself, or of a
-    /// computed cell of a coarser grid.
+    /// For each cell, the index of the cell whose results are shown in its place: its own index or,
+    /// until it is computed, that of a cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
@@ -178,8 +178,8 @@ impl Grid {
         Some((cell, index % columns, index / columns))
     }
 
-    /// Returns the cells in order. If `whole` is true, a cell that is not computed yet is replaced
-    /// by the cell that is shown instead.
+    /// Returns the cells in their order. If `whole` is true, a cell that is not computed yet is
+    /// replaced by the cell that is shown in its place.
     fn each(&self, whole: bool) -> impl Iterator<Item = Option<&GridCell>> {
         (0..self.cells.len()).map(move |index| {
             let shown = if whole { self.stand_ins[index] } else { index };
@@ -232,7 +232,8 @@ impl Grid {
         is_on_axis(column, columns) && is_on_axis(row, rows)
     }
 
-    /// Returns the column and the row of a place, which are whole numbers at the middle of a cell.
+    /// Returns the column and the row of a place, with a fraction. They are whole numbers in the
+    /// middle of a cell.
     fn coordinates(&self, place: GridPlace) -> (f64, f64) {
         let (across, up) = place;
         let column = index_of(across, &self.across);
@@ -252,8 +253,8 @@ impl Grid {
     }
 }
 
-/// Returns the most frequent regime as a number from 0 to 1, or the mean of the numbers of the two
-/// most frequent regimes if the profiles do not agree.
+/// Returns the most frequent regime as a number from 0 to 1. If the profiles do not agree on a
+/// regime, returns the mean of the numbers of the two most frequent regimes.
 fn regime_as_number(regimes: RegimeCounts) -> Option<Statistics> {
     let most = regimes.most()?.0;
     let second = regimes.split().unwrap_or(most);
@@ -281,9 +282,9 @@ fn nearest_index(index: f64, count: usize) -> usize {
     index.round().clamp(0.0, count.saturating_sub(1) as f64) as usize
 }
 
-/// Returns the indices of the horizontal and the vertical axis. `free` are the indices of the axes
-/// that are not fixed. If H is free, it is horizontal; if κ or e_el/γ is free, it is vertical.
-/// Otherwise the first free axis is horizontal. `None` if no axis is free.
+/// Returns the indices of the horizontal and the vertical axis of a grid. `free` are the indices of
+/// the axes that are not fixed. A free axis of H is horizontal, and a free axis of κ or e_el/γ is
+/// vertical. Otherwise the first free axis is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let mut up = None;
     let mut across = None;
@@ -301,7 +302,7 @@ pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Opt
     Some((across, up.or(first_beside(free, Some(across)))))
 }
 
-/// Returns the first axis that is not the given one.
+/// Returns the first free axis that is not `axis`.
 fn first_beside(free: &[usize], axis: Option<usize>) -> Option<usize> {
     free.iter().copied().find(|other| Some(*other) != axis)
 }

@@ -1,5 +1,5 @@
-//! The map of a scene over κ or e_el/γ and H. It is a study in memory that is computed from a
-//! coarse to a fine resolution.
+//! The map of a scene over κ or e_el/γ and H. The map is a study in memory, which is computed first
+//! at a coarse and then at finer resolutions.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::mem::take;
 use std::ops::ControlFlow;
 
-/// Numbers of springs above which the finest resolution of a map is reduced by one and by two
-/// levels, because each cell takes longer.
+/// Numbers of springs above which the finest resolution of a map is one level coarser (`MANY`) or
+/// two levels coarser (`VERY_MANY`), because each cell takes longer.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
@@ -37,14 +37,14 @@ impl Level {
     /// All resolutions of a map, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Returns the finest level that a map with this number of springs has.
+    /// Returns the finest level of a map whose scene has this number of springs.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
     }
 
-    /// Returns the indices of the values on axis number `axis` of a plan; only 0 if there is no
-    /// such axis.
+    /// Returns the indices of the values on axis number `axis` of a plan that belong to this level.
+    /// If the plan has no such axis, the only index is 0.
     fn places_on(self, plan: &Plan, axis: usize) -> Vec<usize> {
         match plan.axes.get(axis) {
             Some(axis) => self.places(axis),
@@ -219,8 +219,8 @@ impl LiveMap {
         grid
     }
 
-    /// Returns the index of the cell whose result is shown for a cell. It is the cell itself or,
-    /// until that cell is computed, a cell of a coarser level.
+    /// Returns the index of the cell whose result is shown for `cell`: `cell` itself or, until it
+    /// is computed, a cell of a coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
         for level in Level::ALL.into_iter().rev() {
             let nearest = self.nearest_on(level, cell);
@@ -231,7 +231,7 @@ impl LiveMap {
         cell
     }
 
-    /// Returns the index of the cell of a level that is nearest to a cell.
+    /// Returns the index of the cell nearest to `cell` among the cells of a level.
     fn nearest_on(&self, level: Level, cell: u64) -> u64 {
         let plan = self.plan();
         let mut nearest = Vec::with_capacity(plan.axes.len());
@@ -268,7 +268,8 @@ mod tests {
         LiveMap::new(Plan::of_map(document.scene()).unwrap()).unwrap()
     }
 
-    /// Computes the map until `most` rows are reported, and returns the number of reported rows.
+    /// Computes the map until `most` rows have been reported, and returns the number of reported
+    /// rows.
     fn compute_rows(map: &mut LiveMap, most: usize) -> usize {
         let rows = AtomicUsize::new(0);
         let stop = || rows.load(Relaxed) == most;

@@ -1,4 +1,5 @@
-//! The plan of the live map of a scene.
+//! The plan of a live map, which is a map of a scene over κ and H that is shown while it is
+//! computed.
 
 use super::axis::{Axis, Spacing};
 use super::error::StudyError;
@@ -18,18 +19,20 @@ pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::RegimeAfterZeroForce,
     Quantity::AdhesionShare,
 ];
-/// Smallest and largest number of springs of a map, unless short waves need more.
+/// Smallest and largest number of springs of a map. Roughness with short waves may need more
+/// springs.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Values of κ and H that the scene of the plan has. The axes replace them in each cell.
+/// Values of κ and H in the scene of the plan. Each cell of the map replaces them by its own
+/// values.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Number of values of κ: four for each factor of two, from 1/8 to 32.
+/// Number of values of κ on the map: four for each factor of two, from 1/8 to 32.
 const KAPPAS: u32 = 33;
-/// Number of values of H, from 0.05 to 0.95.
+/// Number of values of H on the map, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Returns the values of κ, rounded to three digits. A scene with a value as it is shown is then
-/// exactly the scene of a cell.
+/// Returns the values of κ, rounded to three digits as the map shows them. A scene in which the
+/// user enters a shown value then equals the scene of a cell of the map exactly.
 fn kappas() -> Vec<f64> {
     let mut kappas = Vec::new();
     for index in 0..KAPPAS {
@@ -47,7 +50,7 @@ fn hursts() -> Vec<f64> {
     hursts
 }
 
-/// Returns the error of a scene that has no map.
+/// Returns the error of a scene for which no map can be made.
 fn refused(found: &str, allowed: &str) -> StudyError {
     StudyError::refused(Some("no map"), found, allowed)
 }
@@ -89,7 +92,8 @@ impl Plan {
             let found = "two works of adhesion, of which none defines κ";
             return Err(refused(found, "no adhesion.closing_work"));
         }
-        // No quantity of a map depends on the range of the attraction.
+        // The quantities of a map do not depend on the range of the attraction, so the range is
+        // left out.
         let adhesion = Adhesion {
             range: None,
             ..adhesion.with_parameter(Kappa, ANY.0)
@@ -113,8 +117,8 @@ impl Plan {
         scene.adhesion = Some(adhesion);
         scene.strip();
         let points = points.min(scene.numerics.points);
-        // With edges between springs a map of few springs is as accurate as one of very many
-        // springs.
+        // If the edges of patches may lie between springs, a map of few springs is as accurate as a
+        // map of very many springs.
         scene.numerics = Numerics {
             points,
             solver: Solver::Exact,
@@ -187,7 +191,7 @@ mod tests {
                 "{path}"
             );
         }
-        // A roughness with short waves gets more springs.
+        // A roughness with short waves gets more springs than other scenes.
         let short = [
             ("numerics.points", "1048576"),
             ("roughness.modes", "(1, 131072)"),

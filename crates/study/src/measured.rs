@@ -1,7 +1,7 @@
-//! The measured files of a study: surfaces, and the table of a form. The plan states a hash of the
-//! files, because the results depend on their content.
+//! The measured files of a study: surfaces, and the table of the form of the body. The plan
+//! contains a hash of these files, because the results depend on their content.
 //!
-//! The hash is SHA-256, because a checksum of 32 bits would miss one in 4e9 accidental changes.
+//! The hash is SHA-256. A checksum of 32 bits would miss one in 4e9 accidental changes.
 
 use super::error::StudyError;
 use super::plan::{PLAN_FILE, Plan};
@@ -52,9 +52,9 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
     )
 }
 
-/// Returns the surface of a plan, if it has one, and the hash of all its measured files, which must
-/// equal the hash in the plan. The contents of several surface files are hashed one after the
-/// other, followed by the hash of the table of a form.
+/// Returns the measured roughness of a plan, if it has one, and the hash of all its measured files.
+/// This hash must equal the hash in the plan. The contents of several surface files are hashed one
+/// after another, followed by the hash of the table of the form.
 fn read(
     plan: &Plan,
     origin: impl Fn() -> String,

@@ -1,9 +1,9 @@
-//! Adhesion of a measured surface, and its spread from two causes: random profiles of one spectrum
-//! differ, and the measurement allows several spectra.
+//! Adhesion of a measured surface, and its spread. The spread has two causes: random profiles of
+//! one spectrum differ, and the measurement is compatible with several spectra.
 //!
-//! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a
-//! spectrum that differs a little. The difference is drawn at random from the uncertainty of the
-//! fit.
+//! Each random profile is solved twice with the same phases: once with the fitted spectrum, and
+//! once with a slightly different spectrum. This second spectrum is drawn at random from the
+//! uncertainty of the fit.
 
 use super::error::StudyError;
 use super::profiles::on_threads_received;
@@ -17,9 +17,9 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-/// Share of a randomly drawn change by which the spectrum is changed. The errors of the fit are
-/// valid to first order, so the change must be small. The longest waves are nearly unknown, and a
-/// whole drawn change could alter them by several powers of ten.
+/// Share of a change of the spectrum, drawn at random, by which the spectrum is changed. The errors
+/// of the fit are valid to first order, so the change must be small. The longest waves are nearly
+/// unknown, and a full drawn change could alter their power by a factor of several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile with the spectrum of a measured surface.
@@ -62,7 +62,7 @@ impl ProfileAdhesion {
         let mut scene = scene;
         if let Some(work) = fitted.governing.work_of_adhesion {
             // If the scene states κ or e_el/γ, the work of adhesion follows from the fitted
-            // spectrum. The changed spectrum gets the same work of adhesion.
+            // spectrum. The same work of adhesion is used with the changed spectrum.
             scene = scene.with(|scene| {
                 scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
             })?;
@@ -86,7 +86,7 @@ impl ProfileAdhesion {
     }
 }
 
-/// Computes a scene whose measured surface has the spectrum of `line`.
+/// Computes a scene with `line` as the spectrum of its measured surface.
 fn run_on(
     scene: &CheckedScene,
     line: EquivalentLine,
@@ -349,8 +349,8 @@ mod tests {
             assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
             let change = (other - one) / SHARE;
             assert_eq!(profile.fit_change, Some(change));
-            // The change is computed to first order, so half the step changes the force by about
-            // half as much.
+            // The change is computed to first order: half the change of the spectrum changes the
+            // force by about half as much.
             let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
             assert!(
                 (half - change).abs() < 0.2 * change.abs() + 1e-3 * one,
@@ -376,7 +376,8 @@ mod tests {
         );
     }
 
-    /// The files are read with the options of the scene, with or without `periodic: true`.
+    /// The measured file is read with the options in the scene, here with and without `periodic:
+    /// true`.
     #[test]
     fn the_options_are_those_of_the_scene() {
         let folder = tempfile::tempdir().unwrap();
@@ -416,8 +417,8 @@ mod tests {
         );
     }
 
-    /// If hardly anything of the spectrum is known, the uncertainty of the force is unknown. No
-    /// stated force exceeds the force of a flat face.
+    /// If hardly anything is known of the spectrum, the uncertainty of the force is unknown. The
+    /// reported forces never exceed the force of a flat face.
     #[test]
     fn no_error_of_the_force_is_beyond_the_force_of_a_flat_face() {
         let (scene, line) = scene_and_line("(work: 0.05)");

@@ -5,14 +5,15 @@ use super::error::StudyError;
 use super::plan::{MOST_CHECKED, Plan};
 use asperity_data::check_room;
 
-/// Memory in bytes for code, stacks, files and the reserve of the allocator.
+/// Memory in bytes for the code of the program, its stacks and files, and the reserve of the
+/// allocator.
 const PROGRAM: u64 = 16 << 20;
-/// Bytes per spring of a Fourier transform that is kept for the next profile, up to
-/// [`LONGEST_KEPT`] springs.
+/// Memory in bytes per spring for a Fourier transform, which each thread keeps for the next profile
+/// if the profile has at most [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
-/// Bytes per spring for the unloadings from several preloads, in which nearly every spring is an
-/// event.
+/// Memory in bytes per spring for the unloadings from several preloads. It is large because nearly
+/// every spring causes an event.
 const REVERSED: u64 = 192;
 
 impl Plan {
@@ -35,13 +36,13 @@ impl Plan {
             } else {
                 0
             };
-            // The contacts without adhesion and at zero force may need memory in addition to the
-            // loading of the scene.
+            // Unloading from several preloads, and the contacts without adhesion and at zero force,
+            // may need more memory than the loading of the scene.
             let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
             job = job.max(peak + kept + reversed);
         }
-        // The axes have 8 bytes for each value, and the study one byte for each record.
+        // The axes take 8 bytes for each value, and the study takes one byte for each record.
         let values: u64 = self.axes.iter().map(Axis::count).sum();
         let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);
         check_room(bytes).map_err(|_| StudyError::Memory { jobs, bytes })?;

@@ -1,4 +1,4 @@
-//! The profiles that are still missing in a study in memory, and their computation.
+//! The profiles of a study in memory that are not computed yet, and their computation.
 
 use super::cells::Streak;
 use super::error::StudyError;
@@ -8,16 +8,16 @@ use super::recorder::{Recorded, with_recorder};
 use asperity_data::Warning;
 use asperity_scene::{RunError, Simulation};
 
-/// Profiles of a plan that are still to be computed, each in all cells of the plan.
+/// Profiles of a plan that are not computed yet. Each of them is computed in all cells of the plan.
 pub(super) struct MissingProfiles {
     pub plan: Plan,
     /// Indices of the profiles.
     pub lines: Vec<u64>,
-    /// Effect of a cell that cannot be computed.
+    /// What happens if a cell cannot be computed.
     pub failures: Failures,
 }
 
-/// Effect of a cell that cannot be computed on a profile.
+/// What happens if a cell cannot be computed on a profile.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Failures {
     /// The error ends the computation.
@@ -30,7 +30,8 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// Premises of the model that are not met, each list with the number of its cell.
+    /// For each cell with such warnings, its number and the premises of the model that it does not
+    /// meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 

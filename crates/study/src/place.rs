@@ -1,4 +1,4 @@
-//! The value of a scene on an axis, and scenes with other values.
+//! Functions that read the value of a scene on an axis, and that make scenes with other values.
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
@@ -8,9 +8,9 @@ use asperity_scene::{
 };
 
 impl Axis {
-    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no
-    /// such value. `computed` has the numbers that follow from the scene, such as κ, and is needed
-    /// only for a measured surface.
+    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene does
+    /// not determine it. `computed` are the governing parameters of the computed scene, such as κ.
+    /// They are needed only for a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -36,9 +36,9 @@ impl Axis {
     }
 }
 
-/// Returns the scene with other values on axes. Numbers of the scene are set first, then quantities
-/// that follow from several numbers, then κ or e_el/γ in place of a work of adhesion. A preload is
-/// not part of a scene and is applied when the contact is computed.
+/// Returns the scene `base` with other values on axes. Numbers of the scene are set first, then
+/// quantities that depend on several numbers, then κ or e_el/γ, which replaces the work of
+/// adhesion. A preload is not part of a scene; it is applied when the contact is computed.
 ///
 /// # Errors
 /// Returns an error with the path and the reason if the scene lacks a number.
@@ -96,15 +96,15 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-/// Returns the order in which quantities are set, smaller numbers first. Quantities with equal
-/// numbers are set in the order in which they are given.
+/// Returns the turn at which the quantity of an axis is set in a scene: 0 comes first. Quantities
+/// with the same turn are set in the order of the axes.
 fn turn(axis: &Axis) -> usize {
     match (axis.target, axis.path.as_str()) {
-        // The last mode follows from the number of springs, so the number of springs must be set
-        // before.
+        // The number of springs per wave comes after the number of springs, because the last mode
+        // depends on both.
         (Target::SpringsPerWave, _) => 1,
-        // The work of adhesion comes before its other numbers, which a scene cannot have without
-        // it.
+        // The work of adhesion comes before the other numbers of the adhesion, because a scene
+        // cannot have these numbers without a work of adhesion.
         (_, "adhesion.work") => 2,
         (_, "adhesion.closing_work") => 3,
         (_, "adhesion.range") => 4,
@@ -120,8 +120,8 @@ fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> A
     })
 }
 
-/// Returns path and value of the shortest wave with the given number of springs. The path is that
-/// of a mode, or of a wavelength if the scene states wavelengths.
+/// Returns the path and the value with which the shortest wave has the given number of springs. The
+/// value is a wavelength if the scene states wavelengths, otherwise a mode.
 fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     let points = scene.numerics.points as f64;
     match scene.number("roughness.wavelengths.1") {
@@ -130,8 +130,8 @@ fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene, each with an axis without values. Counts and numbers
-/// that are zero are left out.
+/// Returns the physical numbers of a scene, each with its axis (without values). Counts, such as
+/// the number of springs, and numbers that are zero are left out.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
@@ -142,7 +142,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     for path in paths.chain(stages) {
         let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).ok();
         let number = axis.zip(scene.number(&path).filter(|value| *value != 0.0));
-        // Variants of one field may have the same path, and each path is returned once.
+        // Variants of one field may have the same path. Each path is returned only once.
         numbers.extend(number.filter(|_| numbers.iter().all(|(axis, _)| axis.path != path)));
     }
     numbers
@@ -158,8 +158,8 @@ fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// Replaces the loading of a scene by a loading to a preload and a separation. Nothing is changed
-/// if the scene does not determine the unit of the preload.
+/// Replaces the loading of a scene by a loading to a preload, followed by separation. `preload` is
+/// in the unit of `axis`. If the scene does not determine this unit, it is not changed.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     let unit = if axis.unit == "N" {
         Some(1.0)
@@ -283,7 +283,8 @@ mod tests {
             let document = open(base).unwrap();
             let mut scene = with(document.scene(), path, value).unwrap();
             let changed = document.set(overrides.0, overrides.1).unwrap();
-            // A changed built-in scene loses its title and its notice.
+            // A built-in scene that is changed loses its title and its notice, so they are copied
+            // for the comparison.
             scene.title = changed.scene().title.clone();
             scene.notice = changed.scene().notice.clone();
             assert_eq!(&scene, &**changed.scene(), "{path}");
@@ -330,7 +331,7 @@ mod tests {
             );
             assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
-        // A longer profile has the same wavelengths, so more waves fit on it.
+        // On a longer profile with the same wavelengths, more waves fit.
         let modes = |document: &Document| {
             document
                 .scene()

@@ -19,14 +19,15 @@ pub const MOST_LINES: u64 = 1_000_000;
 /// profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Largest number of scenes of a plan of which every scene is checked. In larger plans only the
+/// Largest number of scenes in a plan with which every scene is checked. In larger plans only the
 /// scenes at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
-/// Largest number of cells with invalid scenes that a message names. Further ones are only counted.
+/// Largest number of cells with invalid scenes that an error message lists. Further cells are only
+/// counted.
 const MOST_NAMED: usize = 8;
 const MOST_FORCES: u64 = 1000;
 
-/// Groups of axes that set the same quantity. A plan may have at most one axis of each group.
+/// Groups of axes that determine the same quantity. A plan may have at most one axis of each group.
 const SAME: [&[&str]; 3] = [
     &[PRELOAD, "preload_in_N"],
     &[
@@ -142,9 +143,9 @@ impl Plan {
         self.places_on(0..self.axes.len(), cell)
     }
 
-    /// Returns for each axis of the plan the index of its value, for combination `number` of the
-    /// values on the given axes. The last of the given axes varies fastest. The index is 0 on all
-    /// other axes.
+    /// Returns the index of the value on each axis of the plan for combination `number` of the
+    /// values on `axes`. Of these axes the last one varies fastest. On all other axes the index is
+    /// 0.
     pub(super) fn places_on(
         &self,
         axes: impl DoubleEndedIterator<Item = usize>,
@@ -219,8 +220,8 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The scenes of its cells are checked when a study begins, and not again when
-/// its folder is opened.
+/// Checks of a plan. The scenes of its cells are checked when a study begins, but not again when
+/// the folder of the study is opened.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
@@ -283,7 +284,8 @@ impl Plan {
         wrong
     }
 
-    /// Returns the errors of the preloads and of the forces for the exponents of the stiffness.
+    /// Returns the errors of the preloads, and of the forces at which the exponents of the
+    /// stiffness are computed.
     fn errors_of_forces(&self) -> Vec<String> {
         let mut wrong = Vec::new();
         let preloads = self.axes.iter().find(|axis| axis.is_of_preloads());
@@ -336,8 +338,8 @@ impl Plan {
         })
     }
 
-    /// Returns the errors of the title and the notice, which follow the rules for a scene, and the
-    /// error of a hash in a plan without a measured file.
+    /// Returns the errors of the title and the notice, which follow the same rules as those of a
+    /// scene. Also returns an error if a plan without a measured file has a hash.
     fn errors_of_texts(&self) -> Vec<String> {
         let texts = Scene {
             title: self.title.clone(),
@@ -384,12 +386,12 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Returns cells that represent all cells: if their scenes are allowed, the scenes of all cells
-    /// are allowed, and one of them needs the most memory. The preload does not matter for this, so
-    /// only the first cell of each combination of the other values is returned. If there are more
-    /// than `most` combinations, only the cells at the ends of all axes are returned. This
-    /// suffices, because each condition on a number of a scene is a lower or an upper bound or
-    /// both, so that it holds between two values at which it holds.
+    /// Returns cells that represent all cells of the plan. If the scenes of these cells are
+    /// allowed, the scenes of all cells are allowed; and one of these cells needs the most memory.
+    /// The preload affects neither, so only the first cell of each combination of the other values
+    /// is returned. If there are more than `most` combinations, only the cells at the ends of all
+    /// axes are returned. This suffices because a condition on a number of a scene is always a
+    /// lower or an upper bound: if it holds at two values, it holds between them.
     pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
         if self.cells() / preloads <= most {
@@ -459,8 +461,8 @@ mod tests {
                 .collect();
             for (index, one) in axes.iter().enumerate() {
                 for other in &axes[..index] {
-                    // All seven values of the axis, and ranges of values nearer to the value of the
-                    // scene.
+                    // The axis once has all its seven values, and then fewer values around the
+                    // value of the scene.
                     for range in [0..7, 1..6, 2..5] {
                         let part = |axis: &Axis| Axis {
                             values: axis.values[range.clone()].to_vec(),

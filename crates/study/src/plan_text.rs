@@ -1,4 +1,5 @@
-//! The text of a plan: how it is read, with the scene that it names, and how it is written.
+//! The text of a plan: how a plan is read from it, with the scene that it names, and how a plan is
+//! written to it.
 
 use super::axis::{Axis, AxisText, Spacing};
 use super::error::StudyError;
@@ -175,7 +176,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Reads a plan and checks it without the scenes of its cells.
+    /// Reads a plan and checks it, but not the scenes of its cells.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.len() > LONGEST_TEXT {
@@ -198,8 +199,8 @@ impl Plan {
         Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
     }
 
-    /// Makes a plan from its text and its scene. All errors of the plan are returned together.
-    /// `lines` replaces the number of profiles in the text.
+    /// Makes a plan from its text and its scene. `lines` replaces the number of profiles in the
+    /// text. If the plan has errors, all of them are returned together.
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
         let PlanText {
             title,
@@ -232,8 +233,7 @@ impl Plan {
                 Err(error) => wrong.push(error),
             }
         }
-        // The values of the preload change fastest from cell to cell, wherever the plan states this
-        // axis.
+        // The preload must change fastest from cell to cell, so its axis is moved to the end.
         read_axes.sort_by_key(Axis::is_of_preloads);
         let plan = Plan {
             title,
@@ -325,7 +325,7 @@ fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
     StudyError::Plan(lines)
 }
 
-/// Returns the scene of a plan, with the changes of the fields made and with absolute paths.
+/// Returns the scene of a plan after the changes `set` of its fields, with absolute paths of files.
 fn resolved_scene(
     read: &PlanText,
     name: &str,
@@ -353,7 +353,8 @@ fn resolved_scene(
     }
 }
 
-/// Returns the error of a plan that states its scene twice, or not at all.
+/// Returns the error of a plan that names a scene file and also contains a scene, or that has
+/// neither.
 fn not_one(given: &str, name: &str) -> StudyError {
     in_plan(vec![format!("{given}; allowed: one of them")], name)
 }

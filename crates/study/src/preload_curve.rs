@@ -11,17 +11,17 @@ use asperity_contact::{Figures, Move};
 use asperity_data::{AxisScale, Control};
 use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
-/// Number of preloads of a curve.
+/// Number of preloads at which the random profiles are computed.
 const PRELOADS: usize = 64;
-/// Index of the preload of the scene among the preloads on a linear axis. The axis extends from the
-/// force at first touch to twice the preload of the scene.
+/// Position of the scene's preload among the preloads of a linear axis, counted from 0. The axis
+/// extends from the force at first touch to twice the preload of the scene.
 const LINEAR_PLACE: f64 = 31.0;
-/// Index of the preload of the scene among the preloads on a logarithmic axis. Of the six decades,
-/// two lie above this preload.
+/// Position of the scene's preload among the preloads of a logarithmic axis, counted from 0. Two of
+/// the six decades of the axis lie above this preload.
 const LOGARITHMIC_PLACE: f64 = 42.0;
 /// Number of decades of a logarithmic axis.
 const DECADES: f64 = 6.0;
-/// Relative difference up to which preloads count as equal.
+/// Relative difference up to which two preloads count as equal.
 const SAME: f64 = 1e-9;
 
 /// Adhesion force of a scene as a function of the preload, for the scene's own profile and for
@@ -84,7 +84,7 @@ impl PreloadCurve {
         Ok(curve)
     }
 
-    /// Makes the curve of a scene whose outcome is known, without results on further preloads.
+    /// Makes a curve that has the axis of preloads, but no results yet.
     fn begin(
         scene: &CheckedScene,
         outcome: &Outcome,
@@ -136,8 +136,8 @@ impl PreloadCurve {
     }
 }
 
-/// Returns the preload of a computed scene in N. For a scene without a preload, returns its
-/// adhesion force.
+/// Returns the preload of a computed scene in N. If the scene has no preload, its adhesion force is
+/// returned.
 ///
 /// # Errors
 /// Returns an error if the scene has no such force, no adhesion or a solver that is not exact.
@@ -251,8 +251,8 @@ mod tests {
             (Some(4), PreloadCurve::PROFILES, true)
         );
         assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
-        // The preload of the scene is one of the preloads of the axis, and its adhesion force lies
-        // on the staircase.
+        // The preload of the scene is on the axis, and the adhesion force of the scene lies on the
+        // staircase.
         let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
         let at = whole
@@ -270,7 +270,7 @@ mod tests {
             (whole.at(0.7 * preload), whole.axis.values[0]),
             (None, whole.staircase.touch.0)
         );
-        // A curve on another scale is computed anew.
+        // For another scale, the curve is computed anew.
         let ratios = curve(&computed, AxisScale::Logarithmic).unwrap();
         let (first, last) = (ratios.axis.values[0], ratios.axis.values[PRELOADS - 1]);
         assert!((last / first / 1e6 - 1.0).abs() < 1e-9 && ratios.at(preload).is_some());

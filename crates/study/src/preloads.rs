@@ -1,4 +1,5 @@
-//! Studies in memory over preloads in N, and the adhesion force of one profile over the preload.
+//! Studies in memory with preloads in N on an axis, and the adhesion force of one profile as a
+//! function of the preload.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::error::StudyError;
@@ -13,12 +14,12 @@ use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Number of preloads if the text does not state it.
+/// Number of preloads if the text of the axis does not state it.
 const USUAL: usize = 64;
-/// Allowed texts of preloads, for error messages.
+/// Part of error messages that says which texts of preloads are allowed.
 const ALLOWED: &str = "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Share of the axis of preloads within which each step of a staircase is located.
+/// Precision with which each step of a staircase is located, as a share of the axis of preloads.
 const FINEST: f64 = 1.0 / 2048.0;
 /// Relative difference up to which two adhesion forces count as equal.
 pub(super) const SAME: f64 = 1e-9;
@@ -128,7 +129,7 @@ impl Axis {
         })
     }
 
-    /// Returns the axis of preloads in N without values.
+    /// Returns an axis of preloads in N that has no values yet.
     pub(super) fn of_preload() -> Axis {
         Axis {
             path: PRELOAD.into(),
@@ -228,7 +229,8 @@ impl Staircase {
         !self.forces.is_empty() && self.halves().is_empty()
     }
 
-    /// Returns the middle of each interval of preloads that contains a step and is still too wide.
+    /// Returns the middle of each interval of preloads that contains a step and is wider than
+    /// [`FINEST`].
     fn halves(&self) -> Vec<f64> {
         let [first, .., last] = &self.forces[..] else {
             return Vec::new();
@@ -267,7 +269,7 @@ struct Turned {
     adhesion_force: f64,
 }
 
-/// Unloads a scene from the end of each of the given moves.
+/// Moves a separated body by each of the moves `ends`, and unloads it from the end of this move.
 fn turns_at(
     scene: &CheckedScene,
     ends: &[Move],
@@ -385,7 +387,8 @@ mod tests {
             (0.0, 2e-5, 9)
         );
         let results = solved(&document, &preloads, 16, 2).unwrap();
-        // The results on one profile agree with a run of the scene, loaded to one of the preloads.
+        // The results on the profile with the index 3 agree with a separate computation of the
+        // scene, loaded to one of the preloads.
         let scene = document.scene().with_seed(results.plan().seed_of(3));
         let loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
         let scene = scene.with(|scene| scene.loading = loading).unwrap();
@@ -411,7 +414,7 @@ mod tests {
             .map(|(_, one)| one.mean)
             .collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
-        // Twice the preload gives about twice the mean adhesion force.
+        // With twice the preload, the mean adhesion force is about twice as large.
         assert!(
             means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2],
             "{means:?}"
@@ -442,8 +445,8 @@ mod tests {
         );
     }
 
-    /// Results for preloads in N agree with those of separate runs, also for a smooth body. The
-    /// text of a plan keeps the unit of its preloads.
+    /// Results for preloads in N agree with those of separate computations, also for a smooth body.
+    /// The text of a plan keeps the unit N of its preloads.
     #[test]
     fn preloads_of_a_plan_may_be_in_newtons() {
         for base in ["jkr-sphere", "pressure-sensitive"] {
@@ -488,8 +491,8 @@ mod tests {
         }
     }
 
-    /// The steps of the staircase agree with those on a fine grid of preloads. A loading to a
-    /// negative preload turns while adhesion draws the bodies together.
+    /// The steps of the staircase are those found on a fine grid of preloads. A loading to a
+    /// negative preload turns at a point where adhesion still pulls the bodies together.
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();

@@ -1,5 +1,5 @@
-//! Premises of the model that a scene does not meet, alone or with unloading from several turning
-//! points.
+//! Premises of the model that a scene does not meet, either in its own loading or in unloadings
+//! from several turning points.
 
 use super::error::StudyError;
 use super::missing_profiles::Failures;

@@ -11,14 +11,14 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-/// Function that a computation calls repeatedly. Once the function returns true, the computation
-/// ends.
+/// Function that a computation calls again and again. The computation ends as soon as the function
+/// returns true.
 pub(super) type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// Solves profiles of a plan, given by their indices, on at most `threads` threads, or on fewer if
-/// the memory does not suffice. One thread uses the given simulation. Each further thread uses a
-/// new simulation of the same files. `receive` is called on the calling thread with each result and
-/// the index of its profile, as soon as the result is known.
+/// the memory does not suffice. One thread uses the simulation of the caller, and each further
+/// thread a new simulation of the same files. `receive` is called on the calling thread with each
+/// result and the index of its profile, as soon as the result is known.
 ///
 /// # Errors
 /// Returns the error of the first profile that cannot be solved, in the order of `lines`.
@@ -90,8 +90,8 @@ fn no_simulation() -> StudyError {
 }
 
 /// Calls a worker for each number below `count`, and returns the results. Each of the `threads`
-/// threads has its own worker. `receive` is called on the calling thread with each message of a
-/// worker, as soon as it is sent.
+/// threads has its own worker. Workers can send messages; `receive` is called on the calling thread
+/// with each message as soon as it is sent.
 ///
 /// # Errors
 /// Returns the error of the smallest number for which a worker fails.

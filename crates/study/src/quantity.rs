@@ -1,4 +1,5 @@
-//! Quantities that a study records for each cell and profile. Each quantity is a row of one table.
+//! Quantities that a study records for each cell and profile. One table has a row for each
+//! quantity.
 
 use super::case_outcome::CaseOutcome;
 use asperity_scene::Regime;
@@ -6,9 +7,9 @@ use asperity_scene::text::did_you_mean;
 use serde::{Deserialize, Serialize};
 
 struct Row {
-    /// Name in plans and in columns of tables.
+    /// Name of the quantity in plans and in columns of tables.
     name: &'static str,
-    /// Symbol; empty if there is none.
+    /// Symbol of the quantity; empty if the quantity has no symbol.
     symbol: &'static str,
     /// SI unit: `1` for a number without a unit, empty for a regime, which is not a number.
     unit: &'static str,
@@ -44,7 +45,8 @@ const ROW: Row = Row {
     of: |_| None,
 };
 
-/// Bounds of a quantity that may be positive or negative, and of a share.
+/// Bounds of the values: `ANY` for a quantity that may be positive or negative, and `SHARE` for a
+/// share.
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const SHARE: (f64, f64) = (0.0, 1.0);
 
@@ -285,7 +287,7 @@ impl Quantity {
                 let words = Quantity::ALL
                     .into_iter()
                     .flat_map(|quantity| [quantity.name(), quantity.symbol()]);
-                // Any wrong name is close to a symbol of one or two letters, so only longer words
+                // A symbol of one or two letters is close to any wrong name, so only longer names
                 // are suggested.
                 let near = did_you_mean(&name, words.filter(|word| word.chars().count() > 2));
                 if near.is_empty() {
@@ -322,8 +324,9 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Returns the value of the quantity in a case in its SI unit; NaN if the quantity has no value
-    /// there. The value of a regime is its index in [`asperity_scene::Regime::ALL`].
+    /// Returns the value of the quantity in the outcome of a case, in its SI unit; NaN if the
+    /// quantity has no value in this case. The value of a regime is its index in
+    /// [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case)
             .filter(|value| value.is_finite())

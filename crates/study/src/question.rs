@@ -1,5 +1,5 @@
 //! The question at which value of a number of a scene, or at which preload, a quantity reaches a
-//! target, and its answer on one profile.
+//! target, and the answer to this question on one profile.
 
 use super::axis::{Axis, Spacing, Target};
 use super::coordinates::{Allowed, Coordinates};
@@ -11,18 +11,18 @@ use asperity_data::{AxisScale, Remedy, format_quantity, format_range, parse_quan
 use asperity_scene::fields::Field;
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 
-/// Ratio of each end of the searched range to the value in the scene: a hundredth and a hundred
-/// times.
+/// Ratio of the upper end of the searched range to the value in the scene, and of this value to the
+/// lower end.
 const FACTOR: f64 = 100.0;
-/// Largest searched preload over the preload of full contact, if the loading of the scene has no
-/// force.
+/// Ratio of the largest searched preload to the preload of full contact, for a scene whose loading
+/// has no force.
 const DEEPER: f64 = 10.0;
-/// Largest width of the allowed range of a number that is searched as a whole.
+/// Largest width of the allowed range of a number with which the whole allowed range is searched.
 const NARROW: f64 = 2.0;
-/// Share of a narrow allowed range that is left out at each of its ends.
+/// Share of such a narrow range that is left out at each of its ends.
 const MARGIN: f64 = 0.01;
-/// Share of the largest preload up to which preloads are spaced evenly if the searched range begins
-/// at 0 N. Above this share the logarithms of the preloads are spaced evenly.
+/// If the searched range of preloads begins at 0 N, preloads are evenly spaced up to this share of
+/// the largest preload. Above this share they are evenly spaced on a logarithmic scale.
 const EVEN_PRELOADS: f64 = 1e-5;
 
 /// Path of the work of adhesion in a scene.
@@ -45,20 +45,19 @@ pub struct Question {
     pub searched: (f64, f64),
     /// Scale, linear or logarithmic, on which the values of the number are searched.
     scale: AxisScale,
-    /// Plan of the scene with its random profiles, which records the quantities that the search
-    /// needs.
+    /// Plan of the scene on its random profiles. It records the quantities that the search needs.
     pub(super) plan: Plan,
 }
 
-/// How a quantity depends on the sought number.
+/// How the quantity depends on the sought number. The method of the search follows from this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
     /// The quantity is monotonic in the number: it never falls, or it never rises.
     OneWay,
     /// The quantity is F_a/F_n as a function of the preload F_n.
     Ratio,
-    /// The quantity depends on the preload only through F_a. It is constant where F_a is constant,
-    /// and F_a is constant between its steps.
+    /// The quantity depends on the preload only through F_a, which is constant between its steps.
+    /// The quantity is then constant between these steps too.
     Steps,
     /// The quantity may rise and fall.
     Unknown,
@@ -70,14 +69,14 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target, or becomes equal to
-    /// the target and stays equal. Each has a relative error of at most 1e-9. If only some values
-    /// are allowed, such as whole numbers, the allowed value beside the crossing is given at which
-    /// the quantity is at least the target, apart from rounding errors.
+    /// Ascending values of the number at which the quantity crosses the target, or at which it
+    /// becomes equal to the target and stays equal. Each has a relative error of at most 1e-9. If
+    /// only some values are allowed, such as whole numbers, an allowed value next to the crossing
+    /// is given: the one at which the quantity is at least the target, apart from rounding errors.
     pub crossings: Vec<f64>,
     /// True if there may be more crossings than the listed ones, because the quantity comes close
     /// to the target between two numbers at which it was computed. Even the first crossing may be
-    /// missing then.
+    /// missing from the list then.
     pub may_miss: bool,
     /// True if the crossings follow from a proof: the quantity is monotonic, or is known in closed
     /// form, or was computed at all allowed numbers. Otherwise the quantity was computed only at
@@ -86,8 +85,9 @@ pub struct Answer {
     pub is_proven: bool,
     /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
-    /// True if the quantity is at least the target. The first entry is for the smallest, the second
-    /// for the largest searched number at which the quantity has a value.
+    /// Whether the quantity is at least the target at the smallest (first element) and at the
+    /// largest (second element) of the tried numbers. Numbers at which the quantity has no value do
+    /// not count.
     pub reached: [bool; 2],
     /// True if F_a(d=0) already reaches the target, so that no preload is needed. False if no
     /// preload is sought or if the quantity is not an adhesion force after the preload.

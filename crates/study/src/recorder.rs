@@ -1,5 +1,5 @@
-//! Computation of the recorded quantities of a streak: all cells that differ only in the preload,
-//! on one profile.
+//! Computation of the recorded quantities of a streak, which consists of all cells that differ only
+//! in the preload, on one profile.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
@@ -11,35 +11,36 @@ use asperity_scene::{CheckedScene, Governing, Outcome, Roughness, RunError, Simu
 use asperity_surface::SurfaceError;
 use std::mem::take;
 
-/// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity
-/// that has no value.
+/// For each preload, the values of the recorded quantities in the order of the plan; NaN for a
+/// quantity that has no value.
 pub(super) type Records = Vec<Vec<f64>>;
 
-/// Values of a record, or the reason, as one line of text, why they cannot be computed.
+/// Values of a record or, if they cannot be computed, the reason as one line of text.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Computes the records of a plan. The profile, its contact tree and its properties are kept for
-/// the next record with the same profile.
+/// Computes the records of a plan. The recorder keeps the profile, its contact tree and its
+/// properties for the next record on the same profile.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
-    /// Properties of the last profile, and the scene of this profile without adhesion and loading.
+    /// Scene of the last profile without adhesion and loading, and the properties of this profile.
     profile: Option<(CheckedScene, ProfileRecord)>,
-    /// Premises that recorded cases do not meet, each list with the number of its cell.
+    /// For each recorded cell with such warnings, its number and the premises of the model that it
+    /// does not meet.
     warnings: Vec<(u64, Vec<Warning>)>,
     stop: &'p dyn Fn() -> bool,
 }
 
-/// Outcomes of several loadings, each of which begins at separation.
+/// Outcomes of several loadings, each of which starts in separation.
 #[derive(Default)]
 struct SolvedLoops {
     loadings: Vec<LoadingOutcome>,
-    /// Adhesion force turned at first touch, F_a(d=0), N.
+    /// Adhesion force F_a(d=0) in N of a loading that turns at first touch.
     first_touch: Option<f64>,
 }
 
-/// Returns the turning point of a loading that consists of one move and a separation; `None` for
-/// any other loading.
+/// Returns the move at whose end a loading turns, if the loading consists of this move and a
+/// separation; `None` for any other loading.
 fn turn_of(loading: &[Move]) -> Option<Move> {
     match loading {
         [
@@ -62,8 +63,8 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Returns the premises that the cases recorded so far do not meet, each list with the number
-    /// of its cell, and empties the list.
+    /// Returns and removes the warnings collected so far: for each cell, its number and the
+    /// premises of the model that it does not meet.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }
@@ -86,8 +87,8 @@ impl<'p> Recorder<'p> {
             let first_line = reason.lines().next().unwrap_or_default();
             return Ok(vec![Err(printable(first_line).into_owned())]);
         }
-        // The error may be due to one preload, such as an unreachable force, so each is computed
-        // separately.
+        // The error may be due to a single preload, such as a force that cannot be reached. Each
+        // preload is therefore computed separately.
         let mut records = Vec::new();
         for cell in streak.cells.clone() {
             let cells = cell..cell + 1;
@@ -161,8 +162,8 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Returns the loading of each cell of a streak; empty if no recorded quantity needs it. The
-    /// preloads of the plan are in units of E* h L, or in N.
+    /// Returns the loading of each cell of a streak; empty if no recorded quantity depends on the
+    /// loading. The preloads of the plan may be in units of E* h L or in N.
     fn loops(
         &self,
         streak: &Streak,
@@ -187,7 +188,7 @@ impl<'p> Recorder<'p> {
             .collect()
     }
 
-    /// Computes several loadings, each of which begins at separation.
+    /// Computes several loadings, each of which starts in separation.
     fn solve(
         &mut self,
         scene: &CheckedScene,
@@ -214,7 +215,8 @@ impl<'p> Recorder<'p> {
         Ok(solved)
     }
 
-    /// Computes loops that turn at the given moves. A single loading passes all turning points.
+    /// Computes loops that turn at the ends of the moves, by a single loading through all turning
+    /// points.
     fn solve_reversals(
         &mut self,
         scene: &CheckedScene,
@@ -243,8 +245,9 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
-    /// Returns the recorded properties of the profile of a scene. They depend neither on the
-    /// adhesion nor on the loading, and are kept for the next scene with the same profile.
+    /// Returns the recorded properties of the profile of a scene. The properties depend neither on
+    /// the adhesion nor on the loading, so the recorder keeps them for the next scene with the same
+    /// profile.
     fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
         let heights = self.plan.records(Needs::Heights);
         let stiffness = self.plan.records(Needs::Stiffness);
@@ -263,8 +266,8 @@ impl<'p> Recorder<'p> {
                 Some(amplitude),
             ) = (&mut scene.roughness, amplitude)
             {
-                // The amplitude in the scene may follow from κ. It is stated as an rms height,
-                // because the adhesion is removed.
+                // The amplitude in the scene may depend on κ, which has no meaning without
+                // adhesion. It is therefore replaced by its rms height.
                 (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
             }
         })?;
@@ -275,8 +278,8 @@ impl<'p> Recorder<'p> {
         }
         let mut record = ProfileRecord::default();
         if heights {
-            // The heights are those of the roughness alone, without the form, which all profiles
-            // share.
+            // The form is the same for all profiles and is removed, so that the heights are those
+            // of the roughness alone.
             let (line, ..) = self
                 .simulation
                 .make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
@@ -289,9 +292,9 @@ impl<'p> Recorder<'p> {
         Ok(record)
     }
 
-    /// Returns the exponents of force and stiffness of the contact without adhesion; `None` if they
-    /// cannot be fitted. They are slopes of logarithms over the range of forces of the plan. The
-    /// stiffness is E* times the contact length, because no spring is stretched.
+    /// Returns the exponents of stiffness and force of the contact without adhesion; `None` if they
+    /// cannot be fitted. They are slopes of logarithms over the range of forces in the plan. The
+    /// stiffness is E* times the contact length, because without adhesion no spring is stretched.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else {
@@ -318,7 +321,8 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// Calls `record` with a recorder that uses the given simulation, and gives the simulation back.
+/// Calls `record` with a recorder that uses `simulation`, and stores the simulation back
+/// afterwards.
 pub(super) fn with_recorder<R>(
     plan: &Plan,
     simulation: &mut Simulation,
@@ -331,8 +335,8 @@ pub(super) fn with_recorder<R>(
     recorded
 }
 
-/// Returns true for an error that is due to the machine or the user, and not to the values of a
-/// cell.
+/// Returns true for an error that is caused by the machine (memory) or the user, and not by the
+/// values of a cell.
 fn is_of_machine(error: &RunError) -> bool {
     let is_short = matches!(
         error,

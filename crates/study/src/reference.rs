@@ -1,10 +1,10 @@
-//! Comparison of random profiles with random squares in three dimensions that have the same
+//! Comparison of random profiles with random square surfaces in three dimensions that have the same
 //! spectrum.
 //!
-//! A free rigid square of the side L is compared with a profile (line) of the length L, and no
-//! constant is fitted. The heights of line and square are drawn independently, so only means over
-//! many of them are compared. At the same force the area of contact of the line is 1.1 to 4.2 times
-//! the area in three dimensions.
+//! A free rigid square of the side L on an elastic half-space is compared with a profile (line) of
+//! the length L. No constant is fitted. The heights of square and line are drawn independently, so
+//! only means over many squares and many lines are compared. At the same force the contact area of
+//! the line model is 1.1 to 4.2 times the contact area in three dimensions.
 
 use super::compared::Compared;
 use super::ensemble::Ensemble;
@@ -15,26 +15,26 @@ use asperity_data::CountedWarning;
 use asperity_scene::Scene;
 use serde::Serialize;
 
-/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells
-/// along the side of a square.
+/// Options of a [`Reference`]: numbers of random profiles, of random square surfaces in three
+/// dimensions, and of grid cells along the side of a square surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
-    /// Number of grid cells along the side of a square, a power of two.
+    /// Number of grid cells along the side of a square surface, a power of two.
     pub cells: usize,
-    /// Number of random squares.
+    /// Number of random square surfaces in three dimensions.
     pub maps: u64,
-    /// Number of random profiles.
+    /// Number of random profiles, the one-dimensional model of the surfaces.
     pub lines: u64,
 }
 
-/// Number of random profiles for each square. A profile takes about a thousandth of the computing
-/// time of a square.
+/// Number of random profiles for each square surface. A profile takes about a thousandth of the
+/// computing time of a square surface.
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16
-    /// random profiles for each square. `maps` is the number of squares. `None` means 12 squares
-    /// for a scene with adhesion, and 24 without adhesion.
+    /// Returns the usual options for a scene: 64 grid cells along the side of a square surface, and
+    /// 16 random profiles for each square surface. `maps` is the number of square surfaces. `None`
+    /// means 12 square surfaces for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions {
@@ -45,88 +45,92 @@ impl ReferenceOptions {
     }
 }
 
-/// Comparison of random profiles with random squares in three dimensions under one force, without
-/// adhesion.
+/// Comparison of random profiles with random square surfaces in three dimensions at one force,
+/// without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
-    /// Force on each profile and on each square, N.
+    /// Force in N on each profile and on each square surface.
     pub force: f64,
     /// Indentation in m at this force, counted from first touch.
     pub indentation: Compared,
     /// Stiffness of the contact in N/m at this force: the change of force divided by the change of
     /// indentation.
     pub stiffness: Compared,
-    /// Mean area of contact of the squares at this force, m².
+    /// Mean contact area of the square surfaces at this force, m².
     pub area: f64,
-    /// Mean number of grid cells of a square in contact at this force.
+    /// Mean number of grid cells of a square surface that are in contact at this force.
     pub cells: f64,
 }
 
 impl Loaded {
-    /// Smallest mean number of grid cells in contact with which a force is compared.
+    /// Smallest mean number of grid cells in contact with which profiles and square surfaces are
+    /// compared at a force.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns the larger of the errors [`Compared::grid`] of indentation and stiffness.
+    /// Returns [`Compared::grid`], the error due to the grid, of the indentation or of the
+    /// stiffness, whichever is larger.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
 }
 
-/// Force at which profiles and squares are not compared because too few grid cells of the squares
-/// are in contact.
+/// Force at which profiles and square surfaces are not compared because too few grid cells of the
+/// square surfaces are in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// Force on each square, N.
+    /// Force on each square surface, N.
     pub force: f64,
-    /// Mean number of grid cells of a square in contact, less than [`Loaded::LEAST_CELLS`].
+    /// Mean number of grid cells of a square surface in contact, less than [`Loaded::LEAST_CELLS`].
     pub cells: f64,
-    /// Number of grid cells along the side of a square with which enough cells would be in contact;
-    /// `None` if it is more than the solver allows.
+    /// Number of grid cells along the side of a square surface with which enough cells would be in
+    /// contact; `None` if the solver does not allow so many cells.
     pub grid: Option<usize>,
 }
 
-/// Roughness of the profiles and of the squares of a comparison.
+/// Roughness of the profiles and of the square surfaces that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RoughnessOfBoth {
     /// Roughness of the profiles.
     pub line: ComparedRoughness,
-    /// Roughness of the squares without adhesion. It has the rms height of the profiles.
+    /// Roughness of the square surfaces for the contacts without adhesion, with the rms height of
+    /// the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the squares with adhesion, with the elastic energy of the profiles; `None` for
-    /// a scene without adhesion.
+    /// Roughness of the square surfaces for the contacts with adhesion, with the elastic energy of
+    /// the profiles; `None` for a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
 /// Comparison of a scene on random profiles with the same scene on random squares in three
 /// dimensions. A square is a rigid rough body of the side L on an elastic half-space.
 ///
-/// Profile and square are loaded in the same way: from separation to the same force or indentation,
-/// and back to separation. If the loading of the scene has several loops, the last one counts. It
-/// turns at the stage with the largest force after the last separation.
+/// A profile and a square are loaded in the same way: from separation to the same force or
+/// indentation, and back to separation. If the loading of the scene has several such loops, only
+/// the last loop is compared. It turns at the end of its stage with the largest force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
-    /// Numbers of profiles, squares and grid cells with which the comparison was computed.
+    /// Numbers of profiles, square surfaces and grid cells with which the comparison was computed.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Longest and shortest wave of the roughness on profiles and squares, each as its number of
-    /// periods over the length L; `None` for a smooth body.
+    /// Longest and shortest wave of the roughness on profiles and square surfaces, each as its
+    /// number of periods over the length L; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
     /// Number of periods over L of the shortest wave of the scene, if the comparison omits this
-    /// wave because the grid of the squares is too coarse; otherwise `None`.
+    /// wave because the grid of the square surfaces is too coarse; otherwise `None`.
     pub omitted: Option<u64>,
-    /// Roughness of profiles and squares; `None` for a smooth body.
+    /// Roughness of profiles and square surfaces; `None` for a smooth body.
     pub roughness: Option<RoughnessOfBoth>,
-    /// Work of adhesion on opening in J/m², the same on profiles and squares; `None` without
-    /// adhesion.
+    /// Work of adhesion on opening in J/m², the same for profiles and square surfaces; `None`
+    /// without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Stages of the loop of profiles and squares.
+    /// Two stages of the loop in which profiles and square surfaces are compared: loading and
+    /// separation.
     pub compared_loading: [Move; 2],
     /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement
     /// of the instrument, this is the mean force of the profiles there.
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the
-    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square are
-    /// in contact.
+    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square
+    /// surface are in contact.
     pub loading: Vec<Loaded>,
     /// Forces at which fewer than [`Loaded::LEAST_CELLS`] grid cells are in contact.
     pub left_out: Vec<LeftOut>,
@@ -140,7 +144,8 @@ pub struct Reference {
     /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
     /// True for a smooth body of revolution for which the method of dimensionality reduction is
-    /// exact, so that every difference between profile and square is an error of the square.
+    /// exact, so that every difference between profile and square surface is an error of the square
+    /// surface.
     pub line_is_exact: bool,
     /// Errors of the comparison of adhesion forces, or of indentations for a scene without
     /// adhesion, one for each source.
@@ -149,28 +154,30 @@ pub struct Reference {
     /// profiles among the first [`Reference::profiles_for_warnings`].
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
-    /// Number of convolutions over the grid of a square that the solver computed for all squares
-    /// together, a measure of the computing work. The coarser squares, which show the error of the
-    /// grid, are not counted.
+    /// Number of convolutions over the grid of a square surface that the solver computed for all
+    /// square surfaces together, as a measure of the computing work. The computations on
+    /// the coarser grid, which show the error of the grid, are not counted.
     pub convolutions: u64,
-    /// Computing time in s: first of all profiles together, then of all squares together.
+    /// Computing time in s: first of all profiles together, then of all square surfaces together.
     pub seconds: [f64; 2],
-    /// Mean computing time of one square in s, without its coarser square.
+    /// Mean computing time of one square surface in s, without the computation of the same surface
+    /// on the coarser grid.
     pub seconds_of_square: f64,
 }
 
-/// Event that [`Reference::of`] reports while it compares profiles with squares.
+/// Event that [`Reference::of`] reports while it compares profiles with square surfaces.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
     /// Memory and computing time are estimated, and the computation of the profiles begins.
     Begins {
-        /// Number of squares, which is one for a body without random roughness.
+        /// Number of square surfaces, which is one for a body without random roughness.
         maps: u64,
-        /// Number of threads that share the squares.
+        /// Number of threads that share the square surfaces.
         threads: usize,
         /// Memory in bytes that all threads need together.
         bytes: u64,
-        /// Computing time of all squares in s, estimated from smaller squares.
+        /// Computing time of all square surfaces in s, estimated from surfaces with fewer grid
+        /// cells.
         seconds: f64,
     },
     /// Another hundredth (about) of the profiles is computed.
@@ -181,23 +188,25 @@ pub enum ReferenceEvent {
         /// in the loop and without adhesion.
         lines: u64,
     },
-    /// All profiles are computed, and the computation of the squares begins.
+    /// All profiles are computed, and the computation of the square surfaces begins.
     ProfilesEnd {
         /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene
         /// has no adhesion.
         lines: Vec<f64>,
     },
-    /// The contact of a square is computed at one more force or indentation.
+    /// The contact of a square surface is computed at one more force or indentation.
     Loaded {
-        /// Share of the work on all squares that this step is, estimated from smaller squares.
+        /// Share of this step in the work on all square surfaces, estimated from surfaces with
+        /// fewer grid cells.
         share: f64,
     },
-    /// The computation of a square is finished.
+    /// The computation of a square surface is finished.
     Square {
-        /// Points of the force curve of the square, each with indentation in m and force in N.
+        /// Points of the force curve of the square surface, each with indentation in m and force in
+        /// N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene
-        /// has no adhesion.
+        /// Adhesion force of the square surface in N, or its indentation at the preload in m if the
+        /// scene has no adhesion.
         headline: f64,
     },
 }

@@ -8,40 +8,40 @@ use serde::Serialize;
 /// if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid
-    /// cell of any square, divided by the rms height of the square.
+    /// Largest error of the gap between the bodies in the contacts without adhesion, divided by the
+    /// rms height of the square surface. It is the maximum over all grid cells of all surfaces.
     pub solver: f64,
-    /// Error of the mean over the squares by their grid. It is the relative difference between this
-    /// mean and the mean over the same squares with half as many grid cells along the side. If the
-    /// profile is exact and differs more from the squares, it is the difference from the profile.
-    /// `None` if half as many cells are too few.
+    /// Error of the mean over the square surfaces due to their grid. It is the relative difference
+    /// between this mean and the mean over the same surfaces with half as many grid cells along the
+    /// side. If the profile model is exact and differs more from the square surfaces, its relative
+    /// difference is used instead. `None` if half as many cells are too few.
     pub grid: Option<f64>,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
-    /// ratio; `None` for fewer than two profiles or squares.
+    /// ratio; `None` for fewer than two profiles or square surfaces.
     pub sample: Option<f64>,
-    /// Mean over the profiles divided by the mean over the squares, minus 1; `None` if this ratio
-    /// is unknown.
+    /// Mean over the profiles divided by the mean over the square surfaces, minus 1; `None` if this
+    /// ratio is unknown.
     pub difference: Option<f64>,
-    /// Smallest error of the model that the comparison shows: the part of `difference`, without its
-    /// sign, that exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the
-    /// difference, and `None` if one of them is unknown.
+    /// Smallest error of the model that follows from the comparison: the part of the magnitude of
+    /// `difference` that exceeds the errors `sample` and `grid`. It is 0 if these errors can
+    /// explain the difference, and `None` if one of these errors is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,
 }
 
-/// Properties of the bodies of a comparison.
+/// Properties of the compared bodies that determine which errors exist.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bodies {
-    /// True for random profiles and squares.
+    /// True if profiles and square surfaces are random.
     pub are_random: bool,
-    /// True for a body of revolution for which the profile is exact.
+    /// True for a body of revolution for which the profile model is exact.
     pub line_is_exact: bool,
 }
 
 impl ReferenceBudget {
-    /// Collects the errors. `headline` is the comparison of the adhesion force or of the
-    /// indentation. `solver` is the error [`ReferenceBudget::solver`].
+    /// Collects the errors. `headline` is the comparison of the adhesion force or, without
+    /// adhesion, of the indentation. `solver` is the error [`ReferenceBudget::solver`].
     pub(super) fn new(solver: f64, headline: Option<&Compared>, bodies: Bodies) -> ReferenceBudget {
         let mut budget = ReferenceBudget {
             solver,
@@ -77,12 +77,13 @@ impl ReferenceBudget {
         self.sample = compared.error.map(|error| error / compared.ratio);
         self.grid = compared.grid;
         if bodies.line_is_exact {
-            // The profile is exact, so the difference is an error of the squares.
+            // The profile is exact for this body, so the whole difference is an error of the square
+            // surfaces.
             self.grid = Some(difference.abs().max(compared.grid.unwrap_or(0.0)));
             self.model = Some(0.0);
             return;
         }
-        // If the bodies are not random, the comparison has no error of a sample.
+        // If the bodies are not random, there is no error due to a finite number of samples.
         let sample = if bodies.are_random {
             compared.error
         } else {
@@ -104,8 +105,8 @@ mod tests {
         line_is_exact: false,
     };
 
-    /// Returns a comparison with the ratio `lines`/2 and the error `error`. The coarse squares have
-    /// the relative difference `grid`.
+    /// Returns a comparison with the ratio `lines`/2 and the error `error`. The mean over coarser
+    /// squares differs by the share `grid`.
     fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
         let values = Values {
             lines: vec![lines; 2],
@@ -127,8 +128,8 @@ mod tests {
         assert_eq!((within.model, within.largest), (Some(0.0), "sample"));
         let coarse = budget(compared(2.08, Some(0.05), Some(0.1)));
         assert_eq!((coarse.model, coarse.largest), (Some(0.0), "grid"));
-        // The ratio 8/2 exceeds 1 by 3. The error of the sample explains 1, and the error of the
-        // grid 4 · 0.1, so 1.6 is left.
+        // The ratio 8/2 exceeds 1 by 3. Of this, the error of the sample explains 1 and the error
+        // of the grid 4 · 0.1, so that 1.6 remains.
         let far = budget(compared(8.0, Some(1.0), Some(0.1)));
         assert!(
             (far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model",
@@ -158,8 +159,8 @@ mod tests {
         );
     }
 
-    /// A smooth square differs from a line of the same length without any error of a sample. The
-    /// line of a body of revolution is exact.
+    /// For smooth bodies, a flat square and a line may differ although there is no error of a
+    /// sample. For a body of revolution the line is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

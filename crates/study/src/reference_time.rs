@@ -1,36 +1,37 @@
-//! Computing time of a comparison with squares in three dimensions, estimated from small squares
-//! before the comparison begins.
+//! Computing time of a comparison with square surfaces in three dimensions. It is estimated from
+//! surfaces with few grid cells before the comparison begins.
 
 use super::error::StudyError;
 use super::spatial::{Body, SquareLoading, Watch};
 use asperity_data::format_rounded;
 use std::time::Instant;
 
-/// Smallest number of grid cells along the side of a square, also for the coarser square that is
-/// compared with it.
+/// Smallest number of grid cells along the side of a square surface, also for the coarser grid that
+/// shows the error of the grid.
 pub const LEAST_CELLS: usize = 32;
-/// Smallest computing time in s of a small square from which the time of larger squares is
-/// estimated.
+/// Smallest computing time in s of a square surface with few cells from which the time of surfaces
+/// with more cells is estimated.
 const LEAST_TIMED: f64 = 0.2;
-/// Factor of the computing time of a square if the number of cells along its side doubles: first
-/// without, then with adhesion.
+/// Factor by which the computing time of a square surface grows if the number of cells along its
+/// side doubles: first without adhesion, then with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest allowed computing time of a comparison in s, one day.
 pub const LONGEST: f64 = 86_400.0;
 
-/// Computing time of a square, estimated from smaller squares. Each of them has twice the cells
-/// along its side of the one before.
+/// Computing time of a square surface. It is estimated from the same surface with fewer cells,
+/// whose number along the side is doubled until the computation takes long enough.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareTime {
-    /// Computing time in s of a square together with the coarser square that is compared with it.
+    /// Computing time in s of a square surface, including the computation on a grid with half as
+    /// many cells along the side.
     pub seconds: f64,
-    /// Number of loads of a square.
+    /// Number of loads (forces or indentations) at which a square surface is computed.
     pub loads: u64,
     pub is_adhesive: bool,
 }
 
 impl SquareTime {
-    /// Estimates the computing time of a square with `cells` grid cells along its side.
+    /// Estimates the computing time of a square surface with `cells` grid cells along its side.
     pub fn estimate(
         body: &Body,
         cells: usize,
@@ -67,19 +68,19 @@ impl SquareTime {
         }
     }
 
-    /// Returns the computing time in s of `maps` squares on `threads` threads.
+    /// Returns the computing time in s of `maps` square surfaces on `threads` threads.
     pub fn of_squares(&self, maps: u64, threads: usize) -> f64 {
         self.seconds * maps.div_ceil(threads as u64) as f64
     }
 
-    /// Returns the share of one load in the computation of `maps` squares.
+    /// Returns one load of one square surface as a share of the computation of `maps` surfaces.
     pub fn share_of_load(&self, maps: u64) -> f64 {
         1.0 / (self.loads.max(1) as f64 * maps as f64)
     }
 }
 
-/// Returns an error if the comparison of `maps` squares with `cells` grid cells along the side
-/// takes longer than a day.
+/// Returns an error if the comparison of `maps` square surfaces with `cells` grid cells along the
+/// side takes longer than a day.
 pub fn check_time(
     cells: usize,
     maps: u64,

@@ -1,5 +1,5 @@
-//! A scene of profiles and squares that both have only those waves that the grid of the squares
-//! resolves.
+//! The bodies of a comparison with three dimensions: random profiles and square surfaces that have
+//! only the waves that the grid of the square surfaces resolves.
 
 use super::error::StudyError;
 use super::shells::{ComparedRoughness, Shells, Spectrum};
@@ -11,38 +11,41 @@ use asperity_surface::{Amplitude, EquivalentLine, SelfAffine};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Smallest number of grid cells on the shortest wave of a square.
+/// Smallest number of grid cells per shortest wave on a square surface.
 const CELLS_PER_WAVE: u64 = 8;
-/// Number of springs on the shortest wave of a profile.
+/// Number of springs per shortest wave on a profile.
 const SPRINGS_PER_WAVE: u64 = 64;
 /// Smallest number of springs of a profile.
 const LEAST_SPRINGS: u64 = 4096;
-/// Share of the largest gap of a profile below which a difference counts as a rounding error.
+/// Share of the largest gap of a profile up to which a difference of gaps counts as a rounding
+/// error.
 const ROUNDING: f64 = 1e-12;
 
-/// A scene without the waves that the grid of the squares does not resolve.
+/// Profiles and square surfaces of a scene, without the waves that the grid of the square surfaces
+/// does not resolve.
 pub(super) struct Resolved {
-    /// Scene of the profiles.
+    /// Scene that is computed on the profiles.
     pub line: CheckedScene,
-    /// Spectrum of the random profiles of a measured surface, without the waves that squares do not
-    /// resolve.
+    /// Spectrum of the random profiles if the scene has a measured surface, without the waves that
+    /// the square surfaces do not resolve.
     measured: Option<Arc<MeasuredRoughness>>,
     pub body: Body,
     /// Roughness of the profiles; `None` for smooth profiles.
     pub line_roughness: Option<ComparedRoughness>,
     /// First and last mode of the roughness, in periods over the length; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Last mode of the scene, if the grid of the squares does not resolve it.
+    /// Number of periods of the last mode of the scene, if the grid of the square surfaces does not
+    /// resolve this mode; otherwise `None`.
     pub omitted: Option<u64>,
     /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards.
-    /// For this body the profile is exact as long as the contact does not reach the ends of the
-    /// profile.
+    /// The profile model is exact for such a body as long as the contact does not reach the ends of
+    /// the profile.
     pub line_is_exact: bool,
 }
 
 impl Resolved {
-    /// Leaves out the waves of a scene that squares with `cells` grid cells along a side do not
-    /// resolve.
+    /// Makes the bodies of a scene without the waves that a grid with `cells` cells along the side
+    /// of a square surface does not resolve.
     ///
     /// # Errors
     /// Returns an error if the number of cells is not allowed, or if the scene has no body in three
@@ -62,8 +65,8 @@ impl Resolved {
         let line_is_exact =
             scene.roughness.is_none() && scene.form.is_some() && rises_everywhere(&line.gaps);
         let mut changed = Scene::clone(scene);
-        // The work of adhesion is that of the complete scene, although κ changes when waves are
-        // left out.
+        // Without some waves, κ would give another work of adhesion. The bodies therefore get the
+        // work of adhesion of the complete scene.
         if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
             changed.adhesion = Some(adhesion.with_work(work));
         }
@@ -95,9 +98,9 @@ impl Resolved {
         Ok(resolved)
     }
 
-    /// Leaves out the waves of a self-affine spectrum that the grid of the squares does not
-    /// resolve, for the squares and for the scene of the profiles. `amplitude` is that of the
-    /// complete spectrum.
+    /// Removes the waves of a self-affine spectrum that the grid of the square surfaces does not
+    /// resolve, from these surfaces and from the profiles. `amplitude` is that of the complete
+    /// spectrum.
     fn keep_self_affine(
         &mut self,
         spectrum: SelfAffine,
@@ -134,8 +137,8 @@ impl Resolved {
         Ok(())
     }
 
-    /// Leaves out the waves of a measured spectrum that the grid of the squares does not resolve,
-    /// for the squares and for the scene of the profiles.
+    /// Removes the waves of a measured spectrum that the grid of the square surfaces does not
+    /// resolve, from these surfaces and from the profiles.
     fn keep_measured(
         &mut self,
         line: &EquivalentLine,
@@ -153,11 +156,11 @@ impl Resolved {
         Ok(())
     }
 
-    /// Returns the last wave that squares with `cells` grid cells along a side resolve. The scene
-    /// has the waves from `first` to `whole`, in periods over the length.
+    /// Returns the last wave that a grid with `cells` cells along the side resolves. The waves of
+    /// the scene go from `first` to `whole`, counted in periods over the length.
     ///
     /// # Errors
-    /// Returns an error if the squares resolve none of these waves.
+    /// Returns an error if the grid resolves none of these waves.
     fn keep_waves(&mut self, first: u64, whole: u64, cells: usize) -> Result<u64, StudyError> {
         let last = whole.min(cells as u64 / CELLS_PER_WAVE);
         self.waves = Some((first, last));
@@ -168,8 +171,8 @@ impl Resolved {
         Ok(last)
     }
 
-    /// Sets the waves of the squares from a spectrum. `amplitude` is that of the profiles with the
-    /// same modes.
+    /// Sets the roughness of the square surfaces from a spectrum. `amplitude` is that of the
+    /// profiles with the same modes.
     fn roughen(&mut self, spectrum: Spectrum, modes: (u64, u64), amplitude: Amplitude) {
         let shells = Shells::new(spectrum, self.body.side, modes);
         let line = ComparedRoughness {
@@ -196,13 +199,14 @@ impl Resolved {
 }
 
 /// Returns the number of springs of a profile whose shortest wave has `last` periods over the
-/// length.
+/// length of the profile.
 fn springs(last: u64) -> u64 {
     let springs = (SPRINGS_PER_WAVE * last).next_power_of_two();
     springs.max(LEAST_SPRINGS)
 }
 
-/// Returns true if the profile with these gaps rises everywhere on both sides of its deepest point.
+/// Returns true if the surface falls everywhere from its highest point to both sides, so that the
+/// gaps rise.
 fn rises_everywhere(gaps: &[f64]) -> bool {
     let deepest = gaps.iter().copied().fold(0.0, f64::max);
     let summit = (0..gaps.len())
@@ -215,7 +219,7 @@ fn rises_everywhere(gaps: &[f64]) -> bool {
         && left.all(|pair| pair[0] >= pair[1] - rounding)
 }
 
-/// Converts an error of the scene that is compared.
+/// Converts an error that occurs in the computation of a scene of the comparison.
 pub(super) fn of_scene(error: RunError) -> StudyError {
     error.into()
 }

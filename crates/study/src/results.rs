@@ -1,4 +1,5 @@
-//! All values of a study: read from its shard files or its merged table, or computed in memory.
+//! The values that a study has recorded: read from its shard files or its merged table, or computed
+//! in memory.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -13,7 +14,7 @@ use asperity_data::{AxisScale, Control, CountedWarning, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest number of records and cells that a message names.
+/// Largest number of records, or of cells, that a message lists.
 const MOST_NAMED: usize = 8;
 
 /// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random
@@ -21,14 +22,14 @@ const MOST_NAMED: usize = 8;
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
-    /// Values of all records, ordered by cell, then by profile; NaN for missing ones.
+    /// Values of all records, ordered by cell and then by profile; NaN for missing values.
     values: Vec<f64>,
     done: Vec<bool>,
     records_done: u64,
-    /// Reasons why records cannot be computed, by the index of the record.
+    /// Reasons why some records cannot be computed, by the index of the record.
     failed: BTreeMap<u64, String>,
-    /// Premises of the model that records do not meet, by the index of the record. Only records
-    /// computed in memory have them.
+    /// Premises of the model that some records do not meet, by the index of the record. They are
+    /// known only for records that were computed in memory.
     warnings: BTreeMap<u64, Vec<Warning>>,
 }
 
@@ -61,7 +62,8 @@ pub struct Merged {
 }
 
 impl PartialEq for Results {
-    /// Returns true for equal plans and values with equal bits. Two missing values are equal.
+    /// Returns true if the plans are equal and all values have the same bits. Two missing values
+    /// count as equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -115,7 +117,7 @@ fn same_record(one: &Recorded, other: &Recorded) -> bool {
 }
 
 impl Results {
-    /// Creates a study without records.
+    /// Creates results of a plan in which all records are missing.
     ///
     /// # Errors
     /// Returns an error if the memory does not suffice for the table.
@@ -137,7 +139,7 @@ impl Results {
         })
     }
 
-    /// Creates the study of [`Results::of_scene`] without values.
+    /// Creates the results of [`Results::of_scene`] with all values missing.
     ///
     /// # Errors
     /// Returns the errors of [`Results::of_scene`], except those of the computation.
@@ -197,7 +199,7 @@ impl Results {
         }
     }
 
-    /// Stores the records of a profile in all cells.
+    /// Stores the records of a computed profile in all cells.
     pub(super) fn take_in(&mut self, solved: SolvedProfile) {
         for (cell, record) in (0..).zip(solved.records) {
             self.set_record(cell * self.plan.lines + solved.line, record);
@@ -205,8 +207,8 @@ impl Results {
         self.set_warnings(solved.line, solved.warnings);
     }
 
-    /// Stores the premises that records of a profile do not meet. Each list has the number of its
-    /// cell.
+    /// Stores, for each cell with such warnings, the premises of the model that it does not meet on
+    /// the profile with the index `line`.
     pub(super) fn set_warnings(&mut self, line: u64, warnings: Vec<(u64, Vec<Warning>)>) {
         for (cell, warnings) in warnings {
             let place = cell * self.plan.lines + line;
@@ -268,8 +270,8 @@ impl Results {
         Ok((results, merged))
     }
 
-    /// Returns the error for two records with the same index but different values. The second
-    /// record is in the file `other`.
+    /// Returns the error for two records with the same index but different values. `other` is the
+    /// file with the second record.
     fn conflict(
         &self,
         folder: &Folder,
@@ -290,7 +292,8 @@ impl Results {
         }
     }
 
-    /// Returns the number of records that have values or a reason why they have none.
+    /// Returns the number of records that are done: they have values, or a reason why they have
+    /// none.
     pub(super) fn count(&self) -> u64 {
         self.records_done
     }
@@ -306,8 +309,8 @@ impl Results {
         *done = true;
     }
 
-    /// Stores the values of a record. The index `place` counts the profiles of the first cell, then
-    /// those of the second cell, and so on.
+    /// Stores the values of the record with the index `place`. Records are numbered by cell and
+    /// then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
@@ -342,14 +345,16 @@ impl Results {
             .map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
     }
 
-    /// Returns the reason why a record has no values; `None` if it has values or is missing.
+    /// Returns the reason why a record could not be computed; `None` if it has values or is
+    /// missing.
     pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
         self.failed
             .get(&(cell * self.plan.lines + line))
             .map(String::as_str)
     }
 
-    /// Returns the reason why a cell has no values, if it cannot be computed on any profile.
+    /// Returns the reason why a cell has no values; `None` unless it cannot be computed on all
+    /// profiles.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());
@@ -359,8 +364,8 @@ impl Results {
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
-    /// the number of these profiles. The list is empty for results that were read from files. There
-    /// the column [`Quantity::Warnings`] has the number of premises.
+    /// the number of these profiles. The list is empty for results that were read from files, in
+    /// which only the number of premises is recorded, as [`Quantity::Warnings`].
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
@@ -374,8 +379,8 @@ impl Results {
         counted
     }
 
-    /// Returns the premises of the model that profiles do not meet, over all [cells](Plan), each
-    /// with the number of these profiles.
+    /// Returns the premises of the model that profiles do not meet in any of the [cells](Plan),
+    /// each with the number of these profiles.
     pub fn all_warnings(&self) -> Vec<CountedWarning> {
         let mut counted: Vec<CountedWarning> = Vec::new();
         for line in 0..self.plan.lines {
@@ -485,7 +490,8 @@ impl Results {
         })
     }
 
-    /// Returns the recorded quantities except regimes. The scale of each suits the whole study.
+    /// Returns the recorded quantities except regimes, each with the scale that suits its means in
+    /// the whole study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self
             .plan
@@ -497,16 +503,16 @@ impl Results {
             .collect()
     }
 
-    /// Returns a recorded quantity with its scale. Without a given scale it gets the scale that
-    /// suits the means in the whole study.
+    /// Returns a recorded quantity with its scale. If `scale` is `None`, the quantity gets the
+    /// scale that suits its means in the whole study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means =
             (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
-    /// Returns the cells over one or two axes with the quantities of `layers`. On the other axes,
-    /// `places` has the indices of the fixed values.
+    /// Returns a grid of the cells over one or two axes, with the quantities of `layers`. On each
+    /// other axis, `places` has the index of the fixed value.
     pub(super) fn grid(
         &self,
         axes_of_grid: (usize, Option<usize>),
@@ -541,7 +547,7 @@ impl Results {
         )
     }
 
-    /// Returns the statistics of the given quantities in a cell; `None` for a cell without records.
+    /// Returns the statistics of these quantities in a cell; `None` if the cell has no records.
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<GridCell> {
         let statistics = quantities
             .iter()

@@ -1,22 +1,22 @@
-//! Numbers by which theories decide whether nominally flat, randomly rough bodies adhere.
+//! Criteria by which theories decide whether nominally flat, randomly rough bodies adhere.
 //!
-//! The numbers are moments of the surface in two dimensions: rms height h, rms gradient g, and rms
-//! mean curvature c, which is half of the rms Laplacian. The equivalent profile has the same
-//! moments, because its spectrum is C1D = πq C2D.
+//! The criteria depend on three numbers of the two-dimensional surface: rms height h, rms gradient
+//! g, and rms mean curvature c, which is half of the rms Laplacian. The equivalent profile has the
+//! same h, g and c, because its spectrum is C1D = πq C2D.
 
 use super::criterion::{Criterion, long_ranged, number};
 use asperity_scene::Governing;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 
-/// Largest range of the attraction at which the criterion of Pastewka and Robbins holds, as a share
-/// of the gap (16/3)g²/c; Monti, Sanner and Pastewka (2021).
+/// Largest range of the attraction with which the criterion of Pastewka and Robbins holds, as a
+/// share of the gap (16/3)g²/c; Monti, Sanner and Pastewka (2021).
 const MOST_OF_GAP: f64 = 0.1;
 
 /// Hurst exponents for which the bearing area model has the repulsion 0.75 q_L h E* e^(−2u/h).
 const HURST_OF_BEARING_AREA: [f64; 2] = [0.7, 0.9];
 
-/// θ above which surfaces never bond, Gui et al. (1999).
+/// Value of θ (Fuller and Tabor) above which surfaces never bond; Gui et al. (1999).
 const NEVER_BONDS: f64 = 12.0;
 
 const PERSSON_TOSATTI: Criterion = Criterion::new(
@@ -25,7 +25,7 @@ const PERSSON_TOSATTI: Criterion = Criterion::new(
     "Persson, Tosatti: J. Chem. Phys. 115 (2001) 5597",
     1.0,
 );
-/// The threshold of P is π(3/16)^(2/3).
+/// The threshold of P is π(3/16)^(2/3), written out here as a constant.
 const PASTEWKA_ROBBINS: Criterion = Criterion::new(
     "Pastewka & Robbins 2014",
     "P",
@@ -48,7 +48,7 @@ const FULLER_TABOR: Criterion = Criterion::new(
 /// Nominally flat, randomly rough contact with adhesion.
 pub(super) struct RoughContact {
     pub amplitude: Amplitude,
-    /// Work of adhesion over effective modulus, γ/E*, m.
+    /// Work of adhesion divided by the effective modulus, γ/E*, in m.
     pub stretch: f64,
     /// Range of attraction z₀, m.
     pub range: f64,
@@ -75,9 +75,10 @@ impl RoughContact {
         0.5 * self.amplitude.rms_curvature
     }
 
-    /// Elastic energy of the bodies pressed flat, divided by the work of adhesion; Persson and
-    /// Tosatti (2001). Bodies conform if adhesion gains more energy than they store elastically.
-    /// For H ≤ ½ the elastic energy grows without limit as shorter and shorter waves are added.
+    /// Criterion of Persson and Tosatti (2001): the elastic energy of the bodies pressed flat,
+    /// divided by the work of adhesion. Bodies conform if adhesion gains more energy than they
+    /// store elastically. For H ≤ ½ the elastic energy has no limit as shorter and shorter waves
+    /// are added.
     fn persson_tosatti(&self) -> Criterion {
         let rough = self
             .spectrum
@@ -88,10 +89,10 @@ impl RoughContact {
         PERSSON_TOSATTI.judge(value, &[long_ranged(self.tabor_number), rough])
     }
 
-    /// P = (g z₀/2ℓ)(g²/(c z₀))^(2/3) with ℓ = γ/E*, Pastewka and Robbins (2014), eq. (10). As in a
-    /// contact without adhesion, contact spots have the mean chord 4g/c and the mean pressure
-    /// E*g/2. For P < π(3/16)^(2/3) the attraction in the rim around the spots, where the gap is
-    /// below z₀, exceeds the repulsion in the spots.
+    /// Criterion P = (g z₀/2ℓ)(g²/(c z₀))^(2/3) with ℓ = γ/E*, Pastewka and Robbins (2014), eq.
+    /// (10). Contact spots are assumed to have the mean chord 4g/c and the mean pressure E*g/2, as
+    /// in a contact without adhesion. The attraction acts in the rim around the spots, where the
+    /// gap is below z₀. For P < π(3/16)^(2/3) it exceeds the repulsion in the spots.
     ///
     /// The curvature c is half of the Laplacian, as in the published example of
     /// `ContactEngineering/Adhesion`. With the whole Laplacian P would be 1.6 times smaller.
@@ -110,10 +111,11 @@ impl RoughContact {
         PASTEWKA_ROBBINS.judge(value, &[far])
     }
 
-    /// Returns h/h_c. Up to the critical rms height h_c, the attraction γφ(u/h)/h of the bearing
-    /// area exceeds the repulsion 0.75 q_L h E* e^(−2u/h) at some mean gap u. Here φ is the density
-    /// of the standard normal distribution. With ℓ = γ/E* and the longest wavelength λ_L = 2π/q_L
-    /// follows h_c² = ℓλ_L e²/(0.75·√(2π)·2π) = 0.626 ℓλ_L, published as 0.6; Ciavarella (2018).
+    /// Returns h/h_c with the critical rms height h_c; Ciavarella (2018). For h below h_c the
+    /// attraction γφ(u/h)/h of the bearing area exceeds the repulsion 0.75 q_L h E* e^(−2u/h) at
+    /// some mean gap u. Here φ is the density of the standard normal distribution. With ℓ = γ/E*
+    /// and the longest wavelength λ_L = 2π/q_L, this gives h_c² = ℓλ_L e²/(0.75·√(2π)·2π) = 0.626
+    /// ℓλ_L, published as 0.6 ℓλ_L.
     fn bearing_area(&self) -> Criterion {
         let Some(SelfAffine {
             hurst,
@@ -144,12 +146,12 @@ impl RoughContact {
         BEARING_AREA.judge(self.amplitude.rms_height / critical, &[soft, other])
     }
 
-    /// θ = (E*/γ)√(σ³/ρ), Fuller and Tabor (1975), with the rms height σ and the radius ρ = 1/c of
-    /// the summits. Surfaces bond by themselves for θ below 1, and never for θ above 12, Gui et al.
-    /// (1999).
+    /// Criterion θ = (E*/γ)√(σ³/ρ) of Fuller and Tabor (1975), with the rms height σ of the summits
+    /// and their radius ρ = 1/c. Surfaces bond by themselves for θ below 1, and never for θ above
+    /// 12; Gui et al. (1999).
     ///
-    /// The summits count as separate if together they cover at most the nominal area. Each summit
-    /// pressed in by σ covers πρσ.
+    /// The criterion holds if the summits are separate. They count as separate if together they
+    /// cover at most the nominal area, where a summit pressed in by σ covers πρσ.
     fn fuller_tabor(&self) -> Criterion {
         let Summits { height, density } = Summits::of(self.amplitude);
         let curvature = self.mean_curvature();
@@ -205,8 +207,8 @@ impl Summits {
 mod tests {
     use super::*;
 
-    /// Returns a contact with a self-affine surface. Its waves are from `longest` to
-    /// `longest`/`ratio` long, and the profile is 100 times as long as the longest wave.
+    /// Returns a contact with a self-affine surface whose wavelengths go from `longest` to
+    /// `longest`/`ratio`. The profile is 100 times as long as the longest wave.
     fn contact(
         hurst: f64,
         longest: f64,
@@ -237,7 +239,7 @@ mod tests {
         (found / expected - 1.0).abs() < error
     }
 
-    /// Returns the root of an increasing function between two positive numbers.
+    /// Returns the root, between two positive numbers, of an increasing function.
     fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
         for _ in 0..200 {
             let middle = (low * high).sqrt();
@@ -252,15 +254,15 @@ mod tests {
 
     #[test]
     fn published_scenes_have_their_numbers() {
-        // Soft surfaces with H = 0.8 and waves from 100 µm to 0.1 µm.
+        // These soft surfaces have H = 0.8 and waves from 100 µm to 0.1 µm.
         for (height, expected) in [(0.3e-6, [0.20, 0.013, 0.28]), (1e-6, [2.2, 0.095, 0.92])] {
             let rows = contact(0.8, 1e-4, 1000, height, 0.05 / 2.67e6, 0.3e-9).criteria();
             for (row, expected) in rows.iter().zip(expected) {
                 assert_eq!(number(row.value.unwrap()), number(expected), "{row:?}");
             }
         }
-        // Surface of the Contact-Mechanics Challenge (Müser et al. 2017), on a profile ten times as
-        // long.
+        // This is the surface of the Contact-Mechanics Challenge (Müser et al. 2017). The profile
+        // is ten times as long as the longest wave.
         let spectrum = SelfAffine {
             hurst: 0.8,
             first: 10,
@@ -288,8 +290,7 @@ mod tests {
         );
     }
 
-    /// The ratio e_el/γ of Persson and Tosatti agrees with its closed form for a self-affine
-    /// spectrum.
+    /// For a self-affine spectrum, e_el/γ of Persson and Tosatti agrees with its closed form.
     #[test]
     fn conformity_has_its_closed_form() {
         for (hurst, ratio) in [(0.6, 50), (0.8, 1000), (0.95, 200)] {
@@ -315,8 +316,9 @@ mod tests {
         );
     }
 
-    /// The threshold of P follows from the balance of forces itself: the integrated gap beside a
-    /// contact strip of width d and radius R = 2/c gives the width of the rim that attracts.
+    /// The threshold of P follows from the balance of forces. The contact is a strip of the width d
+    /// on a cylinder of the radius R = 2/c. The gap beside the strip, which is integrated here,
+    /// gives the width of the rim that attracts.
     #[test]
     fn the_edge_of_spots_attracts_as_much_as_they_repel_at_the_threshold() {
         assert!(near(
@@ -328,7 +330,8 @@ mod tests {
         let (gradient, curvature) = (soft.amplitude.rms_gradient, soft.mean_curvature());
         let (diameter, radius) = (4.0 * gradient / curvature, 2.0 / curvature);
         let half = diameter / 2.0;
-        // Gap at the distance s from the edge of the strip: ∫√(x² − a²)dx/R from a to a + s.
+        // Gap at the distance s from the edge of the strip of half-width a: ∫√(x² − a²)dx/R from a
+        // to a + s.
         let gap = |s: f64| {
             let step = s / 1e4;
             let slope = |index: u32| {
@@ -338,24 +341,24 @@ mod tests {
             (0..10_000).map(slope).sum::<f64>() * step / radius
         };
         let width = root(1e-9 * half, half, |s| gap(s) - soft.range);
-        // Per nominal area, the attraction (γ/z₀)·s along the perimeter of the spots balances the
-        // pressure E*g/2 in the spots. A spot of the mean chord d has the perimeter π/d per area.
+        // The attraction (γ/z₀)·s along the perimeter of the spots, per nominal area, balances the
+        // pressure E*g/2 in the spots. Spots with the mean chord d have the perimeter π/d per area.
         let stretch = gradient / 2.0 * diameter / PI * soft.range / width;
         let found = RoughContact { stretch, ..soft }
             .pastewka_robbins()
             .value
             .unwrap();
         assert!(near(found, PASTEWKA_ROBBINS.threshold, 1e-3), "{found}");
-        // Here the range of the attraction is larger than the gaps between the spots, so P does not
-        // apply.
+        // Here P does not apply, because the range of the attraction is larger than the gaps
+        // between the spots.
         let far = contact(0.8, 1e-4, 1000, 3e-7, 1e-8, 1e-8).pastewka_robbins();
         assert!(
             far.sticks.is_none() && far.reason.unwrap().starts_with("does not hold: z₀ is 0.1")
         );
     }
 
-    /// The critical height h_c follows from the balance of attraction and repulsion at all mean
-    /// gaps.
+    /// The critical height h_c agrees with the balance of attraction and repulsion, computed for
+    /// all mean gaps.
     #[test]
     fn the_bearing_area_attracts_at_some_gap_up_to_the_critical_height() {
         let (longest, stretch) = (3e-5, 2e-9);
@@ -389,8 +392,8 @@ mod tests {
         );
     }
 
-    /// The heights and the number of the maxima of random surfaces, which are sums of plane waves,
-    /// agree with the formulas for the summits.
+    /// The formulas for the summits agree with the heights and the number of the maxima of random
+    /// surfaces, which are sums of plane waves.
     #[test]
     fn summits_are_those_of_random_surfaces() {
         const SIDE: usize = 120;
@@ -402,8 +405,8 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
-        // Waves of one length, and waves whose lengths differ by up to a factor of three. The
-        // shortest length is 2π.
+        // The first surfaces have waves of one length, the others have lengths that differ by up to
+        // a factor of three. The shortest length is 2π.
         for lowest in [1.0, 1.0 / 3.0] {
             let (mut heights, mut moments, surfaces) = (Vec::new(), [0.0; 3], 12);
             for _ in 0..surfaces {
@@ -462,8 +465,8 @@ mod tests {
         }
     }
 
-    /// θ compares the Hertzian force that presses a summit in by σ with the pull-off force of the
-    /// summit by JKR theory.
+    /// θ is proportional to the ratio of the Hertzian force that presses a summit in by σ to the
+    /// pull-off force of the summit by JKR theory.
     #[test]
     fn theta_is_hertzian_repulsion_over_pull_off_force() {
         let narrow = contact(0.8, 1e-5, 2, 1e-8, 1e-9, 3e-10);

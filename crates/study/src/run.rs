@@ -1,5 +1,5 @@
-//! Computation of the records of a plan that its folder lacks, on several threads. The results do
-//! not depend on the number of threads.
+//! Computation, on several threads, of those records of a plan that are missing in its folder. The
+//! results do not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::compute::{SolvedStreak, Streaks};
@@ -21,13 +21,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Longest time that written records wait until they are synced to the disk. After a power cut
-/// waiting records are lost and must be computed again. A sync takes tenths of a millisecond, and
-/// much longer on network file systems. On a local disk 100 000 records of 256 springs take 11 s
-/// with this wait, 12 s with a sync as soon as the sync before has ended, and 190 s with a sync for
-/// each record. For cells of thousands of springs there is no difference.
+/// Longest time for which written records are not yet synced to the disk. After a power cut these
+/// records are lost and must be computed again. A sync takes tenths of a millisecond, and much
+/// longer on network file systems. On a local disk 100 000 records of 256 springs take 11 s with
+/// this time, 12 s if each sync follows the previous one at once, and 190 s with a sync after each
+/// record. For cells of thousands of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
-/// Largest number of computed records that wait to be written to the file.
+/// Largest number of computed records that may wait until they are written to the file.
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
@@ -111,7 +111,7 @@ pub fn run_study(
         let warnings = Vec::new();
         return Ok(StudyRun { progress, warnings });
     }
-    // The measured files are read once, so that all threads compute from the same bytes even if a
+    // The measured files are read once. All threads then compute from the same bytes, even if a
     // file changes meanwhile.
     let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
@@ -132,7 +132,8 @@ pub fn run_study(
             let mut counted = counted.lock().unwrap_or_else(PoisonError::into_inner);
             missing.count_warnings(&solved, &mut counted);
             drop(counted);
-            // Sending fails if the file cannot be written, which ends the computation.
+            // Sending fails if the file could not be written. The value false then ends the
+            // computation.
             let text = missing.encoded(solved.streak, &solved.records);
             sender.send(text).is_ok()
         };
@@ -156,10 +157,10 @@ pub fn run_study(
     Ok(StudyRun { progress, warnings })
 }
 
-/// Records that a folder lacks.
+/// Which records of a plan its folder lacks.
 struct MissingRecords<'a> {
     plan: &'a Plan,
-    /// For each record of the plan, true if the folder has it already.
+    /// For each record of the plan, true if the folder contains it already.
     done: &'a [bool],
 }
 
@@ -173,7 +174,8 @@ impl MissingRecords<'_> {
         cells.any(|cell| self.has(cell, streak.line))
     }
 
-    /// Counts the premises that missing records of a streak do not meet.
+    /// Counts the premises of the model that are not met by those records of a streak that were
+    /// missing.
     fn count_warnings(&self, solved: &SolvedStreak, counted: &mut Vec<CountedWarning>) {
         for (cell, warnings) in &solved.warnings {
             if self.has(*cell, solved.streak.line) {
@@ -184,7 +186,7 @@ impl MissingRecords<'_> {
         }
     }
 
-    /// Returns the missing records of a streak as lines of a file.
+    /// Returns the records of a streak that were missing, as lines of a shard file.
     fn encoded(&self, streak: Streak, records: &[Recorded]) -> String {
         let seed = self.plan.seed_of(streak.line);
         let mut text = String::new();
@@ -197,13 +199,13 @@ impl MissingRecords<'_> {
     }
 }
 
-/// File of a process to which records are written.
+/// File to which this process writes records.
 struct WrittenFile<'a> {
     path: &'a Path,
     file: &'a mut File,
     /// Clock since the beginning of the computation.
     clock: Instant,
-    /// Number of written records that may not have been synced to the disk.
+    /// Number of written records that may not be on the disk yet (not synced).
     pending: u64,
     /// Time from the beginning of the computation to the last written records.
     computed: Duration,
@@ -223,8 +225,8 @@ impl<'a> WrittenFile<'a> {
         }
     }
 
-    /// Writes records as they arrive. Syncs them to the disk after at most the time `SYNC`, and at
-    /// the end. The progress counts only synced records.
+    /// Writes records as they arrive. Syncs the file to the disk at the latest after the time
+    /// [`SYNC`], and at the end. The progress counts only synced records.
     fn write_all(
         &mut self,
         receiver: &Receiver<String>,

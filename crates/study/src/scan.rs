@@ -1,26 +1,26 @@
 //! Search for crossings of a quantity that may rise and fall over a range of numbers.
 //!
-//! The quantity is first computed at numbers with equal distances. Then intervals are halved in
-//! which the quantity may reach the target unseen. An interval is suspect if the quantity is not
-//! farther from the target than it deviates from a straight line nearby, or if it turns close to
-//! the target.
+//! First the quantity is computed at evenly spaced numbers. Then those intervals are halved in
+//! which the quantity may reach the target between the computed numbers. These are intervals in
+//! which the quantity deviates from a straight line by as much as its distance from the target, or
+//! in which it turns close to the target.
 
 use super::coordinates::Coordinates;
 use asperity_scene::RunError;
 use std::cmp::Ordering;
 
-/// Number of intervals into which the range is divided at first.
+/// Number of intervals into which the range is divided at the start.
 pub(super) const INTERVALS: usize = 32;
 /// Largest number of values at which the quantity is computed in a scan.
 pub(super) const MOST_TRIED: usize = 192;
-/// Smallest width of an interval, as a share of the range in coordinates, below which it is not
-/// halved.
+/// Smallest width of an interval that is still halved, as a share of the range in coordinates.
 const NARROWEST: f64 = 1.0 / 4096.0;
-/// Distance from the target over deviation from a straight line up to which an interval is halved.
+/// An interval is halved if the distance of the quantity from the target is at most this factor
+/// times its deviation from a straight line.
 const SAFETY: f64 = 4.0;
 
-/// If the quantity turns in an interval, its deviation counts as at least this share of the
-/// difference between its largest and smallest value.
+/// If the quantity turns in an interval, its deviation from a straight line is assumed to be at
+/// least this share of the difference between its largest and smallest value.
 const CLOSE: f64 = 1.0 / 400.0;
 
 /// A number, and the value of the quantity at this number; NaN if the quantity has no value.
@@ -40,7 +40,7 @@ impl Tried {
 /// Function that computes the quantity at several ascending numbers.
 pub(super) type Compute<'c> = dyn FnMut(&[f64]) -> Result<Vec<f64>, RunError> + 'c;
 
-/// Ascending numbers of a range, each with the computed value of the quantity.
+/// Ascending numbers of a range, with the value of the quantity at each of them.
 #[derive(Clone, Debug)]
 pub(super) struct Scan {
     coordinates: Coordinates,
@@ -55,9 +55,10 @@ pub(super) struct Scan {
 struct Suspect {
     /// Number in the middle of the interval, at which the quantity is computed next.
     middle: f64,
-    /// True if the interval is above the first known crossing.
+    /// True if the interval lies above the first known crossing.
     is_beyond: bool,
-    /// Possible deviation from a straight line divided by the distance from the target.
+    /// Possible deviation of the quantity from a straight line divided by its distance from the
+    /// target.
     urgency: f64,
 }
 
@@ -87,8 +88,8 @@ impl Scan {
         Ok(scan)
     }
 
-    /// If the range has few allowed numbers, computes the quantity at all of them. Only numbers
-    /// near an end of the range are left out, beyond a number at which the quantity has no value.
+    /// If the range has few allowed numbers, computes the quantity at all of them. Numbers near an
+    /// end of the range are left out if the quantity has no value at a number farther inside.
     fn complete(&mut self, compute: &mut Compute<'_>) -> Result<(), RunError> {
         let mut tried = self.tried.iter();
         let first = tried.position(Tried::is_known).unwrap_or(0);
@@ -160,15 +161,15 @@ impl Scan {
         suspects
     }
 
-    /// Returns true if a crossing may be missed, because the quantity comes close to the target
-    /// between two numbers.
+    /// Returns true if a crossing may have been missed, because the quantity comes close to the
+    /// target between two computed numbers.
     pub fn may_miss(&self) -> bool {
         let mut intervals = 0..self.tried.len().saturating_sub(1);
         !self.is_complete && intervals.any(|index| self.may_hide(index))
     }
 
-    /// Returns true if interval `index` may hide a crossing and contains a number that was not
-    /// tried.
+    /// Returns true if the interval with this index may hide a crossing and contains an allowed
+    /// number that was not tried.
     fn may_hide(&self, index: usize) -> bool {
         let ends = [self.tried[index].number, self.tried[index + 1].number];
         self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
@@ -180,8 +181,8 @@ impl Scan {
         self.is_complete
     }
 
-    /// Returns true if the quantity is on different sides of the target at number `index` and at
-    /// the next number.
+    /// Returns true if the quantity is on different sides of the target at the number with this
+    /// index and at the next number.
     fn is_crossed(&self, index: usize) -> bool {
         let sides = [
             side(self.tried[index], self.target),
@@ -190,14 +191,15 @@ impl Scan {
         matches!(sides, [Some(one), Some(other)] if one != other)
     }
 
-    /// Returns the width of interval `index` in coordinates.
+    /// Returns the width of the interval with this index in coordinates.
     fn width(&self, index: usize) -> f64 {
         let places =
             [index, index + 1].map(|point| self.coordinates.coordinate(self.tried[point].number));
         places[1] - places[0]
     }
 
-    /// Returns the urgency of halving interval `index`. Above 1 the interval may hide a crossing.
+    /// Returns how urgent it is to halve the interval with this index. Above 1 the interval may
+    /// hide a crossing.
     fn urgency(&self, index: usize) -> f64 {
         let from = self.tried[index].value;
         let to = self.tried[index + 1].value;
@@ -209,9 +211,9 @@ impl Scan {
             return f64::INFINITY;
         }
         let distances = [(from - self.target).abs(), (to - self.target).abs()];
-        // An interval without a crossing hides one if the quantity leaves the range between its
-        // ends far enough to reach the target. An interval with a crossing hides two more if the
-        // quantity turns inside.
+        // An interval whose ends are on one side of the target hides a crossing if the quantity
+        // goes beyond the values at both ends and reaches the target. An interval with a crossing
+        // hides two more if the quantity turns inside the interval.
         let distance = if self.is_crossed(index) {
             0.5 * (to - from).abs()
         } else {
@@ -229,8 +231,9 @@ impl Scan {
         }
     }
 
-    /// Returns true if interval `index` has an end at which the quantity is closer to the target
-    /// than at the neighbours of this end, and all three are on the same side of the target.
+    /// Returns true if the quantity turns close to the target at an end of the interval: it is
+    /// closer to the target there than at the two neighbouring numbers, and all three values are on
+    /// the same side of the target.
     fn turns(&self, index: usize) -> bool {
         let end = if self.distance(index) <= self.distance(index + 1) {
             index
@@ -248,12 +251,13 @@ impl Scan {
         })
     }
 
-    /// Returns the distance between the quantity and the target at number `point`.
+    /// Returns the distance between the quantity and the target at the number with the index
+    /// `point`.
     fn distance(&self, point: usize) -> f64 {
         (self.tried[point].value - self.target).abs()
     }
 
-    /// Returns the difference of the largest and the smallest value of the quantity.
+    /// Returns the difference between the largest and the smallest computed value of the quantity.
     fn spread(&self) -> f64 {
         let mut most = f64::NEG_INFINITY;
         let mut least = f64::INFINITY;
@@ -264,9 +268,9 @@ impl Scan {
         most - least
     }
 
-    /// Returns how far the quantity may deviate from a straight line in interval `index`: the
-    /// median of the deviations at the eight nearest numbers. The median is not affected by a
-    /// single jump of the quantity, which causes deviations at only two numbers.
+    /// Returns how far the quantity may deviate from a straight line in the interval with this
+    /// index: the median of the deviations at the eight nearest numbers. A single jump of the
+    /// quantity does not affect the median, because it causes deviations at only two numbers.
     fn deviation(&self, index: usize) -> f64 {
         let width = self.width(index);
         let first = index.saturating_sub(3);
@@ -277,9 +281,10 @@ impl Scan {
         deviations.get(deviations.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Returns the deviation of the quantity at number `point` from the straight line between its
-    /// two neighbours. The deviation grows with the square of the distance between numbers, and is
-    /// scaled to an interval of the given width if that is larger.
+    /// Returns the deviation of the quantity at the number with the index `point` from the straight
+    /// line between the two neighbouring values. The deviation grows with the square of the
+    /// distance between the numbers. If `width` is larger than this distance, the deviation is
+    /// scaled to `width`.
     fn deviation_at(&self, point: usize, width: f64) -> Option<f64> {
         let before = self.tried.get(point.checked_sub(1)?)?;
         let here = self.tried.get(point)?;

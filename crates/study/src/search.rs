@@ -1,4 +1,5 @@
-//! The search for the answer to a question on one random profile.
+//! The search for the answer to a question on one random profile: at which numbers a quantity
+//! crosses a target.
 
 use super::axis::Axis;
 use super::bracket::{Passage, passage};
@@ -14,12 +15,12 @@ use asperity_scene::{RunError, Simulation};
 use std::cmp::Ordering;
 
 /// Relative difference up to which a value counts as equal to the target. Energies are constant
-/// between two steps of the adhesion force, except for rounding errors.
+/// between two steps of the adhesion force, but have rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 impl Question {
-    /// Answers the question on one profile. The second value is the reason why the scene could not
-    /// be computed with a tried number, if there is one.
+    /// Answers the question on one profile. The second value of the result is the reason why the
+    /// scene could not be computed with a tried number, if there was such a number.
     ///
     /// # Errors
     /// Returns an error if `stop` returned true or if the memory does not suffice.
@@ -41,7 +42,7 @@ impl Question {
     }
 }
 
-/// Search on one random profile.
+/// State of the search on one random profile.
 struct Search<'s> {
     question: &'s Question,
     simulation: &'s mut Simulation,
@@ -54,8 +55,8 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Searches the crossings in the way that suits the course of the quantity, and completes the
-    /// answer with the range of the computed values.
+    /// Searches the crossings by the method that suits the course of the quantity, and adds the
+    /// range of the computed values to the answer.
     fn answer(mut self) -> Result<(Answer, Option<String>), RunError> {
         let question = self.question;
         let mut answer = Answer {
@@ -66,7 +67,7 @@ impl Search<'_> {
                 .map(|_| question.plan.seed_of(self.line)),
             ..Answer::default()
         };
-        // The question was refused before if the range has no allowed number, so there are
+        // A range without an allowed number was refused before the search, so there are always
         // coordinates.
         if let Some(coordinates) = question.coordinates() {
             match question.course() {
@@ -114,20 +115,21 @@ impl Search<'_> {
         let tried: Vec<Tried> = self.known.clone();
         let values: Vec<f64> = tried.iter().map(|tried| tried.value).collect();
         if values.iter().any(|value| value.is_nan()) && !values.iter().all(|value| value.is_nan()) {
-            // The quantity has no value in a part of the range, which a scan finds.
+            // The quantity has no value in a part of the range. A scan finds this part.
             return self.scan(coordinates, answer);
         }
         self.add_crossings(coordinates, &tried, answer)
     }
 
-    /// Searches the ratio F_a/F_n. Between two steps of F_a the crossing follows in closed form.
+    /// Searches the ratio F_a/F_n. Between two steps of F_a, where F_a is constant, the crossing is
+    /// known in closed form.
     fn search_ratio(&mut self, answer: &mut Answer) -> Result<(), RunError> {
         let (from, to) = self.question.searched;
         let target = self.question.target;
         answer.is_proven = true;
         if to <= 0.0 || target <= 0.0 {
             // The ratio exists only for preloads above 0 N. It is zero only where F_a is zero,
-            // which is below the first step of F_a.
+            // which is the case below the first step of F_a.
             let stairs = self.climb(&[from.max(0.0), to])?;
             let is_zero = stairs
                 .first()
@@ -164,7 +166,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Searches a quantity that may rise and fall, by a scan of the range.
+    /// Searches a quantity that may rise and fall by computing it at many numbers of the range (a
+    /// scan).
     fn scan(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
         let target = self.question.target;
         let scan = Scan::of(*coordinates, target, &mut |numbers| {
@@ -175,8 +178,8 @@ impl Search<'_> {
                 .collect())
         })?;
         answer.is_proven = scan.is_complete();
-        // The number of patches and the indentation at pull-off can jump between any two numbers.
-        // Profiles with different whole numbers of waves are different profiles.
+        // The number of patches and the indentation at pull-off may jump between any two numbers.
+        // Different whole numbers of waves give different profiles, so other quantities jump too.
         let jumps = coordinates.is_discrete()
             || matches!(
                 self.question.quantity,
@@ -189,9 +192,10 @@ impl Search<'_> {
         self.add_crossings(coordinates, &scan.tried, answer)
     }
 
-    /// Adds the crossings: numbers at which the quantity passes the target, or becomes equal to it
-    /// and stays equal. If the quantity has no value at one of two neighbouring numbers and is not
-    /// equal to the target at the other, no crossing is known between them.
+    /// Adds the crossings: the numbers at which the quantity crosses the target, or at which it
+    /// becomes equal to the target and stays equal. If the quantity has no value at one of two
+    /// neighbouring numbers and does not equal the target at the other, no crossing is added
+    /// between them.
     fn add_crossings(
         &mut self,
         coordinates: &Coordinates,
@@ -215,8 +219,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Returns the number between `from` and `to` at which the quantity passes the target, or
-    /// becomes equal to it and stays equal.
+    /// Returns the number between `from` and `to` at which the quantity crosses the target, or at
+    /// which it becomes equal to the target and stays equal.
     fn crossing(
         &mut self,
         coordinates: &Coordinates,
@@ -240,11 +244,11 @@ impl Search<'_> {
                 value: self.value(number)?,
             };
             match side(reached, target) {
-                // The quantity is constant and equal to the target up to this number, and perhaps
-                // from a smaller one.
+                // The quantity equals the target at this number, and is perhaps constant from a
+                // smaller number on. The search goes on below this number.
                 Some(Ordering::Equal) if !falls_onto => (end, falls_onto) = (reached, true),
-                // The quantity falls below the target before it is equal to the target, so it
-                // passes the target.
+                // The quantity falls below the target before it equals the target, so it crosses
+                // the target.
                 Some(Ordering::Less) if from.value.is_nan() => {
                     (from, falls_onto) = (reached, false)
                 }
@@ -254,7 +258,7 @@ impl Search<'_> {
         }
     }
 
-    /// Computes the quantity at one number; NaN if the quantity has no value there.
+    /// Computes the quantity at one number; NaN if the quantity has no value at this number.
     fn value(&mut self, number: f64) -> Result<f64, RunError> {
         Ok(self.compute(&[number])?[0][0])
     }
@@ -275,8 +279,7 @@ impl Search<'_> {
         Ok(stairs)
     }
 
-    /// Computes the recorded quantities at each of several numbers; NaN for a quantity without a
-    /// value.
+    /// Returns the recorded quantities at each of the numbers; NaN for a quantity without a value.
     fn compute(&mut self, numbers: &[f64]) -> Result<Vec<Vec<f64>>, RunError> {
         let question = self.question;
         let axis = Axis {
@@ -287,7 +290,8 @@ impl Search<'_> {
             axes: vec![axis],
             ..question.plan.clone()
         };
-        // All preloads are computed with a single loading, other numbers one after the other.
+        // All preloads are computed with a single loading. Other numbers are computed one after
+        // another.
         let step = if question.is_of_preload() {
             plan.cells()
         } else {

@@ -9,10 +9,10 @@ use super::quantity::Quantity;
 use super::results::Results;
 use asperity_data::{AxisScale, Note, Remedy, format_quantity, parse_quantity};
 
-/// Largest number of values of a second axis that is shown as curves. With more values the figure
-/// is a map.
+/// Largest number of values of a second axis with which the figure shows one curve for each value.
+/// With more values the figure is a map.
 const MOST_CURVES: usize = 5;
-/// Largest number of values of an axis that a message names.
+/// Largest number of values of an axis that an error message lists.
 const MOST_NAMED: usize = 12;
 
 /// Choice of the quantities, axes and values of a study that a figure shows. Each field is an
@@ -72,7 +72,7 @@ pub struct Selected {
     pub note: Option<Note>,
 }
 
-/// Use of each axis of a study in a figure.
+/// What each axis of a study is used for in a figure.
 struct ChosenAxes {
     /// Index of the axis that the user named as horizontal.
     across: Option<usize>,
@@ -88,10 +88,10 @@ impl ChosenAxes {
     }
 }
 
-/// Axis that the user has named.
+/// Axis that the user has named in the selection.
 struct NamedAxis {
     index: usize,
-    /// Use of the axis in the figure, for messages.
+    /// Use of the axis in the figure, such as horizontal axis, for error messages.
     role: &'static str,
 }
 
@@ -149,8 +149,8 @@ impl Selection {
         })
     }
 
-    /// Returns the quantities that the user names, otherwise the recorded ones among the usual
-    /// quantities, otherwise the first recorded quantity.
+    /// Returns the quantities that the user names. If the user names none, returns those of the
+    /// usual quantities that are recorded or, if there are none, the first recorded quantity.
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
         let mut recorded = plan.record.clone();
         recorded.retain(|quantity| !quantity.is_regime());
@@ -165,7 +165,8 @@ impl Selection {
             Quantity::FirstTouchAdhesionShare,
             Quantity::AdhesionCoefficient,
         ];
-        // Without F_a/F_n the figure compares the two adhesion forces without a preload.
+        // If F_a/F_n is not recorded, the figure compares the two adhesion forces without a
+        // preload.
         let usual = if recorded.contains(&Quantity::AdhesionCoefficient) {
             paper
         } else {
@@ -182,8 +183,8 @@ impl Selection {
         Ok(vec![quantity_named(first, &recorded)?])
     }
 
-    /// Returns the use of the axes. A named axis must exist and be named only once. An axis with a
-    /// single value is fixed.
+    /// Returns the use of each axis. An axis that the user names must exist and be named only once.
+    /// An axis with a single value is fixed at this value.
     fn axes(&self, axes: &[Axis]) -> Result<ChosenAxes, StudyError> {
         let mut named: Vec<NamedAxis> = Vec::new();
         let mut across = None;
@@ -229,8 +230,8 @@ fn quantity_named(name: &str, recorded: &[Quantity]) -> Result<Quantity, StudyEr
     Err(StudyError::refused(Some(&place), found, allowed))
 }
 
-/// Returns the index of the axis that is named for a use in the figure, and refuses an axis that
-/// has another use already.
+/// Returns the index of the axis that the user names for this role in the figure. Returns an error
+/// if the axis already has another role.
 fn name_axis(
     named: &mut Vec<NamedAxis>,
     axes: &[Axis],
@@ -246,8 +247,8 @@ fn name_axis(
     Ok(index)
 }
 
-/// Returns the index of the value of an axis that a text means. Messages show values with 4 digits.
-/// A value typed with these digits means the nearest value of the axis.
+/// Returns the index of the axis value that a typed text means. Messages show values with 4 digits,
+/// so a value typed with these digits means the nearest value of the axis.
 fn place_of(text: &str, axis: &Axis) -> Option<usize> {
     let wanted = parse_quantity(text, axis.unit).ok()?;
     let mut nearest = None;
@@ -264,8 +265,8 @@ fn place_of(text: &str, axis: &Axis) -> Option<usize> {
 }
 
 /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the
-/// user names the axes, H is horizontal and κ or e_el/γ vertical. If one axis has few values, they
-/// are curves over the other axis.
+/// user names the axes, H is horizontal and κ or e_el/γ is vertical. If one of two axes has few
+/// values, the figure shows a curve for each of them over the other axis.
 fn free_axes(axes: &[Axis], chosen: &ChosenAxes) -> Result<(usize, Option<usize>), StudyError> {
     let free: Vec<usize> = (0..axes.len())
         .filter(|index| chosen.fixed[*index].is_none() && !chosen.is_named(*index))
@@ -291,7 +292,7 @@ fn none_left() -> StudyError {
     StudyError::refused(None, found, "an axis with two values at least")
 }
 
-/// Returns the error for more free axes than a figure can have.
+/// Returns the error for a study with more free axes than a figure can show.
 fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
     let all: Vec<String> = free
         .iter()
@@ -307,8 +308,8 @@ fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
         .with(Remedy::FixAxis(format!("{path}={value}")))
 }
 
-/// Fixes the axis of preloads at its first value if too many axes are free. Returns a note about
-/// it.
+/// If too many axes are free, fixes the axis of preloads at its first value and returns a note that
+/// says so.
 fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<Note> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
@@ -323,14 +324,15 @@ fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<Note> {
     Some(note.with(Remedy::OtherValue(path.clone())))
 }
 
-/// Returns true if the axis `few` has so few values that they are shown as curves over the axis
-/// `many`, which has more values.
+/// Returns true if the axis `few` has so few values that the figure shows a curve for each of them
+/// over the axis `many`, which has more values.
 fn is_few(axes: &[Axis], few: usize, many: usize) -> bool {
     axes[few].values.len() <= MOST_CURVES && axes[many].values.len() > MOST_CURVES
 }
 
-/// Returns a quantity shown as curves. A single curve has a linear scale, and small values get a
-/// second, logarithmic chart. Several curves share a scale that suits the means of all curves.
+/// Returns the layer that shows a quantity as curves. A single curve is drawn on a linear scale,
+/// with a second chart on a logarithmic scale for its small values. Several curves share the scale
+/// that suits their means.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));

@@ -54,8 +54,8 @@ impl Influence {
     }
 }
 
-/// Changes of the results of a scene if one number of the scene is changed by a tenth, for each
-/// number.
+/// Sensitivity of the results of a scene: how the results change if one number of the scene is
+/// changed by a tenth, for each of its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
@@ -75,22 +75,22 @@ pub struct Sensitivity {
     pub warnings: Vec<CountedWarning>,
 }
 
-/// Results on one profile of each variant in the order of [`Neighbourhood::variants`]; NaN for a
-/// missing result.
+/// Results on one profile for each scene in [`Neighbourhood::variants`]; NaN for a missing result.
 type Solved = Vec<[f64; 3]>;
 
-/// The unchanged scene, or the scene with one of its numbers changed, as a plan without axes.
+/// Plan (without axes) of the unchanged scene, or of the scene with one changed number.
 struct Variant {
     plan: Plan,
     shapes: Shapes,
     is_changed: bool,
 }
 
-/// A scene and all scenes in which one of its numbers is changed.
+/// A scene, and all scenes that differ from it in one number.
 struct Neighbourhood {
-    /// Numbers of the scene. Their results are set after the variants are computed.
+    /// Numbers of the scene. Their results are filled in after all variants are computed.
     influences: Vec<Influence>,
-    /// The unchanged scene, then each changed scene that is allowed, in the order of `influences`.
+    /// The unchanged scene, followed by each changed scene that is allowed, in the order of
+    /// `influences`.
     variants: Vec<Variant>,
     /// Indices of the variants in the order in which they are computed on a profile.
     order: Vec<usize>,
@@ -174,7 +174,8 @@ impl Sensitivity {
         Ok(sensitivity)
     }
 
-    /// Sets the medians and ranges of all results from the results on these profiles.
+    /// Sets the medians and ranges of all results. `profiles` has the results on each computed
+    /// profile.
     fn summarise(&mut self, profiles: &[&Solved]) {
         let several = profiles.len() > 1;
         self.profiles = profiles.len() as u64;
@@ -230,8 +231,8 @@ impl Sensitivity {
         ordered
     }
 
-    /// Returns the larger of the two absolute relative changes of a result, for the smaller and for
-    /// the larger value of the number; 0 if the result has no change.
+    /// Returns the larger of two relative changes of a result, without their signs: the changes for
+    /// the smaller and for the larger value of the number. Returns 0 if neither change is known.
     fn largest_change(&self, influence: &Influence, result: usize) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, changed) in &influence.sides {
@@ -268,8 +269,8 @@ impl Neighbourhood {
             });
             influences.push(Influence { axis, value, sides });
         }
-        // Variants with the same profile as the unchanged scene come first, so that the profile is
-        // made once.
+        // The variants with the profile of the unchanged scene are computed first, so that this
+        // profile is made only once.
         let mut order: Vec<usize> = (0..variants.len()).collect();
         order.sort_by_key(|index| Reverse(variants[*index].shapes));
         Neighbourhood {
@@ -320,10 +321,10 @@ impl Variant {
     }
 }
 
-/// Indices of [`Sensitivity::RESULTS`].
+/// Indices of the results in [`Sensitivity::RESULTS`].
 const RESULTS: [usize; 3] = [0, 1, 2];
 
-/// Returns the values of a result of a variant on all profiles with a value.
+/// Returns the values of a result of a variant. Profiles without a value are left out.
 fn values(profiles: &[&Solved], variant: usize, result: usize) -> impl Iterator<Item = f64> {
     profiles
         .iter()
@@ -352,8 +353,8 @@ fn range_of_change(profiles: &[&Solved], variant: usize, result: usize) -> Optio
     Some((smallest, largest))
 }
 
-/// Returns the number with which a scene computes. A wavelength is rounded so that a whole number
-/// of waves fits on the length.
+/// Returns the value of a number with which a scene is really computed: a wavelength is rounded so
+/// that a whole number of waves fits on the length.
 fn computed(allowed: Allowed, value: f64) -> f64 {
     if matches!(allowed, Allowed::Fractions(_)) {
         allowed.nearest(value)
@@ -363,8 +364,8 @@ fn computed(allowed: Allowed, value: f64) -> f64 {
 }
 
 /// Returns the number changed by the share [`Sensitivity::STEP`], and the scene with this number.
-/// `sign` is 1 for a larger and −1 for a smaller number. If only some numbers are allowed, the
-/// number is changed to another allowed one. The scene is `None` if the number is not allowed.
+/// The number becomes larger if `sign` is 1 and smaller if `sign` is −1. If only some numbers are
+/// allowed, the next allowed number is used. The scene is `None` if it cannot have the number.
 fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<CheckedScene>) {
     let step = Sensitivity::STEP * value.abs();
     let number = match Allowed::of(axis, scene) {
@@ -376,7 +377,7 @@ fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<Ch
             };
             number
         }
-        // If the length changes, [`with_number`] changes the wavelengths in proportion.
+        // If the number is the length, [`with_number`] changes the wavelengths in proportion to it.
         Allowed::Any | Allowed::Multiples(_) => value + sign * step,
     };
     let neighbour = with_number(scene, axis, number);
@@ -430,7 +431,7 @@ mod tests {
         found
     }
 
-    /// The adhesion force of a sphere is (3/2)πγR. It is in proportion to γ and R, and depends on
+    /// The adhesion force of a sphere is (3/2)πγR. It is proportional to γ and to R, and depends on
     /// no other number.
     #[test]
     fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
@@ -461,9 +462,9 @@ mod tests {
         assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
     }
 
-    /// A wavelength changes so that one more or one less wave fits on the length, and the results
-    /// are those of a scene that states these modes. If the length changes, the wavelengths change
-    /// in proportion.
+    /// A wavelength changes so that one more or one less wave fits on the length. The results are
+    /// then those of a scene that states these numbers of waves as modes. If the length changes,
+    /// the wavelengths change in proportion.
     #[test]
     fn wavelengths_change_by_whole_waves() {
         let base = open("pressure-sensitive")
@@ -493,8 +494,8 @@ mod tests {
                 "roughness.wavelengths.0",
                 [Some([3, 100]), Some([1, 100])],
             ),
-            // The stated wavelength of 23 µm does not fit a whole number of times: the profile has
-            // 4 waves of 25 µm.
+            // A wavelength of 23 µm is stated, of which no whole number fits on the length. The
+            // profile therefore has 4 waves of 25 µm.
             (
                 "(2.3e-5, 1e-6)",
                 [4, 100],
@@ -507,8 +508,8 @@ mod tests {
                 "roughness.wavelengths.1",
                 [Some([1, 111]), Some([1, 91])],
             ),
-            // The longest wave must not be shorter than the shortest one, so one side is not
-            // allowed.
+            // Both wavelengths are equal. The longest wave must not become shorter than the
+            // shortest wave, so it can change to one side only.
             (
                 "(2.5e-5, 2.5e-5)",
                 [4, 4],
@@ -566,7 +567,7 @@ mod tests {
                     "{waves} {path} {side}"
                 );
             }
-            // A change of the length has the same results as in a scene that states modes.
+            // If the length changes, the results are those of a scene that states modes.
             let stretched = found
                 .influences
                 .iter()
@@ -589,7 +590,7 @@ mod tests {
         }
     }
 
-    /// Medians and ranges agree with those of separate runs with the same seeds.
+    /// Medians and ranges agree with those of separate computations with the same seeds.
     #[test]
     fn a_rough_scene_changes_on_the_same_profiles() {
         let found = sensitivity("pressure-sensitive", 2);

@@ -1,4 +1,4 @@
-//! Shards of a plan: parts that are computed by different processes.
+//! Shards of a plan: parts of the plan that different processes can compute.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -44,7 +44,7 @@ impl Shard {
             .ok_or_else(allowed)
     }
 
-    /// Returns the indices of the units of work that belong to this shard. The plan has `units`
+    /// Returns the indices of the units of work that belong to this shard, if the plan has `units`
     /// units.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)

@@ -1,11 +1,11 @@
-//! Roughness of random squares. The waves of a square are grouped in shells, and each shell has the
-//! variance of one mode of the line.
+//! Roughness of random square surfaces. The waves of a square surface are grouped in shells, and
+//! each shell has the variance of one mode of the line (profile).
 
 use asperity_surface::{EquivalentLine, SelfAffine};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Roughness of the profiles or of the squares of a comparison, computed from the waves in use.
+/// Roughness of the profiles or of the square surfaces of a comparison, computed from their waves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ComparedRoughness {
     /// Root mean square height h, m.
@@ -17,7 +17,7 @@ pub struct ComparedRoughness {
 }
 
 impl ComparedRoughness {
-    /// Returns the roughness with all heights multiplied by a factor.
+    /// Returns the roughness after all heights are multiplied by a factor.
     pub fn scaled(self, factor: f64) -> ComparedRoughness {
         ComparedRoughness {
             rms_height: factor * self.rms_height,
@@ -36,12 +36,13 @@ pub(super) enum Spectrum {
         /// Amplitude A₁ in m that mode 1 would have without a roll-off.
         amplitude: f64,
     },
-    /// Spectrum of the measured surface that has this equivalent line.
+    /// Spectrum of a measured surface, given by its equivalent line (profile).
     Measured(EquivalentLine),
 }
 
 impl Spectrum {
-    /// Returns the mean square height A_k²/2 in m² of mode k on a line of the length `side` in m.
+    /// Returns the mean square height A_k²/2, in m², of mode k of a line with the length `side` in
+    /// m.
     fn variance_of_line(&self, mode: u64, side: f64) -> f64 {
         let amplitude = match self {
             Spectrum::SelfAffine {
@@ -53,8 +54,8 @@ impl Spectrum {
         0.5 * amplitude * amplitude
     }
 
-    /// Returns the mean square height in m² of one wave of a surface with this spectrum. `waves` is
-    /// the number of periods over the side.
+    /// Returns the mean square height, in m², of one wave of a surface with this spectrum. `waves`
+    /// is the number of periods of the wave over the side of the surface.
     fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         match self {
             Spectrum::SelfAffine {
@@ -66,23 +67,24 @@ impl Spectrum {
     }
 }
 
-/// Waves of a random square. A square of the side L has waves with whole numbers of periods along
-/// both sides, so only few of them have nearly the wave number of a mode of the line. The waves
-/// with |k| from k − ½ to k + ½ periods over the side are shell k. Their variances are those of the
-/// spectrum times a factor of the shell. The factor makes their sum equal to the variance A_k²/2 of
-/// mode k, so that square and line have the same rms height.
+/// Waves of a random square surface. A square of the side L has waves with whole numbers of periods
+/// along both sides, so only few waves have nearly the wave number of a mode of the line (profile).
+/// Shell k consists of the waves that have k − ½ to k + ½ periods over a length L in their own
+/// direction. Within a shell, the variances of the spectrum are multiplied by a factor with which
+/// their sum equals the variance A_k²/2 of mode k. Square and line then have the same rms height.
 ///
-/// Within a shell the variances fall by a further factor 1/|k|. Most waves of the first shells are
-/// shorter than the mode of their shell, and the factor 1/|k| lessens their share of the variance.
-/// With it e_el of modes 1 to 8 exceeds that of the line by 4 to 5 %, without it by 4 to 7 %.
+/// Within a shell the variances are also multiplied by 1/|k|, where |k| is the wave number. The
+/// reason is that most waves of the first shells are shorter than the mode of their shell, and
+/// 1/|k| reduces their share. With this factor e_el of modes 1 to 8 exceeds that of the line by 4
+/// to 5 %, without it by 4 to 7 %.
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,
     /// Side of the square, m.
     side: f64,
-    /// First and last mode of the line.
+    /// Numbers of the first and the last mode of the line.
     modes: (u64, u64),
-    /// Factor of each shell, from the first mode to the last.
+    /// Factor of the variances in each shell, from the first mode to the last.
     factors: Vec<f64>,
 }
 
@@ -100,18 +102,19 @@ impl Shells {
         });
         for (mode, sum) in (modes.0..=modes.1).zip(sums) {
             let variance = shells.spectrum.variance_of_line(mode, side);
-            // A shell without a wave in the spectrum remains without waves.
+            // If the spectrum has no wave in a shell, this shell remains empty.
             let factor = if sum > 0.0 { variance / sum } else { 0.0 };
             shells.factors.push(factor);
         }
         shells
     }
 
-    /// Calls a function for each wave, with the index of its shell, counted from the first mode,
-    /// and the number of its periods over the side.
+    /// Calls a function for each wave with two numbers: the index of its shell, counted from the
+    /// first mode, and the number of its periods over the side.
     fn for_each_wave(&self, mut call: impl FnMut(usize, f64, &Shells)) {
         let most = self.modes.1 as i64 + 1;
-        // The loops pass a quarter of all waves. Turning them by 90° gives the others.
+        // The loops pass a quarter of all waves. The other waves are found by turning this quarter
+        // by 90°.
         for y in 0..=most {
             for x in 1..=most {
                 let waves = (x as f64).hypot(y as f64);
@@ -124,10 +127,11 @@ impl Shells {
         }
     }
 
-    /// Returns the index of the shell of a wave, counted from the first mode; `None` for a wave
-    /// that the squares do not have.
+    /// Returns the index of the shell of a wave, counted from the first mode; `None` if the square
+    /// surface does not have this wave.
     fn shell(&self, waves: f64) -> Option<usize> {
-        // No wave lies on the edge of a shell, because the square of k + ½ is not a whole number.
+        // No wave lies exactly between two shells: the square of k + ½ is not a whole number, but
+        // the squared number of periods is.
         let mode = waves.round() as u64;
         let (first, last) = self.modes;
         (first..=last)
@@ -135,8 +139,8 @@ impl Shells {
             .then(|| (mode - first) as usize)
     }
 
-    /// Returns the mean square height in m² of a wave of the square. `waves` is the number of its
-    /// periods over the side.
+    /// Returns the mean square height in m² of one wave of the square surface. `waves` is the
+    /// number of periods of the wave over the side.
     pub fn variance(&self, waves: f64) -> f64 {
         match self.shell(waves) {
             Some(shell) => self.factors[shell] * self.variance_before_scaling(waves),
@@ -148,7 +152,7 @@ impl Shells {
         self.spectrum.variance_of_surface(waves, self.side) / waves
     }
 
-    /// Returns the roughness of the squares. `effective_modulus` is in Pa.
+    /// Returns the roughness of the square surface. `effective_modulus` is in Pa.
     pub fn roughness(&self, effective_modulus: f64) -> ComparedRoughness {
         let mut height = 0.0;
         let mut slope = 0.0;
@@ -185,8 +189,8 @@ mod tests {
         }
     }
 
-    /// Squares and lines have the same rms height, and nearly the same rms gradient and elastic
-    /// energy.
+    /// A square surface has the same rms height as the line, and nearly the same rms gradient and
+    /// elastic energy.
     #[test]
     fn a_square_is_as_rough_as_the_line() {
         let height = 4e-7;
@@ -234,8 +238,8 @@ mod tests {
         }
     }
 
-    /// The computed roughness agrees with the roughness of the heights themselves, whose gradients
-    /// are differences on a fine grid.
+    /// The computed roughness agrees with the roughness of the heights. The gradients of the
+    /// heights are taken as differences on a fine grid.
     #[test]
     fn the_heights_have_the_stated_roughness() {
         let cells = 256;

@@ -1,5 +1,5 @@
-//! The body of a scene in three dimensions: one random square on a half-space, loaded without and
-//! with adhesion.
+//! The body of a scene in three dimensions: a square rough surface on an elastic half-space, which
+//! is loaded without and with adhesion.
 
 use super::error::StudyError;
 use super::shells::Shells;
@@ -9,26 +9,29 @@ use asperity_half_space::{
 };
 use asperity_surface::Form;
 
-/// Tolerance of the solver for contacts without adhesion, divided by the rms height.
+/// Tolerance of the gap in contacts without adhesion, divided by the rms height, at which the
+/// solver stops.
 const TOLERANCE: f64 = 1e-8;
-/// Relative difference of the two forces whose indentations give a stiffness by a difference
-/// quotient.
+/// Relative difference between two forces. The stiffness is a difference quotient between the
+/// indentations at these forces.
 const APART: f64 = 0.02;
-/// Share of the target at which a loop that turns at a force or a displacement may turn too early.
+/// Largest allowed deviation, as a share of the target, with which a loop may turn before it has
+/// reached its target force or displacement.
 const NEAR: f64 = 0.01;
 /// Share of an indentation below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
-/// Body of a scene in three dimensions. The random phases of its roughness are not part of it.
+/// Body of a scene in three dimensions. The random phases of its roughness are chosen later by a
+/// seed.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
-    /// Factor of the heights of the roughness in contacts with adhesion. With this factor the
-    /// squares have the same e_el/γ as the lines.
+    /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. With
+    /// this factor the square surfaces have the same e_el/γ as the lines (profiles).
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
@@ -38,14 +41,14 @@ pub(super) struct Body {
     pub works: Option<[f64; 2]>,
 }
 
-/// Turning point of the loop, the same for squares and lines.
+/// Turning point of the loop, which is the same for square surfaces and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
-    /// Force, N.
+    /// The loop turns at this force in N.
     Force(f64),
-    /// Indentation, m.
+    /// The loop turns at this indentation in m.
     Indentation(f64),
-    /// Displacement of the drive of an instrument, d + F/k.
+    /// The loop turns at this displacement of the drive of an instrument, d + F/k.
     Displacement {
         /// Displacement, m.
         displacement: f64,
@@ -55,7 +58,7 @@ pub(super) enum Turn {
 }
 
 impl Turn {
-    /// Returns the stage of a loading that ends at this point.
+    /// Returns the stage of a loading that ends at this turning point.
     pub fn stage(self) -> Move {
         match self {
             Turn::Force(force) => Move::ToForce(force),
@@ -64,7 +67,7 @@ impl Turn {
         }
     }
 
-    /// Returns how far a square has come towards the turning point.
+    /// Returns how near the square surface in this state is to the turning point.
     fn progress(self, state: &AdhesiveState) -> Approach {
         match self {
             Turn::Force(target) => Approach {
@@ -89,18 +92,18 @@ impl Turn {
     }
 }
 
-/// Progress of a square on the way to the turning point: reached value and target in the same unit.
+/// Progress towards the turning point: the reached value and the target, in the same unit.
 struct Approach {
     reached: f64,
     target: f64,
-    /// Share of the target that may be missing at the end.
+    /// Share of the target by which the loop may turn too early.
     tolerance: f64,
 }
 
-/// Loads on a square.
+/// Loading of a square surface.
 #[derive(Clone, Debug)]
 pub(super) struct SquareLoading {
-    /// Forces without adhesion, N.
+    /// Forces in N at which the contact without adhesion is computed.
     pub forces: Vec<f64>,
     /// Turning point of the loop with adhesion.
     pub turn: Turn,
@@ -108,16 +111,16 @@ pub(super) struct SquareLoading {
     pub step: f64,
 }
 
-/// Functions that are called during the computation of a square.
+/// Functions that the computation of a square surface calls.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a> {
     /// Returns true if the computation should end.
     pub stop: &'a dyn Fn() -> bool,
-    /// Is called after each load.
+    /// Called after each load, to report the progress.
     pub loaded: &'a dyn Fn(),
 }
 
-/// State of a square at one force, computed without adhesion.
+/// State of a square surface at one force, without adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
@@ -128,12 +131,12 @@ pub(super) struct Pressing {
     pub residual: f64,
 }
 
-/// Results of a loop with adhesion.
+/// Results of the loops of a square surface with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
     /// Adhesion force, N.
     pub adhesion_force: f64,
-    /// Adhesion force turned at first touch, N.
+    /// Adhesion force in N of a loop that turns at first touch.
     pub at_touch: f64,
     /// Dissipated energy, J.
     pub dissipated_energy: f64,
@@ -141,20 +144,20 @@ pub(super) struct Pulling {
     pub curve: Vec<(f64, f64)>,
 }
 
-/// Results of one random square.
+/// Results of one random square surface.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
     pub pressings: Vec<Pressing>,
     /// Results of the loop with adhesion; `None` without adhesion.
     pub pulling: Option<Pulling>,
     pub convolutions: u64,
-    /// Number of computed loads, with and without adhesion, for the progress.
+    /// Number of computed loads, with and without adhesion. It is needed to report the progress.
     pub count: u64,
 }
 
 impl Loads {
-    /// Returns the adhesion force in N or, for a square without adhesion, the indentation in m
-    /// under the last force.
+    /// Returns the adhesion force in N or, without adhesion, the indentation in m at the last
+    /// force.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
             Some(pulling) => Some(pulling.adhesion_force),
@@ -164,15 +167,15 @@ impl Loads {
 }
 
 impl Body {
-    /// Returns the memory in bytes that the computation of a square needs at its largest stage.
+    /// Returns the memory in bytes that the computation of a square surface needs at most.
     pub fn bytes(&self, cells: usize) -> u64 {
         let adhesive = if self.works.is_some() {
             AdhesiveSquare::bytes(cells)
         } else {
             0
         };
-        // The heights remain in memory during the contact. Before, the waves need three times their
-        // memory.
+        // The heights remain in memory during the contact. Before the contact, the waves from which
+        // the heights are made need three times as much memory as the heights.
         let heights = 8 * (cells * cells) as u64;
         heights
             + HalfSpace::bytes(cells, Boundary::Free)
@@ -180,9 +183,9 @@ impl Body {
                 .max(3 * heights)
     }
 
-    /// Loads the square with the random phases of `seed`: first to each force without adhesion,
-    /// then with adhesion in two loops, of which one turns at first touch and the other at the
-    /// turning point. The side of the square has `cells` grid cells.
+    /// Loads the surface with the random phases of `seed`, first without adhesion to each force.
+    /// Then follow two loops with adhesion: one turns at first touch, the other at the turning
+    /// point of `loading`. The side of the surface has `cells` grid cells.
     pub fn load(
         &self,
         cells: usize,
@@ -214,8 +217,8 @@ impl Body {
         Ok(loads)
     }
 
-    /// Returns the heights in m of the square with the random phases of `seed`, row by row. The
-    /// heights of the roughness, but not of the form, are multiplied by `factor`.
+    /// Returns the heights in m of the surface with the random phases of `seed`, row by row. The
+    /// heights of the roughness are multiplied by `factor`; those of the form are not.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(
@@ -234,15 +237,16 @@ impl Body {
             for (index, height) in heights.iter_mut().enumerate() {
                 let x = distances[index % cells];
                 let y = distances[index / cells];
-                // Outside a punch the body is so far away that it never comes into contact.
+                // Outside a punch the surface is placed so far away (by the side of the square)
+                // that it never touches.
                 *height -= form.depth_in_square(x, y, self.side).unwrap_or(self.side);
             }
         }
         Ok(heights)
     }
 
-    /// Begins the loop of a square with adhesion at first touch. `works` are the works of adhesion
-    /// on closing and on opening in J/m².
+    /// Begins a loop with adhesion at first touch. `works` are the works of adhesion on closing and
+    /// on opening in J/m².
     fn begin_loop<'a>(
         &self,
         heights: &[f64],
@@ -262,7 +266,7 @@ impl Body {
         }
     }
 
-    /// Presses the square without adhesion to each force in N.
+    /// Presses the surface without adhesion to each force in N.
     fn press(
         &self,
         heights: &[f64],
@@ -290,7 +294,7 @@ impl Body {
     }
 }
 
-/// State of a square with adhesion during its loop, and the points of its force curve.
+/// State of a surface with adhesion during its loop, and the points of its force curve so far.
 struct Loop<'a> {
     body: AdhesiveSquare,
     state: AdhesiveState,
@@ -323,8 +327,8 @@ impl<'a> Loop<'a> {
     /// Increases the indentation in steps of at most `step` in m, up to the turning point.
     fn press(&mut self, turn: Turn, step: f64) -> Result<(), StudyError> {
         let mut approach = turn.progress(&self.state);
-        // Only if the loop turns at an indentation, the first step that would pass the turning
-        // point is known.
+        // If the loop turns at an indentation, the first step must not go beyond it. For other
+        // turning points the necessary step is not known yet.
         let mut next = match turn {
             Turn::Indentation(indentation) => step.min(indentation),
             _ => step,
@@ -336,8 +340,8 @@ impl<'a> Loop<'a> {
             let before = approach.reached;
             self.move_by(next)?;
             approach = turn.progress(&self.state);
-            // The next step should end at the turning point. Its length follows from the slope of
-            // the last step.
+            // The next step should end at the turning point. Its length is estimated from the slope
+            // of the force curve in the last step.
             let missing = (approach.target - approach.reached) * next / (approach.reached - before);
             let shortest = if matches!(turn, Turn::Indentation(_)) {
                 0.0
@@ -362,7 +366,7 @@ impl<'a> Loop<'a> {
         ))
     }
 
-    /// Reduces the indentation in steps of `step` in m, until the square is separated.
+    /// Reduces the indentation in steps of `step` in m until the surface is separated.
     fn pull_off(&mut self, step: f64) -> Result<(), StudyError> {
         for _ in 0..MOST_STEPS {
             if self.state.area == 0.0 {
@@ -382,7 +386,7 @@ impl<'a> Loop<'a> {
     }
 }
 
-/// Returns the work of the force along a curve in J, by the trapezoidal rule.
+/// Returns the work of the force along a curve in J, computed by the trapezoidal rule.
 fn work(curve: &[(f64, f64)]) -> f64 {
     curve
         .windows(2)

@@ -1,5 +1,5 @@
-//! Loops of random squares in three dimensions for comparison with the profile, available while
-//! they are computed.
+//! Loops of random square surfaces in three dimensions, for comparison with those of profiles. The
+//! results can be shown while they are computed.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -9,31 +9,32 @@ use asperity_contact::CurvePoint;
 use asperity_data::Control;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of the random squares of a [`Reference`].
+/// Force curves of the random square surfaces of a [`Reference`].
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
-    /// Number of squares that the complete comparison has.
+    /// Number of square surfaces in the complete comparison.
     pub maps: u64,
-    /// Force curve of each computed square from first touch on: points with indentation in m and
-    /// force in N.
+    /// Force curve of each computed square surface from first touch on: points with indentation in
+    /// m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
     /// Adhesion force of each random profile in N, or its indentation at the preload in m if the
     /// scene has no adhesion.
     pub lines: Vec<f64>,
-    /// Adhesion force of each computed square in N, or its indentation at the preload in m if the
-    /// scene has no adhesion.
+    /// Adhesion force of each computed square surface in N, or its indentation at the preload in m
+    /// if the scene has no adhesion.
     pub squares: Vec<f64>,
-    /// Estimated share of the computation of the squares that is done, from 0 to 1.
+    /// Estimated share of the computation of the square surfaces that is done, from 0 to 1.
     pub share: f64,
-    /// Comparison of all squares with the random profiles; `None` until all squares are computed.
+    /// Comparison of all square surfaces with the random profiles; `None` until all square surfaces
+    /// are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`].
-    /// `simulation` has the folder of the measured files of the scene. `control` receives the
-    /// curves so far at the beginning, after each hundredth of the computation, and after each
-    /// square.
+    /// Computes the force curves of square surfaces for a scene, with the options
+    /// [`ReferenceOptions::of`]. `simulation` has the folder of the measured files of the scene.
+    /// `control` receives the curves so far at the beginning, after each hundredth of the
+    /// computation, and after each square surface.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
@@ -57,7 +58,7 @@ impl SquareLoops {
         Ok(loops)
     }
 
-    /// Adds the data of an event. Returns true if a view of the loops has to change.
+    /// Adds the data of an event. Returns true if the loops on the screen have to be drawn again.
     fn take_in(&mut self, event: &ReferenceEvent) -> bool {
         match event {
             ReferenceEvent::Begins { maps, .. } => self.maps = *maps,
@@ -68,8 +69,8 @@ impl SquareLoops {
             }
             ReferenceEvent::Loaded { share } => {
                 let before = (100.0 * self.share).floor();
-                // The number of loads is an estimate, so the sum of the shares may exceed 1 before
-                // the end.
+                // The number of loads is only an estimate, so the sum of the shares may reach 1 too
+                // early. It is therefore limited.
                 self.share = (self.share + share).min(0.99);
                 return (100.0 * self.share).floor() > before;
             }
@@ -81,8 +82,9 @@ impl SquareLoops {
         true
     }
 
-    /// Compares the values [`SquareLoops::lines`] of the profiles with the values
-    /// [`SquareLoops::squares`]; `None` before the first square is computed.
+    /// Compares the values [`SquareLoops::lines`] on profiles with the values
+    /// [`SquareLoops::squares`] on square surfaces; `None` before the first square surface is
+    /// computed.
     pub fn headline(&self) -> Option<Compared> {
         let values = Values {
             lines: self.lines.clone(),
@@ -92,10 +94,10 @@ impl SquareLoops {
         values.compared()
     }
 
-    /// Returns the mean and the scatter of the force of the computed squares as a function of the
-    /// indentation. There is one band for loading, and a second band for unloading if the scene has
-    /// adhesion. A band is three curves: mean force minus standard deviation, mean force, and mean
-    /// force plus standard deviation.
+    /// Returns the mean and the scatter of the force of the computed square surfaces as a function
+    /// of the indentation. There is one band for loading, and a second band for unloading if the
+    /// scene has adhesion. A band is three curves: mean force minus standard deviation, mean force,
+    /// and mean force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let loadings: Vec<Curve> = self.curves.iter().map(|curve| loading_of(curve)).collect();
         let unloadings: Vec<Curve> = self
@@ -123,8 +125,8 @@ fn deepest(curve: &[(f64, f64)]) -> usize {
 /// Returns the points of the loading in ascending order of their indentations.
 fn loading_of(curve: &[(f64, f64)]) -> Curve {
     let mut loading = curve[..curve.len().min(deepest(curve) + 1)].to_vec();
-    // A separated square has no force, and the first point of a loading with adhesion is first
-    // touch. A loading without adhesion begins with zero force at zero indentation.
+    // Only a loading without adhesion lacks a point at zero indentation, where the force is zero. A
+    // loading with adhesion begins at first touch, at zero indentation.
     if loading.first().is_some_and(|first| first.0 > 0.0) {
         loading.insert(0, (0.0, 0.0));
     }
@@ -136,7 +138,8 @@ fn unloading_of(curve: &[(f64, f64)]) -> Curve {
     curve.iter().skip(deepest(curve)).rev().copied().collect()
 }
 
-/// Returns the band of several curves over the indentations that all of them reach; `None` if no
+/// Returns the mean and the scatter of several curves. The band extends from the smallest
+/// indentation of any curve to the largest indentation that all curves reach. Returns `None` if no
 /// curve has two points.
 fn band(curves: &[Curve]) -> Option<[Vec<CurvePoint>; 3]> {
     let curves: Vec<&Curve> = curves.iter().filter(|curve| curve.len() > 1).collect();
@@ -164,11 +167,11 @@ fn band(curves: &[Curve]) -> Option<[Vec<CurvePoint>; 3]> {
     Some(band)
 }
 
-/// Number of steps of a band.
+/// Number of steps of the indentation in a band.
 const BAND_POINTS: usize = 100;
 
-/// Returns the force in N at an indentation in m, interpolated between points in ascending order of
-/// their indentations.
+/// Returns the force in N at an indentation in m, interpolated between points. The indentations of
+/// the points ascend.
 fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
     let after = points
         .partition_point(|point| point.0 < indentation)
@@ -199,7 +202,7 @@ mod tests {
         };
         let control = Control::default().on_threads(1).reporting_to(&mut report);
         let loops = SquareLoops::of(scene.scene(), &mut Simulation::default(), control).unwrap();
-        // Progress is reported before the only square is finished.
+        // The progress is reported before the only square surface is finished.
         assert_eq!((counts[0], shares[0]), ((1, 0), 0.0));
         assert_eq!(counts.last(), Some(&(1, 1)));
         assert!(
@@ -258,7 +261,7 @@ mod tests {
             (up - 2.0 * root).abs() < 1e-12 && (down - 2.0 * root).abs() < 1e-12,
             "{up} {down}"
         );
-        // Without adhesion there is only a band for the loading. It begins at first touch.
+        // Without adhesion there is only one band, for the loading. It begins at first touch.
         let pressed = SquareLoops {
             curves: vec![vec![(1.0, 2.0), (2.0, 4.0)]],
             ..SquareLoops::default()

@@ -1,5 +1,5 @@
-//! Crossings of quantities that follow from the adhesion force F_a as a function of the preload.
-//! F_a rises in steps and is constant between two steps.
+//! Crossings of quantities that depend on the preload only through the preload itself and the
+//! adhesion force F_a. F_a rises in steps and is constant between two steps.
 
 use super::bracket::WITHIN;
 use super::coordinates::Coordinates;
@@ -9,16 +9,16 @@ use asperity_scene::RunError;
 
 /// Largest number of preloads at which one profile is computed.
 const MOST: usize = 4096;
-/// Ratio of the ends of an interval of preloads up to which it is divided in the middle. A wider
-/// interval is divided in the middle of the logarithms.
+/// Largest ratio of the ends of an interval of preloads that is divided in its middle. A wider
+/// interval is divided in the middle on a logarithmic scale.
 const WIDE: f64 = 4.0;
-/// Width of an interval, as a share of the searched range, below which a step of F_a is not located
+/// Smallest width of an interval, as a share of the searched range. A step of F_a is not located
 /// more precisely.
 const LEAST: f64 = 1e-20;
-/// An interval that begins at 0 N is divided at its upper end divided by this number.
+/// An interval that begins at 0 N is divided at its upper end divided by this factor.
 const FROM_ZERO: f64 = 16.0;
-/// Smallest width, as a share of the range in coordinates, of an interval that has a step but no
-/// crossing. It is not divided further.
+/// An interval that contains a step but no crossing is not divided if it is narrower than this
+/// share of the range in coordinates.
 const NARROWEST: f64 = 1.0 / 4096.0;
 
 /// A preload in N with the adhesion force F_a in N after this preload, and the value of a quantity.
@@ -32,14 +32,15 @@ pub(super) struct Stair {
 /// Function that computes a [`Stair`] for each of several ascending preloads.
 pub(super) type Climb<'c> = dyn FnMut(&[f64]) -> Result<Vec<Stair>, RunError> + 'c;
 
-/// Ascending crossings. The second field is true if some crossings may be missing.
+/// Ascending numbers at which a quantity crosses its target. `may_miss` is true if some crossings
+/// may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Crossings {
     pub numbers: Vec<f64>,
     pub may_miss: bool,
 }
 
-/// Interval between two preloads, with the adhesion force at both ends.
+/// Interval between two preloads, with the adhesion force at each end.
 #[derive(Clone, Copy, Debug)]
 struct Flight {
     low: Stair,
@@ -61,9 +62,9 @@ impl Flight {
         high - low > SAME * high.abs()
     }
 
-    /// Looks for preloads in the interval at which F_a is `ratio` times the preload. `depth` is the
-    /// number of divisions that led to this interval. `range` is the length of the searched range
-    /// in N.
+    /// Searches the interval for preloads at which F_a is `ratio` times the preload. `depth` is the
+    /// number of divisions that led to this interval, and `range` is the length of the searched
+    /// range in N.
     fn look(&self, ratio: f64, depth: usize, range: f64) -> Found {
         let low = self.low;
         let high = self.high;
@@ -77,8 +78,8 @@ impl Flight {
                 Found::Nothing
             };
         }
-        // F_a never falls, so it lies between the forces at both ends, and the ratio cannot cross
-        // the target.
+        // F_a never falls, so inside the interval it lies between its values at the ends. These
+        // values show that F_a over the preload cannot cross the target `ratio`.
         if high.adhesion_force < ratio * low.preload || low.adhesion_force > ratio * high.preload {
             return Found::Nothing;
         }
@@ -91,9 +92,10 @@ impl Flight {
                 Found::Nothing
             };
         }
-        // If F_a is still that of the lower end, the ratio crosses the target at this preload. If
-        // the lower end is already below the target, the ratio is smaller than the target above
-        // this preload.
+        // If the lower end is above the target, the interval is divided where F_a of the lower end
+        // gives the target: the quotient crosses the target there, unless F_a has a step before. If
+        // the lower end is below the target, the interval is divided where F_a of the upper end
+        // gives the target: at higher preloads the quotient is smaller than the target.
         let stair = if is_above[0] { low } else { high };
         let preload = at_most(stair.adhesion_force, ratio);
         if depth.is_multiple_of(2) && low.preload < preload && preload < high.preload {
@@ -112,7 +114,7 @@ fn at_most(force: f64, ratio: f64) -> f64 {
     preload
 }
 
-/// Returns a preload between two others, at which an interval is divided.
+/// Returns the preload at which an interval between two preloads is divided.
 fn middle(low: f64, high: f64) -> f64 {
     if low <= 0.0 {
         high / FROM_ZERO
@@ -123,8 +125,8 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Returns the preloads at which F_a is `ratio` times the preload. `ends` are two preloads in N,
-/// zero or above, and `ratio` is above zero.
+/// Returns the preloads at which F_a is `ratio` times the preload. The searched range is given by
+/// `ends`, two preloads in N that are zero or above. `ratio` is above zero.
 pub(super) fn ratio_crossings(
     ends: [f64; 2],
     ratio: f64,
@@ -161,7 +163,7 @@ pub(super) fn ratio_crossings(
     Ok(crossings)
 }
 
-/// Returns both parts of each interval, divided at the preload of a computed stair.
+/// Divides each interval at the preload of a computed stair, and returns both parts.
 fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     let mut parts = Vec::with_capacity(2 * flights.len());
     for (flight, &stair) in flights.iter().zip(stairs) {
@@ -178,8 +180,8 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
 }
 
 /// Finds the crossings of a quantity that is constant between two steps of F_a. Returns pairs of
-/// neighbouring preloads between which the quantity passes the target. The second value is true if
-/// such a pair may be missing, because two steps are closer together than the computed preloads.
+/// neighbouring preloads between which the quantity crosses the target. The second value is true if
+/// such a pair may be missing because two steps are closer together than the computed preloads.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,
@@ -236,7 +238,7 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns the stair of each preload, with the adhesion force after the last step up to this
+    /// Returns a stair at each preload. Its adhesion force is that of the last step at or below the
     /// preload. `steps` are pairs of preload and adhesion force.
     fn stairs(steps: &[(f64, f64)], preloads: &[f64]) -> Vec<Stair> {
         let stair = |&preload: &f64| {
@@ -259,7 +261,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut most = 0;
         for case in 0..400 {
-            // The steps extend over eight decades of preloads. The first step is at 0 N or above.
+            // The steps lie in eight decades of preloads. The first step is at 0 N or above it.
             let first = if case % 2 == 0 { 0.0 } else { 1e-9 };
             let mut steps = vec![(first, 1e-7 * random.random::<f64>())];
             for _ in 0..random.random_range(0..40) {
@@ -274,7 +276,8 @@ mod tests {
             let ends = [0.0, 0.5 * steps[steps.len() - 1].0 + 1e-3];
             let found =
                 ratio_crossings(ends, ratio, &mut |preloads| Ok(stairs(&steps, preloads))).unwrap();
-            // The expected crossings follow in closed form between each step and the next one.
+            // Between two steps F_a is constant, so the expected crossings are known in closed
+            // form.
             let mut expected = Vec::new();
             let mut is_above = steps[0].0 == 0.0;
             for (index, &(preload, force)) in steps.iter().enumerate() {

@@ -10,18 +10,20 @@ use serde::Serialize;
 /// Probability with which a confidence interval contains the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Share of the profiles above which the regime of these profiles counts as the regime of all.
+/// Smallest share of the profiles in one regime with which this regime counts as that of all
+/// profiles.
 const AGREEING_SHARE: f64 = 0.75;
 
 /// Smallest number of values whose median has a confidence interval.
 const FEWEST: usize = 4;
-/// Half-width of the confidence interval of a median, as a share of the sorted values times √n,
-/// where n is the number of values. The number of values below the median has a binomial
-/// distribution with the standard deviation √n/2, and 1.96 standard deviations hold 95 of 100
-/// cases: 1.96 · √n/2 = 0.98 √n.
+/// Half-width of the confidence interval of a median, counted in sorted values and divided by √n,
+/// where n is the number of values. The number of values below the true median has a binomial
+/// distribution with the standard deviation √n/2. In 95 of 100 cases it is within 1.96 standard
+/// deviations: 1.96 · √n/2 = 0.98 √n.
 const HALF: f64 = 0.98;
 
-/// Share of one profile in the sum over all profiles above which a warning is given.
+/// Share of the largest value in the sum of the values of all profiles, above which a warning is
+/// given.
 const MOST_OF_ONE: f64 = 0.5;
 
 /// Statistics over random profiles of one quantity, in the SI unit of the quantity.
@@ -66,7 +68,7 @@ pub struct Spread {
     pub confidence_interval: (f64, f64),
 }
 
-/// Function that returns the statistic shown in a column of a table; `None` if the statistic is
+/// Function that returns one statistic, which a table shows in a column; `None` if the statistic is
 /// unknown.
 type Column = fn(&Statistics) -> Option<f64>;
 
@@ -89,7 +91,8 @@ impl Statistics {
         sorted.sort_by(f64::total_cmp);
         let range = (*sorted.first()?, *sorted.last()?);
         let count = values.len() as f64;
-        // The values are divided by the largest one, so that no square overflows or underflows.
+        // The values are divided by the value with the largest magnitude, so that no square
+        // overflows or underflows.
         let largest = values
             .iter()
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -118,9 +121,9 @@ impl Statistics {
         })
     }
 
-    /// Statistics that a table shows of each quantity, one in each column. Each entry is the last
-    /// part of the name of the column, such as `median`, and the function that returns the value in
-    /// the column.
+    /// Statistics of a quantity that a table shows, each in its own column. The text is the last
+    /// part of the name of the column, such as `median`; the function returns the value in the
+    /// column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -189,10 +192,10 @@ impl Statistics {
     }
 }
 
-/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added
-/// to the mean and subtracted from the mean. With one bound the same is done with the logarithm of
-/// the distance between mean and bound, and with two bounds with the logarithm of the ratio of both
-/// distances, so that the interval never reaches a bound.
+/// Returns an interval around the mean with the half-width `half`. Without bounds, `half` is added
+/// to the mean and subtracted from it. With one bound, this is done with the logarithm of the
+/// distance of the mean from the bound. With two bounds, it is done with the logarithm of the ratio
+/// of the two distances. The interval therefore never reaches a bound.
 fn interval(mean: f64, half: f64, bounds: (f64, f64)) -> (f64, f64) {
     let (least, most) = bounds;
     // Rounding errors may have moved the mean itself to a bound or beyond.
@@ -202,7 +205,7 @@ fn interval(mean: f64, half: f64, bounds: (f64, f64)) -> (f64, f64) {
     (moved(mean, -half, bounds), moved(mean, half, bounds))
 }
 
-/// Returns the mean moved by about `step`, without reaching one of the bounds; see [`interval`].
+/// Returns the mean moved by about `step`, but never to a bound or beyond; see [`interval`].
 fn moved(mean: f64, step: f64, bounds: (f64, f64)) -> f64 {
     let (least, most) = bounds;
     let above = mean - least;
@@ -258,7 +261,7 @@ impl RegimeCounts {
         }
     }
 
-    /// Returns the number of profiles in each regime, in the order of [`Regime::ALL`].
+    /// Returns the number of profiles in each known regime, in the order of [`Regime::ALL`].
     fn known(self) -> [usize; 3] {
         [
             self.pressure_insensitive,
@@ -306,8 +309,8 @@ impl RegimeCounts {
     /// Returns the regimes that occur, each with its number of profiles, the largest number first.
     fn ordered(self) -> [Option<(Regime, usize)>; 3] {
         let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
-        // The sorting is stable: of two regimes with equal numbers, the one with more adhesion
-        // remains first.
+        // The sorting keeps the order of regimes with equal numbers of profiles, so the regime with
+        // more adhesion remains first.
         counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
@@ -343,9 +346,9 @@ mod tests {
         (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
     }
 
-    /// Returns the shares of random samples whose confidence intervals contain the true median and
-    /// the true mean. Each sample has `count` log-normal forces with the standard deviation
-    /// `deviation` of the logarithm.
+    /// Draws random samples and returns two shares: the share of samples whose confidence interval
+    /// contains the true median, and the same for the true mean. Each sample has `count` log-normal
+    /// forces; `deviation` is the standard deviation of their logarithm.
     fn shares_held(count: usize, deviation: f64, samples: u32) -> [f64; 2] {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let truths = [1.0, (0.5 * deviation * deviation).exp()];
@@ -363,8 +366,8 @@ mod tests {
         held.map(|held| f64::from(held) / f64::from(samples))
     }
 
-    /// The interval of the median contains the median in about 95 of 100 samples, however skewed
-    /// the forces are. The interval of the mean contains the mean as often only for forces that
+    /// The confidence interval of the median contains the true median in about 95 of 100 samples,
+    /// however skewed the forces are. The interval of the mean is as good only for forces that
     /// scatter little, as its documentation states.
     #[test]
     fn intervals_hold_the_median_always_and_the_mean_of_forces_that_scatter_little() {
@@ -491,7 +494,7 @@ mod tests {
                 "{all:?}"
             );
         }
-        // The interval is symmetric in the logarithm of the force: mean/low and high/mean are
+        // The interval is symmetric in the logarithm of the force, so mean/low and high/mean are
         // equal.
         let all = Statistics::of(wide.to_vec(), force).unwrap();
         let (low, high) = all.confidence_interval().unwrap();

@@ -1,7 +1,8 @@
-//! The folder of a study, with the plan and one file for each process that has computed a part.
+//! The folder of a study on disk. It contains the plan and one shard file for each process that has
+//! computed a part of the study.
 //!
-//! A process only appends to its own shard file. Each record is a line with a checksum. If a
-//! process is killed, its complete lines remain valid, and an incomplete line is ignored.
+//! A process only appends lines to its own shard file. Each record is a line with a checksum. If a
+//! process is killed, its complete lines remain valid, and an incomplete last line is ignored.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -25,17 +26,17 @@ use std::{fs, io};
 
 /// Version of the format of shard files, [`ShardFile`].
 pub const STORE_VERSION: u32 = 1;
-/// Largest length in bytes of a line of a shard file or a table, for protection against damaged
-/// files. Records are much shorter.
+/// Largest length in bytes of a line of a shard file or a table, as a protection against damaged
+/// files. Lines of records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
 const ENDING: &str = "shard";
 
-/// Text between the seed and the reason, in a record without values.
+/// Separator between the seed and the reason in a record that has a reason instead of values.
 const FAILED: &str = ",:";
 
-/// Number of characters of the checksum and the comma after it.
+/// Number of characters of the checksum of a line, including the comma after it.
 const CHECKSUM: usize = 9;
 
 /// Folder of a study on disk, with the plan and one file of results for each process that has
@@ -76,9 +77,8 @@ pub struct ShardFile {
     pub written: f64,
 }
 
-/// Record of a study: its index, then one value for each quantity of the plan, NaN if missing, or
-/// the reason why it has no values. The index counts the profiles of the first cell, then those of
-/// the second cell, and so on.
+/// Record of a study: its index, and one value for each quantity of the plan (NaN if missing) or
+/// the reason why it has no values. Records are numbered by cell and then by profile.
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
@@ -128,7 +128,7 @@ impl Folder {
         let text = plan.to_ron();
         if !file.exists() {
             match write_new(&file, false, |out| out.write_all(text.as_bytes())) {
-                // Another process may have written the plan since the check.
+                // Another process may have written the plan between the check and this write.
                 Ok(()) | Err(WriteError::Exists { .. }) => {}
                 Err(error) => return Err(error.into()),
             }
@@ -213,15 +213,15 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// Creates a file with its header and syncs them to the disk, so that a later power cut cannot
-    /// lose the header.
+    /// Creates a file with its header, and syncs both to the disk, so that a power cut cannot lose
+    /// the header later.
     fn begun_file(&self, path: &Path, header: &ShardHeader) -> io::Result<File> {
         let mut text = String::new();
         seal(&serde_json::to_string(header)?, &mut text);
         let mut file = File::create_new(path)?;
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
-        // The name of the file in the folder must survive a power cut as well.
+        // The folder is synced too, so that a power cut cannot lose the name of the file.
         sync_folder(&self.path.join(SHARDS))?;
         Ok(file)
     }
@@ -248,16 +248,15 @@ impl Folder {
             .collect()
     }
 
-    /// Returns the records of a file in the order of writing. A record is `None` if its line is
-    /// incomplete, was changed later, or is no record of this plan.
+    /// Returns the records of a file in the order in which they were written. A record is `None` if
+    /// its line is incomplete, was changed later, or is not a record of this plan.
     pub(super) fn records<'f>(
         &'f self,
         file: &'f ShardFile,
     ) -> Result<impl Iterator<Item = Result<Option<Record>, StudyError>> + 'f, StudyError> {
         let opened =
             open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
-        // Most files of a study are small, so the size of the buffer follows from the size of the
-        // file.
+        // Most files of a study are small, so the buffer is not larger than the file.
         let size = opened
             .metadata()
             .map_err(StudyError::unreadable(&file.path))?
@@ -272,7 +271,7 @@ impl Folder {
         }))
     }
 
-    /// Reads a line of a file; `None` if it is no record of this plan.
+    /// Reads a line of a shard file; `None` if the line is not a record of this plan.
     fn read_record(&self, line: &str) -> Option<Record> {
         let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
         let profile = seed.wrapping_sub(self.plan.seed);
@@ -280,9 +279,9 @@ impl Folder {
         is_of_plan.then_some((cell * self.plan.lines + profile, record))
     }
 
-    /// Returns for each index whether the record exists. All files are synced to the disk before.
-    /// Otherwise a power cut could lose records of a killed process, and they would not be computed
-    /// again.
+    /// Returns for the index of each record whether the record exists. Before that, all files are
+    /// synced to the disk. Otherwise a power cut could lose records that a killed process has
+    /// written, after they were counted as existing, and they would not be computed again.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
@@ -305,8 +304,8 @@ impl Folder {
     }
 }
 
-/// Returns the shard file at `path`; `None` if it has no header yet. A file of another plan, with
-/// another checksum, is an error.
+/// Returns the shard file at `path`; `None` if the file has no header yet. Returns an error if the
+/// checksum in the header shows that the file belongs to another plan.
 fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
     let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
     let written = file
@@ -317,7 +316,7 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
         .duration_since(UNIX_EPOCH)
         .unwrap_or_default()
         .as_secs_f64();
-    // A folder may have thousands of files, and only their first lines are read here.
+    // A folder may have thousands of files, so only the first line of each is read here.
     let first = lines(BufReader::with_capacity(1 << 10, file))
         .next()
         .transpose();
@@ -334,8 +333,8 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
     }))
 }
 
-/// Reads a complete header. A crash leaves no wrong header, so a wrong header is refused as an
-/// error of the program that wrote it.
+/// Reads the header of a shard file. A crash leaves an incomplete header or none, so a complete but
+/// wrong header is refused as an error.
 fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     let header: ShardHeader = serde_json::from_str(payload).map_err(|error| {
         format!(
@@ -357,7 +356,8 @@ fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     })
 }
 
-/// Appends a line with its checksum in front. `payload` has no line break.
+/// Appends a line to `into`: the checksum of `payload`, a comma, and `payload`, which has no line
+/// break.
 pub(super) fn seal(payload: &str, into: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -367,17 +367,19 @@ pub(super) fn seal(payload: &str, into: &mut String) {
     );
 }
 
-/// Returns the text of a line after its checksum; `None` if the checksum is missing or wrong.
+/// Returns the text of a line without the checksum before it; `None` if the checksum is missing or
+/// wrong.
 pub(super) fn unseal(line: &str) -> Option<&str> {
     let payload = line.get(CHECKSUM..)?;
     let checksum = line.get(..CHECKSUM)?.strip_suffix(',')?;
-    // The checksum is compared as text, so that each record can be written in only one way.
+    // The checksum is compared as text, so that only one spelling of each line is accepted.
     let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
     is_ours.then_some(payload)
 }
 
-/// Appends the record of a cell and a seed. A missing value (NaN) becomes an empty column, and a
-/// reason follows after a colon.
+/// Appends the record of the cell with the number `cell` and the profile with this seed. A missing
+/// value (NaN) becomes an empty column. If there are no values, the reason follows after
+/// [`FAILED`].
 pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
     let mut payload = format!("{cell},{seed}");
     if let Err(reason) = record {
@@ -387,15 +389,15 @@ pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String)
     for value in record.iter().flatten() {
         payload.push(',');
         if !value.is_nan() {
-            // This is the shortest text from which the same bits are read.
+            // `{:?}` writes the shortest text from which the same bits are read again.
             let _ = write!(payload, "{value:?}");
         }
     }
     seal(&payload, into);
 }
 
-/// Returns cell, seed and values of a record, with NaN for empty columns; `None` unless the record
-/// has `count` values or a reason.
+/// Returns the cell, the seed and the values of a record, with NaN for empty columns. Returns
+/// `None` if the record has neither `count` values nor a reason.
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
     if let Some((place, reason)) = payload.split_once(FAILED) {
         let (cell, seed) = place.split_once(',')?;
@@ -448,8 +450,8 @@ fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
 
-/// Returns the error for a folder that has another plan than `plan`. `there` is the text of the
-/// plan in the folder.
+/// Returns the error for a folder whose plan differs from `plan`. `there` is the text of the plan
+/// in the folder.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of a measured file has changed, the error says so.
@@ -492,7 +494,7 @@ fn line_in_words(line: Option<&str>) -> String {
     }
 }
 
-/// Returns the name of this machine, with only letters that are allowed in a file name.
+/// Returns the name of this machine, reduced to characters that are allowed in a file name.
 fn host() -> String {
     #[cfg(unix)]
     let name = rustix::system::uname()
@@ -537,7 +539,7 @@ mod tests {
             for (read, value) in read.unwrap().iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }
-            // Every shortened or changed line is refused.
+            // A line that was shortened or changed at any place is refused.
             for end in 0..line.len() {
                 prop_assert_eq!(unseal(&line[..end]), None);
             }

@@ -9,8 +9,8 @@ use super::results::Results;
 use asperity_scene::{Adhesion, Document, Roughness, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Results of a study as maps over two of its axes, one map for each combination of values on the
-/// other axes. If the study has only one axis, the map is a curve.
+/// Results of a study as maps over two of its axes. There is one map for each combination of values
+/// on the other axes. If the study has only one axis, the map is a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
@@ -19,7 +19,7 @@ pub struct StudyMap {
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
-    /// Quantities with scales that all maps share.
+    /// Quantities that the maps show. Each has one scale for all maps.
     layers: Vec<GridLayer>,
 }
 
@@ -91,8 +91,8 @@ impl StudyMap {
             .product()
     }
 
-    /// Returns for each axis of the study the index of the value of map `slice`. The index is 0 on
-    /// the axes of the maps.
+    /// Returns the index of the value on each axis of the study for map number `slice`. On the axes
+    /// of the maps the index is 0.
     fn places(&self, slice: u64) -> Vec<usize> {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
@@ -122,8 +122,9 @@ impl StudyMap {
             .map(|axis| &self.plan().axes[axis])
     }
 
-    /// Returns the scene of map `slice` on the first profile of the study. `over` has values on the
-    /// axes of the map. An axis without a value in `over` keeps the value of the scene of the plan.
+    /// Returns the scene of map number `slice` on the first profile of the study. `over` has values
+    /// on the axes of the map. On an axis without a value in `over`, the scene has the value that
+    /// the scene of the plan has.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -161,8 +162,8 @@ impl StudyMap {
     /// # Errors
     /// Returns an error if a value of the scene is not allowed.
     pub fn document(&self) -> Result<Document, SceneErrors> {
-        // The path is that given by the user, so that a command with this path opens the study
-        // again.
+        // The path is written as the user has given it. A command with this path then opens the
+        // study again.
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
@@ -201,8 +202,8 @@ impl StudyMap {
     }
 }
 
-/// Returns κ and H of a scene if the scene states them. For a measured profile they follow from the
-/// file, and `None` is returned.
+/// Returns κ and H of a scene with a self-affine roughness. Returns `None` for another scene: on a
+/// measured profile, for example, κ and H depend on the file.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
     let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else {
         return None;
@@ -210,8 +211,8 @@ fn place(scene: &Scene) -> Option<(f64, f64)> {
     Some((governing(scene)?.kappa?, hurst))
 }
 
-/// Returns true if κ and H are equal except for rounding errors, or if one of the scenes does not
-/// state them.
+/// Returns true if two scenes have the same κ and H except for rounding errors, or if one of the
+/// scenes does not state them.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let (Some((kappa, hurst)), Some((other_kappa, other_hurst))) = (one, other) else {
         return true;
@@ -234,7 +235,7 @@ mod tests {
     use asperity_data::AxisScale;
     use asperity_scene::{Regime, RoughnessParameter};
 
-    /// A plan in which κ comes before H and is not in ascending order, with two preloads, another
+    /// In this plan κ comes before H and does not ascend. The plan also has two preloads, a third
     /// axis and five profiles.
     const PLAN: &str = r#"(
         version: 1,
@@ -257,8 +258,9 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Makes the maps of a plan. In each cell F_a/F_n is the number of the cell, the preload is
-    /// this number in µN, and the profiles have the regimes of `REGIMES`. Cell 5 is missing.
+    /// Makes the maps of a plan with made-up results. In each cell F_a/F_n is the number of the
+    /// cell, the preload is the same number in µN, and the profiles have the regimes of `REGIMES`.
+    /// Cell 5 is missing.
     fn study_map(plan: &str) -> StudyMap {
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
         let folder = tempfile::tempdir().unwrap();
@@ -308,7 +310,8 @@ mod tests {
                 Quantity::PreloadForce,
             ];
             assert_eq!(grid.quantities(), quantities);
-            // The scale covers the preloads of all maps, from 0 to 23 µN.
+            // All maps have the same scale, so the range covers the preloads of all maps, from 0 to
+            // 23 µN.
             let force = grid.layer(Quantity::PreloadForce).unwrap();
             assert_eq!(
                 (force.scale, force.range),
@@ -357,7 +360,7 @@ mod tests {
             panic!()
         };
         assert_eq!((seed, modes, hurst), (7, Some((1, 16)), 0.5));
-        // The force is 0.5 E* h L.
+        // The preload of the map is 0.5 in units of E* h L.
         let Move::ToForce(force) = scene.loading[0] else {
             panic!("{:?}", scene.loading)
         };

@@ -1,5 +1,5 @@
-//! Tables of a study: all recorded values, their statistics over the profiles, and a description of
-//! the columns.
+//! Tables of a study: a table of all recorded values, a table of their statistics over the
+//! profiles, and a description of the columns.
 
 use super::axis::Spacing;
 use super::error::StudyError;
@@ -21,9 +21,10 @@ use std::path::{Path, PathBuf};
 
 /// Version of the format of the files that [`merge`] writes.
 pub const RESULTS_VERSION: u32 = 1;
-/// Name of the column with the reasons of records without values.
+/// Name of the column that states why a record has no values.
 const REASON: &str = "reason";
-/// Largest length in bytes of a description of the columns that is read; a longer file is refused.
+/// Largest allowed length in bytes of the file that describes the columns. A longer file is
+/// refused.
 const LONGEST_SIDECAR: usize = 1 << 26;
 
 impl Merged {
@@ -61,8 +62,8 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     Ok(merged)
 }
 
-/// Description of the columns, with the plan and the numbers of a merge, in the order of the keys
-/// in JSON.
+/// Description of the columns, with the plan and the numbers of records found by the merge. The
+/// fields are in the order of the keys in the JSON file.
 #[derive(Serialize)]
 struct Sidecar<'a> {
     format: u32,
@@ -159,7 +160,7 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> Sidecar<'a>
     }
 }
 
-/// Adds the columns for the cell, its values on the axes and the preload.
+/// Adds the columns with the number of the cell and its values on the axes, including the preload.
 fn with_cell<'a, T: 'a>(
     plan: &'a Plan,
     rows: TableOf<'a, T>,
@@ -181,7 +182,8 @@ fn with_cell<'a, T: 'a>(
     })
 }
 
-/// Returns the SHA-256 of the table that the last merge wrote; `None` if no description states it.
+/// Returns the SHA-256 of the table of results, as the last merge has written it into the
+/// description; `None` if there is no such description.
 fn recorded_hash(folder: &Path) -> Option<String> {
     let text = read_regular_text(&folder.join(Merged::SIDECAR), LONGEST_SIDECAR).ok()?;
     let all: serde_json::Value = serde_json::from_str(&text).ok()?;
@@ -194,7 +196,7 @@ struct RecordRow<'a> {
     line: u64,
     /// Values of the recorded quantities; `None` if they cannot be computed.
     values: Option<&'a [f64]>,
-    /// Reason why there are no values.
+    /// Reason why the record has no values; `None` if it has values.
     reason: Option<&'a str>,
 }
 
@@ -208,7 +210,7 @@ impl RecordRow<'_> {
 struct SummaryRow<'a> {
     cell: u64,
     results: GridCell,
-    /// Reason why no profile has values.
+    /// Reason why the cell has no values on any profile; `None` if it has values.
     reason: Option<&'a str>,
 }
 
@@ -233,7 +235,7 @@ impl Results {
         self.with_reasons(table, |row| row.reason)
     }
 
-    /// Returns the rows of a cell, one for each profile on which it is computed.
+    /// Returns the rows of a cell, one for each profile on which the cell is computed.
     fn rows_of(&self, cell: u64) -> impl Iterator<Item = RecordRow<'_>> {
         let rows = (0..self.plan.lines).map(move |line| RecordRow {
             cell,
@@ -244,7 +246,7 @@ impl Results {
         rows.filter(|row| row.values.is_some() || row.reason.is_some())
     }
 
-    /// Returns the row of statistics of a cell; `None` for a cell that is not computed.
+    /// Returns the row of statistics of a cell; `None` if the cell is not computed.
     fn summary_row(&self, cell: u64) -> Option<SummaryRow<'_>> {
         let record = &self.plan.record;
         let reason = self.failure_of(cell);
@@ -262,7 +264,7 @@ impl Results {
         })
     }
 
-    /// Completes the table. If records have no values, a last column has the reasons.
+    /// Completes a table: if some records have no values, adds a last column with the reasons.
     fn with_reasons<'a, T: 'a>(
         &'a self,
         table: TableOf<'a, T>,
@@ -278,8 +280,8 @@ impl Results {
         }
     }
 
-    /// Returns the table of the cells with records: number of profiles and, for each quantity,
-    /// mean, standard deviation and confidence interval.
+    /// Returns a table with a row for each cell that has records. Its columns are the number of
+    /// profiles and, for each quantity, mean, standard deviation and confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
         let rows = Table::of(|| (0..self.plan.cells()).filter_map(|cell| self.summary_row(cell)));
@@ -334,8 +336,8 @@ impl Results {
                 return Err(merged.wrong(&format!("line {number} is not a row of this study")));
             }
         }
-        // A table whose rows were repeated, deleted or changed may still be readable, so its hash
-        // is compared.
+        // The hash of the table is compared, because a table can still be read after rows were
+        // repeated, deleted or changed.
         let found = sha256_of(path).map_err(|error| StudyError::folder(path, error))?;
         match recorded_hash(folder) {
             Some(recorded) if recorded == found => Ok(results),
@@ -350,7 +352,8 @@ impl Results {
         }
     }
 
-    /// Returns the first line of the table of all results, without the column of reasons.
+    /// Returns the first line of the table of all results. The column of reasons, which the table
+    /// may lack, is not included.
     fn header(&self) -> String {
         let table = self.table();
         let names: Vec<&str> = table
@@ -361,17 +364,18 @@ impl Results {
         names.join(",")
     }
 
-    /// Adds a row of the table of all results; `None` if the text is not a row of this study.
+    /// Adds the results in a row of the table of all results. Returns `None` if the text is not a
+    /// row of this study.
     fn add_row(&mut self, row: &str, has_reason: bool) -> Option<()> {
         let plan = &self.plan;
-        // Only the last column, a reason, may contain a comma.
+        // Only the reason may contain a comma, so it is the last column.
         let count = 3 + plan.scene_axes().len() + plan.record.len() + usize::from(has_reason);
         let mut columns = row.splitn(count, ',');
         let cell: u64 = columns.next()?.parse().ok()?;
         if cell >= plan.cells() {
             return None;
         }
-        // The values on the axes must be those of the plan.
+        // The values on the axes must equal those of the plan.
         for axis in 0..plan.axes.len() {
             let value: f64 = columns.next()?.parse().ok()?;
             if plan.value(cell, axis) != value {
@@ -403,7 +407,8 @@ impl Results {
     }
 }
 
-/// Reads the value of a quantity in a row; NaN if there is none.
+/// Reads the value of a quantity in a cell of the table; NaN if the cell is empty. Returns `None`
+/// for another text.
 fn read_value(quantity: Quantity, text: &str) -> Option<f64> {
     if text.is_empty() {
         return Some(f64::NAN);
@@ -417,7 +422,7 @@ fn read_value(quantity: Quantity, text: &str) -> Option<f64> {
     Some(index as f64)
 }
 
-/// Returns the text of a cell without quotes around it.
+/// Returns the text of a cell of the table without the quotes around it.
 fn unquoted(text: &str) -> String {
     let inner = text
         .strip_prefix('"')
@@ -428,7 +433,7 @@ fn unquoted(text: &str) -> String {
     }
 }
 
-/// Table of all results of a study, and messages about errors in it.
+/// File with the table of all results of a study, and the error messages about this file.
 struct MergedTable {
     path: PathBuf,
     /// Path of the folder of the study, quoted for a shell.

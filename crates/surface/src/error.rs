@@ -69,7 +69,7 @@ impl fmt::Display for Place {
 }
 
 impl Place {
-    /// Returns this place and all places inside which it lies, from the outermost to the innermost.
+    /// Returns this place and the places nested in it, from the outermost to the innermost.
     fn all(&self) -> impl Iterator<Item = &Place> {
         std::iter::successors(Some(self), |place| match place {
             Place::Measurement(_, inner) | Place::Surface(_, inner) => Some(&**inner),
@@ -117,7 +117,7 @@ pub enum SurfaceError {
     /// The format of a file is known, but this crate has no reader for it.
     #[error("{place}{format} is not read; allowed: {allowed}")]
     UnreadFormat {
-        /// The file.
+        /// Place of the error, which is the file as a whole.
         place: Place,
         /// Name of the format.
         format: &'static str,
@@ -141,7 +141,7 @@ pub enum SurfaceError {
     /// Neither the file nor the options state the unit of a quantity.
     #[error("{place}no unit of {quantity} is stated; allowed: a unit in the file or beside it")]
     NoUnit {
-        /// The file.
+        /// Place of the error, which is the file as a whole.
         place: Place,
         /// Name of the quantity: positions, distances or heights.
         quantity: &'static str,
@@ -151,7 +151,7 @@ pub enum SurfaceError {
     /// The file has no channel or surface that fits the options, or several.
     #[error("{place}{fault}: {}; allowed: {allowed}", channels.join(", "))]
     Channel {
-        /// The file.
+        /// Place of the error, which is the file as a whole.
         place: Place,
         /// What is wrong, in words.
         fault: String,
@@ -165,7 +165,7 @@ pub enum SurfaceError {
     /// The operating system cannot read a file.
     #[error("{place}{reason}")]
     Unreadable {
-        /// File that cannot be read.
+        /// Place of the error, which names the file that cannot be read.
         place: Place,
         /// Reason that the operating system gives.
         reason: String,
@@ -198,8 +198,8 @@ impl SurfaceError {
         }
     }
 
-    /// Returns the first result of `said_by` for this place and the places inside it, from the
-    /// outermost to the innermost.
+    /// Returns the first result that `said_by` gives for the place of the error and the places
+    /// nested in it, from the outermost to the innermost.
     fn find<T>(&self, said_by: impl Fn(&Place) -> Option<T>) -> Option<T> {
         self.place().all().find_map(said_by)
     }

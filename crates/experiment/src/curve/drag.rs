@@ -11,39 +11,41 @@ use crate::curve::points::Points;
 use crate::read::options::{CurveOptions, Drift, Tilt};
 use serde::Serialize;
 
-/// Number of lengths h₀ that are tried.
+/// Number of lengths h₀ that [`Side::best_pole`] tries.
 const REACHES: i32 = 24;
-/// Ratio of neighbouring lengths h₀ that are tried.
+/// Ratio of each tried length h₀ to the next smaller one.
 const RATIO: f64 = 1.3;
-/// Largest length h₀ that is tried, as a share of the way before contact. A drag with a larger h₀
-/// looks like a straight line.
+/// Largest length h₀ that is tried, as a share of the way before contact. With a larger h₀, the
+/// drag could not be distinguished from a straight line over the displacement.
 const FARTHEST: f64 = 0.5;
-/// Number of points that are tried as the end of the part without contact.
+/// Largest number of points that are tried as the end of the part without contact.
 const ENDS: usize = 60;
-/// Largest root mean square residual, in units of the noise, with which a drag describes very many
-/// points.
+/// Largest root mean square residual, in units of the noise, with which a drag counts as a
+/// description of very many points. For fewer points [`BY_CHANCE`] is added.
 const DESCRIBED: f64 = 1.05;
-/// Allowance for the root mean square residual of few points, in standard errors.
+/// Allowance for the root mean square residual, in units of its standard error. The standard error
+/// is large if there are few points.
 const BY_CHANCE: f64 = 3.0;
-/// Largest mean of the last residuals, in standard errors, with which a drag describes a part
-/// without contact up to its end.
+/// Largest mean of the last residuals, in standard errors of this mean, with which a drag counts as
+/// a description of a part without contact up to its end.
 const DEVIATES: f64 = 3.5;
-/// Smallest coefficients of a drag on the approach and on the retraction, in standard errors, that
-/// count as found.
+/// Smallest coefficients of a significant drag, in standard errors: first on the approach, second
+/// on the retraction.
 const FOUND: [f64; 2] = [5.0, 3.0];
 /// Distance from first touch, in units of h₀, beyond which points are far from contact.
 const FAR: f64 = 1.0;
-/// Largest ratios, on the approach and on the retraction, between the coefficient from far points
-/// alone and the coefficient from all points, with which both show the same drag.
+/// Largest ratios between the coefficient from points far from contact and the coefficient from all
+/// points, with which the far points show the same drag: first on the approach, second on the
+/// retraction.
 const ALIKE: [f64; 2] = [2.0, 3.0];
-/// Smallest coefficient of the approach from far points alone, in standard errors, that counts as
-/// found.
+/// Smallest significant coefficient of the approach, in standard errors, if it is computed from
+/// points far from contact alone.
 const FOUND_FAR: f64 = 2.5;
 /// Largest ratio between the drags on approach and retraction. The drag is proportional to the
 /// speed, so this is the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
 
-/// Forces of a drag on a body in contact. They were subtracted from the curve.
+/// Forces of a drag on a body in contact. The program has subtracted the drag from the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DragForce {
@@ -56,7 +58,7 @@ pub struct DragForce {
     pub reach: Option<f64>,
 }
 
-/// Drag that the parts before and after contact show.
+/// Drag that was found in the points before and after contact.
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
@@ -68,8 +70,8 @@ pub(crate) struct Drag {
     /// retraction.
     pressed: f64,
     pulled: f64,
-    /// Number of points before contact that the drag describes; `after` is the number after
-    /// contact.
+    /// Number of points before contact that the drag describes. `after` is the number of points
+    /// after contact that it describes.
     pub before: usize,
     pub after: usize,
 }
@@ -78,9 +80,9 @@ pub(crate) struct Drag {
 struct Side {
     displacements: Vec<f64>,
     forces: Vec<f64>,
-    /// Noise in N far from contact.
+    /// Standard deviation in N of the noise of the force far from contact.
     noise: f64,
-    /// True if a tilt over the displacement is fitted with the drag.
+    /// True if the fit of the drag also has a tilt (a force proportional to the displacement).
     has_tilt: bool,
 }
 
@@ -96,7 +98,7 @@ impl Side {
         }
     }
 
-    /// Returns the residuals, in N, of a fit of a drag with this pole to the first `count` points.
+    /// Returns the residuals in N of the first `count` points from a fit of a drag with this pole.
     fn residuals(&self, count: usize, pole: f64) -> Vec<f64> {
         let displacements = &self.displacements[..count];
         let mut columns = vec![vec![1.0; count], inverse_distances(displacements, pole)];
@@ -130,8 +132,8 @@ impl Side {
         best
     }
 
-    /// Returns true if a drag with this pole describes the first `count` points within the noise,
-    /// also the last of them.
+    /// Returns true if a drag with this pole describes the first `count` points within the noise.
+    /// The last of these points are also checked alone, because a contact begins there.
     fn is_described(&self, count: usize, pole: f64) -> bool {
         let residuals = self.residuals(count, pole);
         let root_mean_square = (dot(&residuals, &residuals) / count as f64).sqrt();
@@ -146,7 +148,8 @@ impl Side {
         })
     }
 
-    /// Returns possible numbers of points without contact, in descending order.
+    /// Returns the possible numbers of points without contact, in descending order. Each number is
+    /// at least `fewest`.
     fn ends(&self, fewest: usize) -> Vec<usize> {
         let count = self.forces.len();
         let most = (count_before_steep_part(&self.forces) + 2).min(count);
@@ -165,9 +168,9 @@ fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
 }
 
 impl Drag {
-    /// Finds the drag of a curve with an approach and a retraction; `None` if its points without
-    /// contact show none. The coefficients of approach and retraction have opposite signs, unlike
-    /// those of a tilt or of a weak contact.
+    /// Finds the drag of a curve that has an approach and a retraction. Returns `None` if the
+    /// points without contact show no drag. A drag is distinguished from a tilt or a weak contact
+    /// by the opposite signs of its coefficients on approach and retraction.
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();
@@ -212,7 +215,7 @@ impl Drag {
         (force > pressed.noise && both.reaches_far(&drag)).then_some(drag)
     }
 
-    /// Returns the drag in N at a displacement in m, on the retraction if `is_pulled` is true and
+    /// Returns the drag in N at a displacement in m: on the retraction if `is_pulled` is true,
     /// otherwise on the approach.
     fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
         let distance = self.distance(displacement);
@@ -228,7 +231,6 @@ impl Drag {
         self.pole - displacement.min(self.touch)
     }
 
-    /// Subtracts the drag from the forces of points.
     pub fn subtract(&self, points: &mut Points) {
         for index in 0..points.force.len() {
             let is_pulled = points.segment[index] % 2 == 1;
@@ -237,7 +239,7 @@ impl Drag {
     }
 
     /// Returns the derivatives of the force at each point with respect to the parameters of the
-    /// drag. A fit can so refine these parameters.
+    /// drag. A fit of a model to the curve needs them to refine these parameters.
     pub fn columns(&self, points: &Points) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); 4];
         for (displacement, segment) in points.displacement.iter().zip(&points.segment) {
@@ -262,7 +264,7 @@ impl Drag {
     }
 }
 
-/// Points without contact of the approach and of the retraction.
+/// Indices of the points without contact, of the approach and of the retraction together.
 struct BothSides<'a> {
     points: &'a Points,
     indices: Vec<usize>,
@@ -271,8 +273,9 @@ struct BothSides<'a> {
 }
 
 impl BothSides<'_> {
-    /// Returns the columns of a fit for the zero, the step and both coefficients, and for tilt and
-    /// drift if the options remove them.
+    /// Returns the columns of the fit. Their coefficients are the zero offset of the force, the
+    /// step, the coefficients of the drag on approach and retraction, and tilt and drift if the
+    /// options remove them.
     fn columns(&self, pole: f64) -> Vec<Vec<f64>> {
         let points = self.points;
         let mut columns = vec![Vec::new(); 6];
@@ -304,7 +307,8 @@ impl BothSides<'_> {
             .collect()
     }
 
-    /// Returns the pole in m near `pole` with which a drag describes all these points best.
+    /// Returns the pole in m, near `pole`, with which a drag describes the points without contact
+    /// best.
     fn best_pole(&self, pole: f64) -> f64 {
         let reach = pole - self.touch;
         let mut least = f64::INFINITY;
@@ -322,9 +326,9 @@ impl BothSides<'_> {
         best
     }
 
-    /// Returns true if points far from contact alone show the same drag. The force of a weak
-    /// contact of a rough body may grow in the same way, and may be adhesive on the retraction, but
-    /// it ends at some distance.
+    /// Returns true if the points far from contact, taken alone, show the same drag. They do not if
+    /// the force comes from a weak contact of a rough body: this force may grow in the same way,
+    /// and may be adhesive on the retraction, but it ends at some distance.
     fn reaches_far(&self, drag: &Drag) -> bool {
         let reach = drag.pole - drag.touch;
         let is_far = |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;

@@ -1,5 +1,5 @@
-//! Features of a measured curve that need no model: its jumps, its hysteresis in compression, and
-//! the fall of the force in a pause.
+//! Features of a measured curve that are computed without a model: its jumps, its hysteresis in
+//! compression, and the decrease of the force during a pause.
 
 use crate::curve::numerics::Extent;
 use crate::curve::points::Points;
@@ -10,41 +10,42 @@ use serde::Serialize;
 const BEYOND_NOISE: f64 = 6.0;
 /// Smallest jump of the force, as a share of the range of the force.
 const OF_RANGE: f64 = 0.01;
-/// Largest number of steps between points over which a jump extends.
+/// Largest number of steps (intervals between neighbouring points) over which a jump extends.
 const STEPS: usize = 3;
-/// Number of steps before and after a jump over which the slope of the force is compared with the
-/// jump.
+/// Number of steps before and after a jump in which the slope of the force is computed. The jump
+/// has to be much steeper than this slope.
 const AROUND: usize = 4;
-/// Smallest ratio of the change of the force by a jump to the change over [`STEPS`] steps before or
-/// after it.
+/// Smallest ratio of the change of the force in a jump to its change over [`STEPS`] steps before or
+/// after the jump.
 const SHARP: f64 = 3.0;
 /// Number of displacements at which the forces of loading and unloading are compared.
 const COMPARED: usize = 200;
-/// Smallest force at the turning point, in units of the noise, for which a hysteresis is stated.
+/// Smallest force at the turning point, in units of the noise, for which a hysteresis is computed.
 const PRESSED: f64 = 10.0;
-/// Largest distance of a displacement from the median of a pause, as a share of the range of
-/// displacements, at which a point of the pause is used.
+/// Largest distance of a point of a pause from the median displacement of the pause, as a share of
+/// the range of displacements. Points farther away are not used.
 const STILL: f64 = 0.002;
-/// Divisor of the number of points of a pause: the forces at its beginning and at its end are means
-/// over 1/20 of the points.
+/// Divisor that gives the number of points averaged at the beginning and at the end of a pause:
+/// 1/20 of its points.
 const END: usize = 20;
 
 /// Features of a measured curve that are computed without a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CurveFeatures {
-    /// Number of jumps: places at which the force drops while the body is pressed, or rises while
-    /// it is pulled, within three points and by more than 6 times the noise and 1 % of the range of
+    /// Number of jumps. A jump is a drop of the force while the body is pressed, or a rise while it
+    /// is pulled, within three points and by more than 6 times the noise and 1 % of the range of
     /// the force.
     pub jumps: usize,
-    /// Largest number of jumps in one motion of the instrument. A sphere has at most one.
+    /// Largest number of jumps in one segment (a single loading or unloading). A sphere has at most
+    /// one.
     pub jumps_in_one_motion: usize,
-    /// Area between the loading and the unloading over the displacements at which both forces are
-    /// compressive, divided by the area under the loading over these displacements. `None` if the
-    /// curve has no loading or no unloading in compression.
+    /// Area between the loading and the unloading curve, divided by the area under the loading
+    /// curve, both over the displacements at which loading and unloading are in compression. `None`
+    /// if the curve has no loading or no unloading in compression.
     pub hysteresis: Option<f64>,
-    /// Largest fall of the force in a pause in contact, divided by the largest force; `None`
-    /// without such a pause.
+    /// Largest decrease of the force during a pause in contact, divided by the largest force;
+    /// `None` if the curve has no such pause.
     pub fall_in_pause: Option<f64>,
 }
 
@@ -62,7 +63,7 @@ impl CurveFeatures {
         features
     }
 
-    /// Returns the features in a sentence.
+    /// Returns a sentence that describes the features, for the report.
     pub(crate) fn sentence(&self) -> String {
         let jumps = match self.jumps {
             0 => "No jump of the force".to_owned(),
@@ -86,8 +87,8 @@ impl CurveFeatures {
     }
 }
 
-/// Returns a share in percent. A share below 0.00005 in magnitude is a rounding error and becomes
-/// 0.
+/// Returns a share as a text in percent. A share below 0.00005 in magnitude is a rounding error and
+/// is written as 0.
 fn percent(share: f64) -> String {
     let share = if share.abs() < 5e-5 { 0.0 } else { share };
     format!("{} %", format_rounded(100.0 * share, 2, "1"))
@@ -116,12 +117,13 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
             place += 1;
             continue;
         };
-        // If the instrument moves back for a short way, the change of the force is no jump.
+        // If the instrument moves back over a short distance at this place, the change of the force
+        // is not a jump.
         let before = ways[(jump + 1).saturating_sub(STEPS)];
         let after = ways[(jump + STEPS).min(ways.len() - 1)];
         jumps += usize::from(after >= before);
-        // The next places are skipped, because the means before them would contain points before
-        // this jump.
+        // The search goes on behind this jump, because the means of the forces before a nearer
+        // place would contain points from before this jump.
         place = jump + 2 * STEPS;
     }
     jumps
@@ -136,12 +138,12 @@ fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
     mean(&forces[start..end]) - mean(before)
 }
 
-/// Returns the place of a jump at `place` or a few steps later; `None` if there is none. At a jump
-/// the force rises by more than `least` within [`STEPS`] steps, and much faster than before and
-/// after these steps.
+/// Returns the place of a jump that lies at `place` or a few steps later; `None` if there is no
+/// jump. In a jump the force rises by more than `least` within [`STEPS`] steps, and much faster
+/// than before and after these steps.
 fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
     let last = forces.len() - 1;
-    // The place of the jump is the place with the largest rise among the next ones.
+    // The jump is at that one of the next places where the force rises most.
     let ahead = (place + 2 * STEPS).min(last - 1);
     let jump = (place..=ahead)
         .max_by(|place, next| step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0)))
@@ -180,7 +182,7 @@ fn branch(points: &Points, number: usize) -> Vec<[f64; 2]> {
     branch
 }
 
-/// Returns the index of the first point from which on all forces are compressive.
+/// Returns the index of the point from which on all forces of the branch are compressive.
 fn compression_begins(branch: &[[f64; 2]]) -> usize {
     branch
         .iter()
@@ -206,7 +208,8 @@ fn force_at(branch: &[[f64; 2]], displacement: f64) -> f64 {
 }
 
 /// Returns the hysteresis between the loading to the largest force and the unloading after it, as a
-/// share of the loading; `None` if one of both has too few points in compression.
+/// share of the area under the loading curve; `None` if the loading or the unloading has too few
+/// points in compression.
 fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
     let largest_in =
         |number: usize| Extent::of(points.range_of(number).map(|index| points.force[index])).high;
@@ -236,8 +239,8 @@ fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
     (high > low && loaded > 0.0).then_some(difference / loaded)
 }
 
-/// Returns the largest fall of the force in a pause in compression, as a share of the largest
-/// force; `None` without such a pause.
+/// Returns the largest decrease of the force during a pause in compression, as a share of the
+/// largest force; `None` if there is no such pause.
 fn fall_in_pause(points: &Points, noise: f64) -> Option<f64> {
     let largest = Extent::of(points.force.iter().copied()).high;
     let near = STILL * Extent::of(points.displacement.iter().copied()).width();
@@ -304,7 +307,7 @@ mod tests {
             &[(-20.0, 10.0), (10.0, 8.0)],
         ));
         assert_eq!((twice.jumps, twice.jumps_in_one_motion), (4, 2));
-        // A drop of less than 1 % of the range of the force is no jump.
+        // A drop of 0.5 nN is less than 1 % of the range of the force and does not count as a jump.
         assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
     }
 

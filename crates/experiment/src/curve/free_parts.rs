@@ -1,4 +1,4 @@
-//! The parts of a curve without contact, and the place at which the contact begins.
+//! The parts of a curve without contact, and the point at which the contact begins.
 
 use crate::curve::numerics::{Baseline, Extent, correlated, growing, noise_of_neighbours};
 use crate::curve::points::Points;
@@ -10,29 +10,32 @@ use std::ops::Range;
 pub(crate) const FEWEST: usize = 10;
 /// Smallest number of points in contact.
 const FEWEST_IN_CONTACT: usize = 4;
-/// Smallest gain of a fit with contact over a single straight line for the segment to have a
-/// contact. The gain is the number of points times the decrease of the logarithm of the sum of
-/// squared residuals. A smaller gain can result from noise.
+/// Smallest gain with which a segment counts as having a contact. The gain compares the fit of a
+/// straight line followed by a parabola with the fit of a single straight line: it is the number of
+/// points times the decrease of the logarithm of the sum of squared residuals. A smaller gain can
+/// result from noise.
 const GAIN: f64 = 40.0;
-/// Deviation of the mean of the last points from the straight line through the points before them,
-/// in standard errors, above which the last points are in contact.
+/// Deviation, in standard errors, of the mean of the last points from the straight line through the
+/// points before them, above which these last points are in contact.
 const DEVIATES: f64 = 4.0;
-/// Noise of a part without contact, divided by the noise from differences of neighbouring points,
-/// above which the part may contain an earlier contact.
+/// Smallest ratio of the noise about the straight line of a part without contact to the noise
+/// computed from differences of neighbouring points. Above this ratio the part may contain an
+/// earlier contact.
 const UNLIKE_NEIGHBOURS: f64 = 3.0;
-/// Largest ratio of the noise without the points of such an earlier contact to the noise of the
-/// whole part, for the earlier contact to be accepted.
+/// Largest ratio of the noise before an earlier contact to the noise of the whole part. The earlier
+/// contact is accepted only below this ratio.
 const QUIETER: f64 = 0.3;
-/// Divisors n: the last 1/n of the points without contact is compared with the points before.
+/// Divisors n for the search of a weak contact: the last 1/n of the points assumed to be without
+/// contact is compared with the points before it.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// Share of the mean slope in contact. A segment is in contact from its first point on if the slope
-/// of its beginning exceeds this share, and the force changes by more than [`NOTABLE`] along this
-/// beginning.
+/// Share of the mean slope in contact. If the slope at the beginning of a segment exceeds this
+/// share, and the force changes there by more than [`NOTABLE`], the segment is in contact from its
+/// first point on.
 const STEEP: f64 = 0.5;
 /// Smallest change of the force that matters for [`STEEP`], as a share of the range of the force.
 const NOTABLE: f64 = 0.05;
 
-/// Reason why a segment has no part without contact.
+/// Reason why no part without contact is found in a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoFreePart {
     /// The segment has too few points.
@@ -43,17 +46,17 @@ pub(crate) enum NoFreePart {
     InContact,
 }
 
-/// Returns the number of forces before contact at the beginning of a segment. The noise is assumed
-/// to be at least `least_noise`.
+/// Returns the number of points before contact at the beginning of a segment with these forces in
+/// N. The noise is assumed to be at least `least_noise` in N.
 ///
-/// First the place is found at which a straight line before it and a parabola after it describe the
-/// segment best. This place lies in the steep part of the contact. The weak beginning of the
-/// contact is then found by going back until the last points before the contact no longer deviate
+/// First the function finds the place at which a straight line before it and a parabola after it
+/// describe the segment best. This place lies in the steep part of the contact. Then it goes back
+/// to the weak beginning of the contact: it removes points until the last ones no longer deviate
 /// from the straight line through the points before them.
 ///
-/// If the force has several steep parts, as in a loading by steps, the place found may lie in a
-/// later one. The noise before it is then far above the differences of neighbouring points, and the
-/// search is repeated in the points before it.
+/// If the force rises in several steep parts, as in a loading by steps, the place found may lie in
+/// a later part. The noise before this place is then far above the differences of neighbouring
+/// points, and the search is repeated among the points before it.
 pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let mut free = count_before_change(forces, least_noise)?;
     loop {
@@ -72,15 +75,15 @@ pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFr
     }
 }
 
-/// Returns the number of forces before the contact, from the best fit of a straight line and a
-/// parabola.
+/// Returns the number of points before contact that follows from the best fit of a straight line
+/// and a parabola to the forces.
 fn count_before_change(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let count = forces.len();
     if count < 2 * FEWEST {
         return Err(NoFreePart::Few);
     }
-    // The squares of the smallest noise are added to each sum of squares, so that smaller sums make
-    // no difference.
+    // The sum of squares that the smallest noise would give is added to each sum of squares.
+    // Differences below this noise then do not affect the result.
     let floor = count as f64 * least_noise * least_noise;
     let before = growing(forces.iter().copied(), 2);
     let change = steepest_change(forces, &before, floor);
@@ -102,16 +105,16 @@ fn count_before_change(forces: &[f64], least_noise: f64) -> Result<usize, NoFree
     Ok(free)
 }
 
-/// Place at which a straight line ends and a parabola begins.
+/// Place at which the straight line of the fit ends and the parabola begins.
 struct Change {
     place: usize,
     /// Sum of the squared residuals of the line and the parabola.
     squares: f64,
 }
 
-/// Returns the place for which a line before it and a parabola after it describe the forces best.
-/// `before` has, for each place, the sum of the squared residuals of a line through the forces up
-/// to there. `floor` is added to each sum.
+/// Returns the place for which a straight line before it and a parabola after it describe the
+/// forces best. The element of `before` at each place is the sum of the squared residuals of a
+/// straight line through the forces up to this place. `floor` is added to each sum of squares.
 fn steepest_change(forces: &[f64], before: &[f64], floor: f64) -> Change {
     let mut after = growing(forces.iter().rev().copied(), 3);
     after.reverse();
@@ -139,16 +142,17 @@ fn range_of(forces: &[f64]) -> f64 {
     Extent::of(forces.iter().copied()).width()
 }
 
-/// Returns true if the force changes in the first `free` points nearly as fast as in contact.
+/// Returns true if the force changes in the first `free` points at least half as fast as in
+/// contact.
 fn begins_steep(forces: &[f64], free: usize) -> bool {
     let slope = Baseline::through(&forces[..free]).slope.abs();
     let slope_in_contact = range_of(&forces[free..]) / (forces.len() - free) as f64;
     slope > STEEP * slope_in_contact && slope * free as f64 > NOTABLE * range_of(forces)
 }
 
-/// Returns true if the first `free` points are a short part of the segment, less than a tenth of
-/// its points, and curved, as the beginning of a contact is. `squares` is the sum of squared
-/// residuals of the straight line through these points.
+/// Returns true if the first `free` points are less than a tenth of the segment and lie on a curve,
+/// as the beginning of a contact does. `squares` is the sum of squared residuals of the straight
+/// line through these points, and `floor` is added to each sum of squares.
 fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool {
     if 10 * free >= forces.len() {
         return false;
@@ -190,14 +194,17 @@ fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
     mean.abs() > DEVIATES * error
 }
 
-/// Points without contact: at the beginning of an approach and at the end of a retraction.
+/// Numbers of the points without contact at the beginning of an approach and at the end of a
+/// retraction.
 pub(crate) struct FreeParts {
-    /// Number of points before contact. `None` for a retraction without an approach, and if no
-    /// contact is found in the approach but only other segments are used.
+    /// Number of points before contact. It is `None` for a retraction without an approach. It is
+    /// also `None` if no contact is found in the approach and the options select only other
+    /// segments.
     pub before: Option<usize>,
-    /// Number of points after contact at the end of the curve; 0 if no such part is found.
+    /// Number of points after contact at the end of the curve; 0 if no such points are found.
     pub after: usize,
-    /// Time and displacement of each point, as shares of the whole range, from 0 to 1.
+    /// Time (first) and displacement (second) of each point, as shares of their ranges, from 0 to
+    /// 1.
     pub shares: [Vec<f64>; 2],
 }
 
@@ -254,7 +261,8 @@ impl FreeParts {
         })
     }
 
-    /// Returns the index range of the points without contact that give the zero and the noise.
+    /// Returns the index range of the points without contact that determine the zero offset of the
+    /// force and the noise.
     pub fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
         match self.before {
@@ -264,8 +272,9 @@ impl FreeParts {
     }
 
     /// Returns an estimate of the displacement in m at which the contact begins: the end of the
-    /// part before contact. For a retraction without an approach it is the displacement at which
-    /// compression ends, or, if the retraction begins in tension, at half of its points in contact.
+    /// part before contact. For a retraction without an approach, it is the displacement at which
+    /// compression ends. If such a retraction begins in tension, it is the displacement at half of
+    /// its points in contact.
     pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -311,8 +320,9 @@ fn reversed(forces: &[f64]) -> Vec<f64> {
     forces.iter().rev().copied().collect()
 }
 
-/// Returns true if a segment ends without contact: its end has a part without contact, and its
-/// beginning has none, or one along which the force changes more.
+/// Returns true if a segment ends without contact. Its end must have a part without contact. Its
+/// beginning must have no such part, or one along which the force changes more than along the part
+/// at the end.
 pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
     let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
         return false;
@@ -323,15 +333,14 @@ pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
     }
 }
 
-/// Returns the change of the force in N along the straight line through the part before contact;
-/// `None` if there is no such part.
+/// Returns the magnitude of the change of the force, in N, along the straight line through the part
+/// before contact; `None` if there is no such part.
 fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
     let free = free_count(forces, least_noise).ok()?;
     Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
 }
 
-/// Returns the error for a curve without a part before contact. `reason` is the reason why none was
-/// found.
+/// Returns the error for a curve in which no part before contact is found, for this `reason`.
 fn refuse<T>(
     reason: NoFreePart,
     points: &Points,
@@ -356,8 +365,8 @@ fn refuse<T>(
     }
 }
 
-/// Returns true if the segment that should be an approach ends without contact, so that it is a
-/// retraction.
+/// Returns true if the first segment is a retraction although it should be an approach. It is a
+/// retraction if its end is without contact.
 fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
     points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
 }
@@ -375,8 +384,9 @@ mod tests {
         (0..count).map(move |index| share(index).powf(1.5))
     }
 
-    /// The contact is found under noise of up to 5 % of the largest force. The larger the noise,
-    /// the later the contact is found, because its weak beginning is below the noise.
+    /// The beginning of the contact is found under noise of up to 5 % of the largest force. With
+    /// more noise it is found later, because the weak beginning of the contact is hidden by the
+    /// noise.
     #[test]
     fn contacts_are_found_under_noise() {
         for (count, seed) in [(200, 1), (200, 2), (200, 3), (500, 4), (500, 5), (500, 6)] {
@@ -422,8 +432,8 @@ mod tests {
         assert!((59..=62).contains(&free), "{free}");
     }
 
-    /// A weak contact with forces of a few times the noise, long before the strong contact, is not
-    /// taken for a part without contact.
+    /// A weak contact long before the strong contact is not taken for a part without contact,
+    /// although its forces are only a few times the noise.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
         for seed in 1..=6 {
@@ -438,7 +448,7 @@ mod tests {
         }
     }
 
-    /// In a loading by steps the contact begins at the first step, although a later step is
+    /// If a body is loaded by steps, the contact begins at the first step, although a later step is
     /// steeper.
     #[test]
     fn the_first_step_of_a_loading_is_the_contact() {

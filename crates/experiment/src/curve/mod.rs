@@ -1,5 +1,5 @@
-//! A measured force curve: its segments, the zero of its force, its drift and its noise. Forces in
-//! compression and displacements towards the specimen are positive.
+//! A measured force curve: its segments, the zero offset and drift of its force, and its noise.
+//! Forces in compression and displacements towards the specimen are positive.
 
 pub(crate) mod drag;
 pub(crate) mod features;
@@ -27,18 +27,18 @@ use std::path::Path;
 /// Largest number of points that a fit uses. If a curve has more points, neighbouring points are
 /// averaged.
 const MOST_POINTS: usize = 4096;
-/// Smallest number of points of a curve: enough for parts without contact and in contact on both
-/// segments.
+/// Smallest number of points of a curve, so that both segments can have enough points with and
+/// without contact.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise that is assumed for a curve without noise, such as a computed one, as a share of the range
-/// of the force.
+/// Noise that is assumed for a curve without noise, such as a computed curve, as a share of the
+/// range of the force.
 const NO_NOISE: f64 = 1e-6;
-/// Smallest allowed force at the end of the approach, in standard deviations of the noise. A
-/// smaller force is a tension where the body is pressed most, so the sign of the force in the file
-/// is in doubt.
+/// Smallest allowed force at the end of the approach, in standard deviations of the noise. A more
+/// negative force would be a tension where the body is pressed most, so the sign of the force in
+/// the file is probably wrong.
 const PULLS: f64 = -5.0;
-/// Largest force at the end of a retraction, as a share of the largest tension, with which the
-/// retraction counts as ending without contact.
+/// Largest force at the end of a retraction, as a share of the largest tension, with which the body
+/// still counts as detached.
 const STILL_HELD: f64 = 0.3;
 
 /// Measured force curve in SI units. The displacement grows when the body is pressed on. The force
@@ -63,31 +63,31 @@ pub struct MeasuredCurve {
     /// Standard deviation of the noise of the force in N, from the points before contact or from
     /// [`CurveOptions::noise`].
     pub noise: f64,
-    /// Numbers computed from the curve without a model, such as its jumps.
+    /// Features that are computed from the curve without a model, such as its jumps.
     pub features: CurveFeatures,
-    /// Drag of a fluid that the parts without contact show, and that was subtracted from the force;
-    /// `None` if they show none.
+    /// Drag of a fluid in contact, which was found from the points without contact and subtracted
+    /// from the force; `None` if no drag was found.
     pub drag: Option<DragForce>,
-    /// True if the last retraction ends without contact.
+    /// True if the body is out of contact at the end of the last retraction.
     pub detaches: bool,
     /// Number of points of the file that are used. It is larger than the number of values of
     /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
-    /// Displacement at the end of each segment in m.
+    /// Displacement in m at the end of each segment.
     pub(crate) turns: Vec<f64>,
-    /// Changes of the force, in N, that remain in the parts of the curve without contact: over
-    /// time, over the displacement, and from before to after the contact. A change that was not
-    /// found is 0.
+    /// Changes of the force, in N, that remain in the points without contact: the drift over time,
+    /// the tilt over the displacement, and the step from before to after the contact. A change that
+    /// was not found is 0.
     pub(crate) remaining: [f64; 3],
-    /// Lines that were estimated from the points without contact and subtracted from the force: the
-    /// zero, if it was estimated, and drift, tilt and drag.
+    /// Contributions to the force that were estimated from the points without contact and
+    /// subtracted: the zero offset (unless the options state it), drift, tilt and drag.
     pub(crate) subtracted: SubtractedLines,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the
-    /// instrument.
+    /// Name of the column of the displacement if this displacement excludes the deflection of the
+    /// instrument, otherwise `None`.
     pub(crate) of_body: Option<String>,
     /// Sentences on the assumptions and changes that were made when the curve was read, such as the
     /// choice of columns and units.
@@ -95,16 +95,16 @@ pub struct MeasuredCurve {
 }
 
 /// Contributions to the force, called lines, that were estimated from the points without contact
-/// and subtracted from a curve.
+/// and subtracted from a curve: the zero offset of the force, drift, tilt and drag.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SubtractedLines {
-    /// True if the zero of the force was estimated.
+    /// True if the zero offset of the force was estimated, and not stated by the options.
     pub has_zero: bool,
-    /// Values of each other line at the points of the curve.
+    /// Values of each line, except the constant zero offset, at the points of the curve.
     pub columns: Vec<Vec<f64>>,
-    /// Sums of the products of each pair of these columns, over the points without contact whose
-    /// segment is not used, so that the curve does not contain them. The first row and column are
-    /// for the zero of the force, a constant 1.
+    /// Sums of the products of each pair of lines over the points without contact in segments that
+    /// the options leave out. The curve has no points of these segments. The first row and column
+    /// belong to the zero offset, a constant column of ones.
     pub elsewhere: Vec<Vec<f64>>,
 }
 
@@ -121,7 +121,8 @@ impl MeasuredCurve {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from `bytes`, the content of a file with this name. No file is opened.
+    /// Reads a curve from `bytes`, which are the content of a file with this name. No file is
+    /// opened.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`MeasuredCurve::read`].
@@ -192,8 +193,8 @@ impl MeasuredCurve {
     }
 
     /// Prepares a curve for fits: finds its segments, averages its points, reverses signs, finds
-    /// the parts without contact, and subtracts drag, zero, drift and tilt. The sentences on these
-    /// steps are collected in the curve.
+    /// the parts without contact, and subtracts drag, zero offset, drift and tilt of the force. A
+    /// sentence on each step is stored in the curve, for the report.
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
         let left_out = columns.left_out();
@@ -286,8 +287,8 @@ impl MeasuredCurve {
             .zip(self.force.iter().copied())
     }
 
-    /// Returns the largest tensile force during the retractions in N, as a positive number; `None`
-    /// if this force is at most 5 times the [`Self::noise`], or if the body does not detach.
+    /// Returns the largest tensile force during the retractions in N, as a positive number. Returns
+    /// `None` if this force is at most 5 times [`Self::noise`], or if the body does not detach.
     pub fn pull_off_force(&self) -> Option<f64> {
         if !self.detaches {
             return None;
@@ -298,7 +299,7 @@ impl MeasuredCurve {
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
-    /// Returns the curve with about `count` of its points, at equal steps of the index; `None` if
+    /// Returns the curve with about `count` of its points at equal steps of the index; `None` if
     /// the curve has fewer than 2 × `count` points.
     pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
         let step = self.force.len() / count;
@@ -332,9 +333,10 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns a column with the values at the points for each line that was estimated and
-    /// subtracted. A model fits the lines again with these columns. The zero has no column if
-    /// `has_zero` is true, because the zero is then a free parameter.
+    /// Returns one column for each line (zero offset, drift, tilt or drag) that was estimated and
+    /// subtracted, with its value at each point. A fit of a model uses these columns to estimate
+    /// the lines again. If `has_zero` is true, the zero offset is a free parameter of this fit and
+    /// gets no column.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let mut columns = Vec::new();
         if self.subtracted.has_zero && !has_zero {
@@ -344,8 +346,8 @@ impl MeasuredCurve {
         columns
     }
 
-    /// Returns true for each point between the part before contact and the part after contact,
-    /// which were found without a model.
+    /// Returns for each point whether it lies between the part before contact and the part after
+    /// contact. These parts were found without a model.
     pub(crate) fn in_contact(&self) -> Vec<bool> {
         let end = self.force.len() - self.free_at_end;
         (0..self.force.len())
@@ -354,8 +356,8 @@ impl MeasuredCurve {
     }
 }
 
-/// Returns the sums of the products of each pair of columns over the points without contact that
-/// are not used. A constant column 1 precedes `columns`.
+/// Returns the sums of the products of each pair of columns over the points without contact whose
+/// indices are not in `kept`. A constant column of ones precedes `columns`.
 fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) -> Vec<Vec<f64>> {
     let count = free.shares[0].len();
     let before = 0..free.before.unwrap_or(0);
@@ -374,14 +376,15 @@ fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) ->
         .collect()
 }
 
-/// Returns how many of the used points lie after the contact.
+/// Returns the number of points in `kept` (the points used) that lie after the contact.
 fn count_at_end(kept: &[usize], points: &Points, free: &FreeParts) -> usize {
     let first = points.force.len() - free.after;
     kept.len() - kept.partition_point(|index| *index < first)
 }
 
-/// Returns true if the last retraction ends without contact: the mean of its last forces is small
-/// compared with the largest tension, or not larger than a few standard deviations of the noise.
+/// Returns true if the body is out of contact at the end of the last retraction. The mean of the
+/// last forces must then be small compared with the largest tension, or at most a few standard
+/// deviations of the noise.
 fn detaches(points: &Points, noise: f64) -> bool {
     let last = points.last_segment();
     if last.is_multiple_of(2) {
@@ -394,7 +397,8 @@ fn detaches(points: &Points, noise: f64) -> bool {
     end.abs() < (STILL_HELD * tension).max(PULLS.abs() * noise)
 }
 
-/// Returns the drag in contact that was subtracted from the force; `None` if there is none.
+/// Returns the drag of the body in contact that was subtracted from the force; `None` if no drag
+/// was subtracted.
 fn drag_in_contact(drag: Option<&Drag>, subtracted: &Subtracted) -> Option<DragForce> {
     let mut force = match drag {
         Some(drag) => drag.in_contact(),
@@ -409,7 +413,7 @@ fn drag_in_contact(drag: Option<&Drag>, subtracted: &Subtracted) -> Option<DragF
     has_drag.then_some(force)
 }
 
-/// Returns a sentence on a drag that was subtracted from the force.
+/// Returns a sentence, for the report, on a drag that was subtracted from the force.
 fn drag_in_words(drag: &DragForce) -> String {
     let pressed = format_quantity(drag.pressed, "N");
     let pulled = format_quantity(drag.pulled, "N");
@@ -429,7 +433,7 @@ fn drag_in_words(drag: &DragForce) -> String {
     }
 }
 
-/// Returns in words how many means replace the points of the file; `None` if no points are
+/// Returns a phrase on how many means replace the points of the file; `None` if no points were
 /// averaged.
 fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
     if averaged == 1 {
@@ -439,8 +443,8 @@ fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
     Some(format!("means of {averaged} points each, {means} of them"))
 }
 
-/// Returns an error if no curve can be made from the columns and options: for too few points, a
-/// noise out of range, and points that are not in the order of time.
+/// Returns an error if the columns have too few points or are not in the order of time, or if the
+/// noise in the options is out of range.
 fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentError> {
     let count = columns.displacement.len();
     if count < FEWEST_POINTS {
@@ -464,7 +468,7 @@ fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentErro
     Ok(())
 }
 
-/// Returns the number of points in each mean, so that at most [`MOST_POINTS`] means are left.
+/// Returns how many neighbouring points are averaged, so that at most [`MOST_POINTS`] means result.
 fn points_in_mean(segments: &Segments) -> usize {
     let moving = segments
         .is_still
@@ -474,9 +478,8 @@ fn points_in_mean(segments: &Segments) -> usize {
     moving.div_ceil(MOST_POINTS).max(1)
 }
 
-/// If the curve has a single segment and this segment ends without contact, makes it a retraction
-/// and returns a sentence on this. Returns an error for another single segment, unless the options
-/// choose it.
+/// Makes a single segment that ends without contact a retraction, and returns a sentence that says
+/// so. Returns an error for any other single segment, unless the options choose it.
 fn recognise_retraction(
     points: &mut Points,
     options: &CurveOptions,
@@ -496,9 +499,9 @@ fn recognise_retraction(
     Err(ExperimentError::OneSegment)
 }
 
-/// Brings approach and retraction into the order of time, and returns sentences on what was done.
-/// If a file has columns of approach and retraction side by side, both may begin at the turning
-/// point. A file may also begin with the retraction.
+/// Brings approach and retraction into the order of time, and returns a phrase on what was changed.
+/// In a file with columns of approach and retraction side by side, both may begin at the turning
+/// point. A file may also contain the retraction first.
 fn put_in_order(
     columns: &mut Columns,
     segments: &mut Segments,
@@ -525,7 +528,7 @@ fn put_in_order(
     Some("the retraction comes first and was put behind the approach")
 }
 
-/// Returns how many of the used points lie before the contact.
+/// Returns the number of points in `kept` (the points used) that lie before the contact.
 fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
     match free.before {
         Some(before) => kept.partition_point(|index| *index < before),
@@ -534,8 +537,8 @@ fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
 }
 
 /// Returns the index of the last segment that the model computes. If the last used segment is an
-/// approach, the model also computes the retraction after it, unless a curve of several segments
-/// ends with this approach.
+/// approach, the model also computes the retraction after it. The exception is a curve of several
+/// segments that ends with this approach.
 fn last_turn(points: &Points, options: &CurveOptions) -> usize {
     let last = points.last_segment();
     let chosen = match options.segments.iter().max() {
@@ -549,7 +552,7 @@ fn last_turn(points: &Points, options: &CurveOptions) -> usize {
     chosen
 }
 
-/// Returns a sentence on the noise and its source.
+/// Returns a sentence on the noise of the force and on how it was determined.
 fn noise_in_words(noise: f64, options: &CurveOptions, free: &FreeParts) -> String {
     let source = if options.noise.is_some() {
         "given"
@@ -590,7 +593,7 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
     Ok(kept)
 }
 
-/// Returns in words how many points are used, how many lie before or after contact, and how many
+/// Returns phrases on how many points are used, how many lie before or after contact, and how many
 /// belong to pauses.
 fn counted(
     points: &Points,
@@ -618,14 +621,15 @@ fn counted(
     words
 }
 
-/// Returns in words the number of points of the file from which the points at `indices` were
-/// averaged.
+/// Returns, as a text, the number of points of the file that were averaged into the points at
+/// `indices`.
 fn points_of_file(points: &Points, indices: impl Iterator<Item = usize>) -> String {
     let count: usize = indices.map(|index| points.counts[index]).sum();
     grouped(count as u64)
 }
 
-/// Returns in words the number of segments, or the numbers of the chosen segments.
+/// Returns a phrase with the number of segments, or with the numbers of the segments that the
+/// options choose.
 fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
     let last = points.last_segment();
     match &options.segments[..] {
@@ -653,7 +657,7 @@ fn force_at_largest_turn(points: &Points) -> f64 {
     largest
 }
 
-/// Returns an error if the force is negative where the body is pressed most.
+/// Returns an error if the force is negative (tensile) where the body is pressed most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
     let is_approach = points.begins_with_approach();
     let pressed = if is_approach {
@@ -706,7 +710,7 @@ mod tests {
             "{:e}",
             curve.force[2000]
         );
-        // The number of free points counts points of the file, and not means.
+        // The option counts points of the file, and not the means that replace them.
         let options = CurveOptions {
             free_points: Some(2700),
             ..CurveOptions::default()
@@ -715,8 +719,9 @@ mod tests {
         assert_eq!((curve.force.len(), curve.free), (3000, 900));
     }
 
-    /// If the file has an approach, it gives the zero of the force and the contact point also for a
-    /// chosen retraction. In a file with a retraction alone, both follow from its end.
+    /// The zero offset of the force and the contact point follow from the approach if the file has
+    /// one, even if only a retraction is chosen. In a file with a retraction alone, they follow
+    /// from the end of the retraction.
     #[test]
     fn chosen_segments_are_used_without_pauses() {
         let read = |points: &[(f64, f64)], segments: &[usize]| {
@@ -779,7 +784,7 @@ mod tests {
             lines(of_spring(600).into_iter().map(|(d, f)| (d, force(d, f))))
         };
         let (all, plain) = (of_spring(600), of(&|_, f| f));
-        // The approach has only 17 points.
+        // An approach of only 17 points is too short.
         let few = (0..42_i32).map(|index| {
             if index < 17 {
                 10 * index
@@ -792,7 +797,7 @@ mod tests {
                 of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }),
                 "no contact: ",
             ),
-            // The curve begins in contact, so it has no straight part before a change of slope.
+            // A curve that begins in contact has no straight part at its beginning, and is refused.
             (
                 of(&|d, f| f + (d + 100.0).powi(2)),
                 "no part before contact: the force",
@@ -869,8 +874,8 @@ mod tests {
         }
     }
 
-    /// A retraction that ends in tension has no pull-off force. The same retraction with an end
-    /// without contact has one.
+    /// If a retraction ends in tension, it has no pull-off force. If the same retraction continues
+    /// until the contact is lost, it has one.
     #[test]
     fn a_curve_that_does_not_detach_has_no_pull_off_force() {
         let adheres = |end: f64| {
@@ -893,8 +898,8 @@ mod tests {
         assert!(!held.detaches && held.pull_off_force().is_none());
     }
 
-    /// Short steps of a loading count as motions. A slow creep in a part of the file without a name
-    /// counts as a pause.
+    /// Short steps of a loading count as motions. A slow creep in a part of the file that has no
+    /// name counts as a pause.
     #[test]
     fn short_steps_are_used() {
         let spring = |d: f64, part: i32| (d, 2.0 * d.max(0.0) + 0.1 * f64::from(part % 2), part);

@@ -1,12 +1,12 @@
-//! Least-squares lines, polynomials and combinations of columns.
+//! Least-squares fits of straight lines, polynomials and combinations of columns.
 
 use asperity_data::{mean, median};
 use std::f64::consts::SQRT_2;
 
-/// Standard deviation of a normal distribution divided by the median of its magnitude.
+/// Standard deviation of a normal distribution divided by the median of its absolute value.
 pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
-/// Smallest number of independent parts that a curve is assumed to have. It limits the distance
-/// over which residuals are correlated.
+/// Smallest number of independent parts that a curve is assumed to have. It limits the number of
+/// points over which correlations of the residuals are added up.
 const RANGES: usize = 20;
 
 /// Straight line through evenly spaced values by least squares.
@@ -41,8 +41,8 @@ impl Baseline {
         }
     }
 
-    /// Returns the deviations of `values` from the line. The first value lies at the beginning of
-    /// the line.
+    /// Returns the deviations of `values` from the line. The first value belongs to the first point
+    /// of the line.
     pub fn residuals(self, values: &[f64]) -> Vec<f64> {
         let middle = 0.5 * (self.count - 1.0);
         values
@@ -53,8 +53,8 @@ impl Baseline {
     }
 }
 
-/// Returns the standard deviation of the noise of values, from the median difference of neighbours.
-/// Slow changes and single jumps do not increase it.
+/// Returns the standard deviation of the noise, computed from the median difference of neighbouring
+/// values. Slow changes and single jumps of the values do not increase this result.
 pub(crate) fn noise_of_neighbours(values: &[f64]) -> f64 {
     let mut differences: Vec<f64> = values
         .windows(2)
@@ -63,8 +63,8 @@ pub(crate) fn noise_of_neighbours(values: &[f64]) -> f64 {
     median(&mut differences).unwrap_or(0.0) * MEDIAN_TO_DEVIATION / SQRT_2
 }
 
-/// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first
-/// sum belongs to the first value, the second to the first two values, and so on.
+/// Returns, for each value, the sum of squared residuals of the least-squares polynomial with
+/// `terms` terms through all values up to this one.
 pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let mut triangle = Triangle::default();
@@ -86,8 +86,8 @@ struct Triangle {
 }
 
 impl Triangle {
-    /// Adds a row to the triangle by Givens rotations, and returns the rest of the value of the
-    /// row, whose square is added to the sum of squared residuals.
+    /// Adds a row to the triangle by Givens rotations. Returns the remainder of the fitted value of
+    /// this row; its square is the increase of the sum of squared residuals.
     fn add(&mut self, mut row: [f64; 4], terms: usize) -> f64 {
         for (term, old_row) in self.rows.iter_mut().enumerate().take(terms) {
             let old = old_row[term];
@@ -108,8 +108,8 @@ impl Triangle {
     }
 }
 
-/// Returns orthonormal columns that span the given columns. A column that depends on the columns
-/// before it becomes zero.
+/// Returns orthonormal columns that span the given columns. A column that is a linear combination
+/// of the columns before it becomes zero.
 pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
     for column in columns {
@@ -127,7 +127,8 @@ pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Subtracts from the values their component along a column of length 1, and returns the component.
+/// Subtracts from the values their component along a column of length 1, and returns this
+/// component.
 pub(crate) fn subtract(values: &mut [f64], column: &[f64]) -> f64 {
     let component = dot(values, column);
     for (value, direction) in values.iter_mut().zip(column) {
@@ -156,7 +157,7 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// Returns the extent of values. Without values the lower end is ∞ and the upper end −∞.
+    /// Returns the extent of the values. If there are no values, `low` is ∞ and `high` is −∞.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut extent = Extent {
             low: f64::INFINITY,
@@ -174,8 +175,8 @@ impl Extent {
     }
 }
 
-/// Returns the factor by which the correlation of neighbouring residuals increases the variance of
-/// their mean; 1 without correlation.
+/// Returns the factor by which correlations between the residuals increase the variance of their
+/// mean. The factor is 1 if there is no correlation.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
@@ -198,8 +199,8 @@ pub(crate) struct Coefficient {
     pub error: f64,
 }
 
-/// Returns the coefficients of columns whose sum fits the values by least squares; `None` if a
-/// column depends on the columns before it.
+/// Returns the coefficients of the linear combination of columns that fits the values by least
+/// squares; `None` if a column is a linear combination of the columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<Coefficient>> {
     let basis = right_angled(columns);
     let mut residuals = values.to_vec();
@@ -240,7 +241,7 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<
     Some(coefficients)
 }
 
-/// Returns a row of the inverse of an upper triangular matrix.
+/// Returns the row with this index of the inverse of an upper triangular matrix.
 fn inverse_row(triangle: &[Vec<f64>], index: usize) -> Vec<f64> {
     let mut row = vec![0.0; triangle.len()];
     row[index] = 1.0 / triangle[index][index];
@@ -259,7 +260,7 @@ pub(crate) mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns the values with normally distributed noise of this standard deviation.
+    /// Returns the values with added, approximately normal noise of this standard deviation.
     pub(crate) fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let mut gauss = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;
@@ -268,12 +269,13 @@ pub(crate) mod tests {
 
     #[test]
     fn correlated_residuals_count_less() {
-        // The values are a sine with 16 points in a period, and the same values in an order without
-        // correlation.
+        // `smooth` is a sine with 16 points in a period. The second test has the same values in an
+        // order without correlation.
         let sine = |index: usize| (std::f64::consts::TAU * index as f64 / 16.0).sin();
         let smooth: Vec<f64> = (0..480).map(sine).collect();
         let factor = correlated(&smooth);
-        // The factor is 1 + 2 Σ cos(2πn/16), up to the first term that is close to 0.
+        // The expected factor is 1 + 2 Σ cos(2πn/16), summed up to the first term that is close to
+        // 0.
         let expected: f64 = 1.0
             + 2.0
                 * (1..4)

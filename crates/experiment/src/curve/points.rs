@@ -8,14 +8,14 @@ use crate::read::options::Negate;
 use asperity_data::{Remedy, format_quantity, mean};
 use std::ops::Range;
 
-/// Points in the order of time. If a curve has many points, each of these is the mean of several
-/// points of the file.
+/// Points of a curve in the order of time. If the file has many points, each point here is the mean
+/// of several neighbouring points of the file.
 pub(crate) struct Points {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
-    /// For each point, the number of points of the file of which it is the mean.
+    /// Number of points of the file that were averaged into each point.
     pub counts: Vec<usize>,
 }
 
@@ -59,7 +59,7 @@ impl Points {
         start..end
     }
 
-    /// Returns the index range of the points of a segment without the pause at its turning point.
+    /// Returns the index range of the points of a segment, without the pause at the turning point.
     pub fn moving(&self, number: usize) -> Range<usize> {
         let range = self.range_of(number);
         let is_still = |index: &usize| self.is_still[*index];
@@ -72,8 +72,8 @@ impl Points {
     }
 
     /// Reverses the signs of displacement and force so that both grow when the body is pressed. If
-    /// `asked` is given, these signs are reversed; otherwise the first segment decides. Returns
-    /// which signs were reversed.
+    /// `asked` is given, the signs of these quantities are reversed; otherwise the first segment
+    /// decides. Returns the quantities whose signs were reversed.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.range_of(self.segment[0]);
         let moved = self.displacement[first.end - 1] - self.displacement[0];
@@ -109,8 +109,9 @@ impl Points {
         Ok(negate)
     }
 
-    /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the
-    /// body, which the column `name` contains. Returns a sentence on this conversion.
+    /// Converts the displacement of the body, from the column `name`, to the displacement of the
+    /// instrument: adds the deflection of an instrument with this stiffness in N/m. Returns a
+    /// sentence on this conversion.
     pub fn add_deflection(&mut self, name: &str, stiffness: f64) -> String {
         for (displacement, force) in self.displacement.iter_mut().zip(&self.force) {
             *displacement += force / stiffness;
@@ -121,8 +122,9 @@ impl Points {
         )
     }
 
-    /// Returns the displacements in m at which the segments up to number `last` end. If the curve
-    /// is a retraction alone, the approach before it ends at the largest displacement.
+    /// Returns the displacement in m at the end of each segment up to the number `last`. If the
+    /// curve is a retraction alone, the approach before it is assumed to end at the largest
+    /// displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let mut turns = Vec::with_capacity(last + 1);
         for number in 0..=last {
@@ -150,7 +152,7 @@ fn reverse_signs(values: &mut [f64]) {
 }
 
 /// Returns index ranges of up to `count` neighbouring points. All points of a range belong to the
-/// same segment, and either all or none of them belong to a pause.
+/// same segment. Either all of them belong to a pause, or none does.
 fn like_neighbours(segments: &Segments, count: usize) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for (index, number) in segments.numbers.iter().enumerate() {

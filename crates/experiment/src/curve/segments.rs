@@ -4,24 +4,24 @@
 use crate::curve::numerics::Extent;
 use crate::read::points::Label;
 
-/// Smallest way back after a turning point, as a share of the range of displacements.
+/// Smallest distance that the displacement goes back after a turning point, as a share of its
+/// range.
 const TURN: f64 = 0.05;
-/// Number of points over which the displacement is averaged for smoothing, as a share of all
-/// points.
+/// Number of points of the running mean that smooths the displacement, as a share of all points.
 const SMOOTHING: f64 = 1e-3;
 /// Largest change of the displacement during a pause at a turning point, as a share of the range of
 /// displacements.
 const STILL: f64 = 0.01;
-/// Smallest change of the displacement, as a share of the range, with which a part with one label
-/// counts as a motion, if it is about as fast as other parts.
+/// Smallest change of the displacement, as a share of its range, with which a part of the file with
+/// the same label counts as a motion. The part must also be about as fast as other parts.
 const SHORTEST: f64 = 0.002;
 /// Smallest number of points of a pause.
 const FEWEST: usize = 10;
 /// Smallest ratio of the number of points of a pause to the number of points of a motion over the
-/// same way.
+/// same distance.
 const MORE: f64 = 8.0;
 /// Mean distance between consecutive displacements, as a share of their range, above which the rows
-/// are not in the order of time.
+/// of the file are not in the order of time.
 const SHUFFLED: f64 = 0.2;
 
 pub(crate) struct Segments {
@@ -32,8 +32,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// Finds the segments by the labels of the points, or by the turning points of the displacement
-    /// if there are no usable labels.
+    /// Finds the segments from the labels of the points. If there are no usable labels, the
+    /// segments end at the turning points of the displacement.
     pub fn of(displacement: &[f64], labels: &[Label]) -> Self {
         let mut segments = by_labels(labels, displacement).unwrap_or_else(|| Segments {
             numbers: by_turning_points(displacement),
@@ -45,7 +45,7 @@ impl Segments {
         segments
     }
 
-    /// Exchanges the first two segments. The first segment has `first` points.
+    /// Exchanges the first two segments. `first` is the number of points of the first segment.
     pub fn exchange(&mut self, first: usize) {
         self.is_still.rotate_left(first);
         let second = self.numbers.len() - first;
@@ -58,8 +58,8 @@ impl Segments {
         self.numbers.partition_point(|segment| *segment < number)
     }
 
-    /// Marks the points near each turning point as a pause, if there are many more of them than in
-    /// a motion over the same way.
+    /// Marks the points near each turning point as a pause, if there are many more of them than a
+    /// motion over the same distance would have.
     fn find_pauses(&mut self, displacement: &[f64]) {
         let near = STILL * Extent::of(displacement.iter().copied()).width();
         let last_segment = self.numbers.last().copied().unwrap_or(0);
@@ -84,8 +84,8 @@ impl Segments {
     }
 }
 
-/// Returns true if the displacement changes so much from point to point that the rows cannot be in
-/// the order of time.
+/// Returns true if the displacement changes so much from point to point that the rows of the file
+/// cannot be in the order of time.
 pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let range = Extent::of(displacement.iter().copied());
     let way: f64 = displacement
@@ -108,8 +108,8 @@ fn smoothed(displacement: &[f64]) -> Vec<f64> {
     means
 }
 
-/// Returns the index of the segment of each point. Segments end at turning points of the smoothed
-/// displacement, after which the displacement goes back by at least [`TURN`] of its range.
+/// Returns the index of the segment of each point. A segment ends at a turning point of the
+/// smoothed displacement if the displacement then goes back by at least [`TURN`] of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let smooth = smoothed(displacement);
     let least = TURN * Extent::of(smooth.iter().copied()).width();
@@ -118,7 +118,7 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
         return numbers;
     }
     let mut number = 0;
-    // Indices of the highest and the lowest value since the last turning point.
+    // Indices of the largest and the smallest displacement since the last turning point.
     let mut highest = 0;
     let mut lowest = 0;
     // True while the displacement grows; `None` before the direction is known.
@@ -150,7 +150,8 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Returns the mean way from point to point, in m, of the fastest part with one label.
+/// Returns the mean distance in m between neighbouring points in the fastest part of the file. The
+/// points of a part have the same label.
 fn fastest_part(labels: &[Label], displacement: &[f64]) -> f64 {
     let mut fastest = 0.0_f64;
     let mut start = 0;
@@ -163,9 +164,9 @@ fn fastest_part(labels: &[Label], displacement: &[f64]) -> f64 {
     fastest
 }
 
-/// Finds segments by the labels of a file. Consecutive parts in the same direction form one
-/// segment, and parts without motion are pauses. Returns `None` if a part contains motions in both
-/// directions, or if all parts have the same direction.
+/// Finds segments from the labels that a file gives to its points. Consecutive parts of the file
+/// with motion in the same direction form one segment, and parts without motion are pauses. Returns
+/// `None` if a part contains motions in both directions, or if all parts have the same direction.
 fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
     let range = Extent::of(displacement.iter().copied()).width();
     let least = TURN * range;
@@ -175,7 +176,8 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         is_still: Vec::with_capacity(labels.len()),
     };
     let mut number = 0;
-    // True if the previous motion pressed the body; `None` before the first motion.
+    // True if the previous motion pressed the body, false if it pulled; `None` before the first
+    // motion.
     let mut pressed_before = None;
     for part in labels.chunk_by(|label, next| label == next) {
         let is_pause = part[0].is_pause;
@@ -186,8 +188,8 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         if !is_pause && width > 2.0 * moved.abs().max(least) {
             return None;
         }
-        // A short step of a loading by steps is a motion and not a pause, because it is about as
-        // fast as other parts.
+        // A short step of a loading by steps is a motion and not a pause. It is recognised because
+        // it is about as fast as other parts.
         let is_step = moved.abs() > (SHORTEST * range).max(width - moved.abs())
             && MORE * moved.abs() > fastest * part.len() as f64;
         let stays = is_pause || moved.abs() < least && !is_step;

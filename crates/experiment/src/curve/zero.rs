@@ -1,4 +1,4 @@
-//! The zero, the drift and the tilt of the force, from the points without contact.
+//! Estimates the zero offset, the drift and the tilt of the force from the points without contact.
 
 use crate::curve::free_parts::{FEWEST, FreeParts};
 use crate::curve::numerics::{
@@ -9,19 +9,20 @@ use crate::error::{ExperimentError, refused};
 use crate::read::options::{CurveOptions, Drift, Tilt};
 use asperity_data::{Note, Remedy, format_quantity, mean};
 
-/// Smallest drift or tilt, in standard errors, that is reported as remaining in the curve.
+/// Smallest drift or tilt, in standard errors, that is reported as a change left in the curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the fit of drift, tilt and step, divided by the noise from differences of
-/// neighbouring points, above which the parts without contact are not straight.
+/// Largest root mean square deviation of the parts without contact from the fit of drift, tilt and
+/// step, in units of the noise from differences of neighbouring points. With a larger deviation
+/// these parts are not straight.
 const CURVED: f64 = 1.5;
-/// Smallest change of the force by a drift or tilt, divided by the residual, that counts if the
-/// parts without contact are not straight.
+/// Smallest change of the force by a drift or tilt, in units of the deviation from the fit, that is
+/// significant if the parts without contact are not straight.
 const DOMINATES: f64 = 20.0;
 
-/// Point without contact.
+/// Point of the curve without contact.
 struct FreePoint {
-    /// Time as a share of the whole curve, from 0 to 1. `displacement` is a share of the range of
-    /// displacements.
+    /// Time since the first point, as a share of the whole duration. `displacement` is a share of
+    /// the range of displacements. Both go from 0 to 1.
     time: f64,
     displacement: f64,
     is_after_contact: bool,
@@ -40,13 +41,14 @@ impl FreePoint {
         }
     }
 
-    /// Returns 1 for a point after contact, and 0 for a point before contact.
+    /// Returns the step function of the fit: 1 for a point after contact, and 0 for a point before
+    /// contact.
     fn step(&self) -> f64 {
         f64::from(u8::from(self.is_after_contact))
     }
 }
 
-/// Terms of the force without contact that a fit has in addition to the zero.
+/// Terms of the force without contact that are fitted together with the zero offset.
 #[derive(Clone, Copy)]
 struct Terms {
     drift: bool,
@@ -54,10 +56,10 @@ struct Terms {
     step: bool,
 }
 
-/// Zero, drift, tilt and step of the force without contact in N. The drift is the change from the
-/// first to the last point of the curve. The tilt is the change over the range of the displacement.
-/// The step is the force after contact minus the force before contact, without the part that drift
-/// and tilt explain. Terms that were not fitted are 0.
+/// Zero offset, drift, tilt and step of the force without contact, in N. The drift is the change
+/// from the first to the last point of the curve. The tilt is the change over the range of the
+/// displacement. The step is the force after contact minus the force before contact, without the
+/// part that drift and tilt explain. Terms that were not fitted are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Slopes {
     zero: f64,
@@ -67,8 +69,8 @@ struct Slopes {
 }
 
 impl Slopes {
-    /// Fits the zero and the given terms to points without contact. Returns `None` if the points
-    /// cannot separate the terms.
+    /// Fits the zero offset and the given terms to points without contact. Returns `None` if the
+    /// points cannot separate the terms.
     fn through(points: &[FreePoint], terms: Terms) -> Option<Slopes> {
         let mut columns = vec![vec![1.0; points.len()]];
         if terms.drift {
@@ -100,10 +102,10 @@ impl Slopes {
     }
 }
 
-/// Deviation in N of the points without contact from the fit of zero, drift, tilt and step.
+/// Deviation in N of the points without contact from the fit of zero offset, drift, tilt and step.
 struct Residual {
     root_mean_square: f64,
-    /// Deviation that is expected from the differences of neighbouring points.
+    /// Expected deviation, computed from the differences of neighbouring points.
     noise: f64,
 }
 
@@ -133,16 +135,16 @@ impl Residual {
     }
 }
 
-/// Zero, drift and tilt as they were subtracted from a curve.
+/// Result of the subtraction of zero offset, drift and tilt from the force of a curve.
 pub(crate) struct Subtracted {
     /// Drift, tilt and step that remain in the curve, in N; 0 for a term that was not found.
     pub remaining: [f64; 3],
     /// Step of the force by drag in N that was subtracted from the retractions; 0 if there is none.
     pub step_of_retraction: f64,
-    /// Values, at each point, of the lines that were subtracted, without the zero. Lines are the
-    /// contributions of drift, tilt and step to the force.
+    /// Lines that were subtracted: for each of drift, tilt and step, its contribution to the force
+    /// at each point. The zero offset is not included.
     pub columns: Vec<Vec<f64>>,
-    /// Sentences on zero, drift, tilt and step.
+    /// Sentences on zero offset, drift, tilt and step, for the report.
     pub statement: Note,
 }
 
@@ -151,7 +153,7 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Subtracts zero, drift and tilt as the options request.
+    /// Subtracts zero offset, drift and tilt from the force as the options request.
     pub fn subtract_lines(
         &self,
         points: &mut Points,
@@ -203,8 +205,8 @@ impl FreeParts {
         })
     }
 
-    /// Returns the points without contact that give the zero ([`Self::base`]). If there are enough
-    /// points before and after contact, those after contact are added.
+    /// Returns the points without contact that determine the zero offset ([`Self::base`]). If there
+    /// are enough points before and after contact, the points after contact are added.
     fn points(&self, points: &Points) -> Vec<FreePoint> {
         let count = points.force.len();
         let after = if self.has_both() {
@@ -236,13 +238,14 @@ fn known_drift(options: &CurveOptions) -> Option<f64> {
 struct Lines<'a> {
     free: &'a FreeParts,
     options: &'a CurveOptions,
-    /// Terms that are subtracted.
+    /// Terms that are subtracted from the force.
     removed: Terms,
-    /// Slopes of the terms that are subtracted.
+    /// Result of the fit of the terms that are subtracted.
     slopes: Slopes,
-    /// Slopes of a fit with a step; `None` if the step is not significant.
+    /// Result of the fit that includes a step; `None` if the step is not significant.
     with_step: Option<Slopes>,
-    /// Slopes of all terms that the points can separate. The statement names these slopes.
+    /// Result of the fit of all terms that the points can separate. The sentences of the report
+    /// give these values.
     stated: Slopes,
     is_straight: bool,
     /// Largest change of the force in N that does not count as a drift, tilt or step.
@@ -294,7 +297,7 @@ impl<'a> Lines<'a> {
         Ok(lines)
     }
 
-    /// Returns the slopes of a fit with a step, if the force after contact differs significantly
+    /// Returns the result of a fit with a step, if the force after contact differs significantly
     /// from the force before contact.
     fn significant_step(&self, points: &[FreePoint]) -> Option<Slopes> {
         let all = Terms {
@@ -306,7 +309,7 @@ impl<'a> Lines<'a> {
         (self.free.has_both() && self.remains(slopes.step)).then_some(slopes)
     }
 
-    /// Returns the slopes of all terms that the points can separate.
+    /// Returns the result of the fit of all terms that the points can separate.
     fn separable(&self, points: &[FreePoint]) -> Slopes {
         if let Some(slopes) = self.with_step {
             return slopes;
@@ -328,14 +331,14 @@ impl<'a> Lines<'a> {
         Slopes::through(points, drift).unwrap_or_default()
     }
 
-    /// Returns true if a term is too large to be an effect of noise.
+    /// Returns true if a fitted term is too large to be an effect of noise.
     fn remains(&self, slope: Coefficient) -> bool {
         slope.value.abs() > self.least_change.max(REMAINS * slope.error)
     }
 
-    /// Returns the step in N by which the zero of the force differs from its value before contact,
-    /// if only a retraction is used. The zero of the force is then that at the end of the
-    /// retraction.
+    /// Returns the step in N between the zero offset before contact and the zero offset at the end
+    /// of the retraction. The offset at the end is used if the options choose only a retraction;
+    /// otherwise the step is 0.
     fn step_of_zero(&self) -> f64 {
         let segments = &self.options.segments;
         let is_retraction_alone = !segments.is_empty() && !segments.contains(&1);
@@ -345,9 +348,9 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Returns the step in N that is subtracted from the retractions because it results from drag,
-    /// which makes the force on a retraction lower. Returns 0 if there is no such step, or if only
-    /// a retraction is used, which has a zero of its own.
+    /// Returns the step in N that is subtracted from the retractions. Such a step results from
+    /// drag, which makes the force on a retraction lower. Returns 0 if there is no such step, or if
+    /// only a retraction is used, because its zero offset is determined at its own end.
     fn step_of_retraction(&self) -> f64 {
         match self.with_step {
             Some(slopes) if self.step_of_zero() == 0.0 => slopes.step.value.min(0.0),
@@ -380,7 +383,8 @@ impl<'a> Lines<'a> {
         remaining
     }
 
-    /// Returns sentences on the zero, on drift and tilt, and on the terms that remain in the curve.
+    /// Returns sentences on the zero offset, on drift and tilt, and on the terms that remain in the
+    /// curve.
     fn statement(&self, zero: f64) -> Note {
         let mut text = format!("Zero of the force at {}. ", newton(zero));
         text += &self.slopes_in_words();
@@ -412,7 +416,8 @@ impl<'a> Lines<'a> {
         note
     }
 
-    /// Returns sentences on drift and tilt with their errors, and on whether they were removed.
+    /// Returns sentences on the drift and the tilt with their errors, and on whether each was
+    /// removed.
     fn slopes_in_words(&self) -> String {
         let known_drift = known_drift(self.options);
         let drift = newton(self.stated.drift.value + known_drift.unwrap_or(0.0));
@@ -450,7 +455,7 @@ fn newton(force: f64) -> String {
     format_quantity(force, "N")
 }
 
-/// Returns in words whether a drift or tilt was removed.
+/// Returns the words that say whether a drift or tilt was removed.
 fn treatment(is_removed: bool) -> &'static str {
     if is_removed {
         "it was removed"
@@ -465,8 +470,8 @@ mod tests {
     use crate::common::{from_text, lines, of_spring};
     use crate::curve::MeasuredCurve;
 
-    /// Returns the text of the curve of a spring with a drift, a tilt and a step after contact, all
-    /// in nN.
+    /// Returns a text file with the curve of a spring, to which a drift, a tilt and a step after
+    /// contact, all in nN, are added.
     fn made(drift: f64, tilt: f64, step: f64) -> String {
         lines(
             of_spring(600)
@@ -503,8 +508,8 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
-    /// For a retraction alone, the contact point is where compression ends and the force is zero,
-    /// here at the displacement 0.
+    /// For a retraction alone, the contact point is where compression ends and the force passes
+    /// through zero. Here this is at the displacement 0.
     #[test]
     fn a_retraction_alone_touches_where_it_leaves_compression() {
         let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
@@ -516,9 +521,8 @@ mod tests {
         assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
     }
 
-    /// Drift over time and tilt over the displacement can be separated by the parts before and
-    /// after contact. A difference between the forces before and after contact is neither drift nor
-    /// tilt.
+    /// Drift over time and tilt over the displacement can be separated with the parts before and
+    /// after contact. A step of the force between these parts is neither drift nor tilt.
     #[test]
     fn what_remains_without_contact_is_named_with_its_remedy() {
         let keep = |text: &str| {
@@ -531,8 +535,8 @@ mod tests {
         assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
         assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
-        // Waves of the force are neither drift nor tilt, and a retraction alone has a zero of its
-        // own.
+        // A force that oscillates with the displacement is neither drift nor tilt. A retraction
+        // alone has a zero offset from its own end.
         let waves = lines(
             of_spring(600)
                 .into_iter()

@@ -12,16 +12,17 @@ use asperity_data::{Remedy, format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// Displacement in m for each row, used before displacements are known in a file with forces only.
+/// Displacement in m for each row of a file with forces only. It serves as a placeholder until the
+/// displacements are computed from the travel of the piezo.
 const OF_ROW: f64 = 1e-9;
-/// Text of errors that says what is allowed if the columns are not recognised.
+/// Part of error messages that says which columns are allowed, for columns that are not recognised.
 const COLUMNS: &str = "displacement and force by names or numbers of their columns, or four where a retraction is beside its \
     approach";
-/// Text that errors add for a file without names and units.
+/// Addition to [`COLUMNS`] in the error message for a file that states neither names nor units.
 const UNITS: &str = ", with their units, since the file states none";
 
-/// A column of displacements and a column of forces: their indices, and the SI values that the
-/// number 1 in these columns means.
+/// A column of displacements and a column of forces. `places` are the indices of these columns, and
+/// `units` are the SI values that the number 1 in them means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub places: [usize; 2],
@@ -35,19 +36,19 @@ pub(crate) struct Choice {
     /// columns beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Travel of the piezo in m, for forces without a column of displacements, which are evenly
-    /// spaced over this travel.
+    /// Travel of the piezo in m, if the file has forces without displacements. The forces are then
+    /// evenly spaced over this travel.
     pub ramp: Option<f64>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the
-    /// instrument.
+    /// Name of the column of the displacement if this displacement excludes the deflection of the
+    /// instrument, otherwise `None`.
     pub of_body: Option<String>,
-    /// Description of the chosen columns and their units.
+    /// Description of the chosen columns and their units, for the report.
     pub assumed: String,
-    /// Sentences on names and units of the file that the options replace.
+    /// Sentences, for the report, on names and units in the file that the options replace.
     pub statements: Vec<String>,
 }
 
-/// Properties of the file that its header states.
+/// What the header of the file states.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,
@@ -108,8 +109,8 @@ impl Choice {
     }
 }
 
-/// Columns by their roles: displacement and force, once or for approach and retraction separately,
-/// and the column of the segments.
+/// Columns by their roles: the displacement and the force, as one pair or as one pair for each of
+/// approach and retraction, and the column of the segments.
 struct Roles {
     places: Vec<[usize; 2]>,
     segment: Option<usize>,
@@ -120,11 +121,12 @@ struct Unit {
     /// SI value that the number 1 in the column means.
     value: f64,
     description: String,
-    /// Sentence on the unit in the file, if an option replaces this unit.
+    /// Sentence that names the unit in the file, if an option replaces this unit.
     statement: Option<String>,
 }
 
-/// The columns of a file, with everything that decides on their roles.
+/// The columns of a file, with everything that determines their roles (displacement, force or
+/// segment).
 struct Table<'a> {
     columns: &'a [TextColumn],
     named: Vec<Named>,
@@ -158,8 +160,8 @@ impl<'a> Table<'a> {
         Ok(ramp)
     }
 
-    /// Returns the roles of the columns: those that the options state, or else those that follow
-    /// from the names of the columns.
+    /// Returns the roles of the columns. The options state them, or else they follow from the names
+    /// of the columns.
     fn roles(&self, ramp: Option<f64>) -> Result<Roles, SurfaceError> {
         if ramp.is_some() {
             return Ok(self.with_named_segment(vec![[0, 0]]));
@@ -192,8 +194,9 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the roles with the column whose name means the segment, if there is one. If approach
-    /// and retraction have separate columns, no column of segments is needed.
+    /// Returns the roles with these pairs of displacement and force. A column whose name means the
+    /// segment is added, unless approach and retraction have separate columns, which need no
+    /// segments.
     fn with_named_segment(&self, places: Vec<[usize; 2]>) -> Roles {
         let mut segment = None;
         if places.len() == 1 {
@@ -204,8 +207,8 @@ impl<'a> Table<'a> {
         Roles { places, segment }
     }
 
-    /// Returns true for two columns that can be taken for displacement and force in this order,
-    /// because their names do not contradict it.
+    /// Returns true if the file has two columns whose names do not exclude that the first is the
+    /// displacement and the second the force.
     fn is_pair_in_order(&self) -> bool {
         if self.columns.len() != 2 {
             return false;
@@ -217,7 +220,7 @@ impl<'a> Table<'a> {
         self.columns.iter().all(|column| column.name.is_empty())
     }
 
-    /// Returns true if no name is known as a displacement or a force.
+    /// Returns true if no column has a name that is known for a displacement or a force.
     fn is_unknown(&self) -> bool {
         for column in &self.named {
             for quantity in &QUANTITIES {
@@ -229,7 +232,8 @@ impl<'a> Table<'a> {
         true
     }
 
-    /// Returns the index of the column that `wanted` names, or whose number from 1 it is.
+    /// Returns the index of the column that an option states: `wanted` is its name, or its number
+    /// counted from 1.
     fn place(&self, wanted: &str) -> Result<usize, SurfaceError> {
         let wanted_letters = letters(wanted);
         if !wanted_letters.is_empty() {
@@ -253,7 +257,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns a list of the columns for a message.
+    /// Returns a list of the columns for an error message.
     fn listed(&self) -> String {
         let count = self.columns.len();
         if self.is_unnamed() {
@@ -268,8 +272,8 @@ impl<'a> Table<'a> {
         format!("{count} columns {}", names.join(", "))
     }
 
-    /// Returns a sentence on columns that the options choose although their names mean something
-    /// else; `None` if there are none.
+    /// Returns a sentence on columns that the options choose as displacement or force although
+    /// their names mean something else; `None` if there are no such columns.
     fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
         if self.options.columns.is_empty() {
             return None;
@@ -284,9 +288,9 @@ impl<'a> Table<'a> {
         ))
     }
 
-    /// Returns the name of the column of the displacement, if the name means a displacement without
-    /// the deflection of the instrument. If the options choose the column by its number, the
-    /// meaning of its name is ignored, and the result is `None`.
+    /// Returns the name of the column of the displacement if this name means a displacement without
+    /// the deflection of the instrument. Returns `None` if the options choose the column by its
+    /// number, because the meaning of its name is then ignored.
     fn displacement_of_body(&self, place: usize) -> Option<String> {
         if let Some(typed) = self.options.columns.first()
             && typed.parse::<usize>().is_ok()
@@ -307,9 +311,9 @@ impl<'a> Table<'a> {
         refused(Place::File, found, COLUMNS).with(Remedy::Columns)
     }
 
-    /// Returns the unit of a column of a quantity. A unit in the options has precedence over the
-    /// unit in the file. A deflection is converted to a force by the stiffness that the file
-    /// states.
+    /// Returns the unit of the column `place`, which has the quantity with this index in
+    /// [`QUANTITIES`]. A unit in the options has precedence over the unit in the file. A deflection
+    /// is converted to a force by the stiffness that the file states.
     fn unit(&self, quantity: usize, place: usize) -> Result<Unit, SurfaceError> {
         let Quantity {
             term,
@@ -358,8 +362,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Returns the SI value that the number 1 means in the unit `text`; `None` for a unit of another
-/// quantity. If the unit comes from an option, it may be a multiple of a unit, such as 3.01nN.
+/// Returns the SI value that the number 1 means in the unit `text`; `None` if the unit is of
+/// another quantity. A unit from an option may be a multiple of a unit, such as 3.01nN.
 fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
     if is_option && text.starts_with(|first: char| first.is_ascii_digit()) {
         let value = parse_quantity(text, si_unit).ok()?;
@@ -368,8 +372,9 @@ fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
     unit(text, si_unit)
 }
 
-/// Returns the unit of a column of deflections in a unit of length or voltage. The value of the
-/// result is the force in N that a deflection of 1 means. Returns `None` for another unit.
+/// Returns the unit of a column that contains deflections (in a unit of length or voltage) instead
+/// of forces. Its value is the force in N that corresponds to the number 1 in the column. Returns
+/// `None` for another unit.
 fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, SurfaceError>> {
     let mut factors = String::new();
     let deflection = match unit(text, "m") {
@@ -394,19 +399,20 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, Surface
     }))
 }
 
-/// Returns the error for a deflection that cannot be converted to a force.
+/// Returns the error for a deflection that cannot be converted to a force because the file does not
+/// state the property `missing`.
 fn no_force(unit: &str, missing: &str) -> SurfaceError {
     let unit = shown(unit);
     let found = format!("the force is a deflection in {unit}, and the file states no {missing}");
     refused(Place::File, found, "the force of 1 in the column").with(Remedy::ForceOfOne)
 }
 
-/// Quantity and unit that follow from the name of a column.
+/// Quantity and unit of a column that follow from its name.
 #[derive(Clone, Debug)]
 struct Named {
     /// Direction of the column, [`APPROACH`] or [`RETRACTION`]; `None` if the name states neither.
     direction: Option<usize>,
-    /// Letters of the words of the name that state neither a direction nor a unit.
+    /// Words of the name that state neither a direction nor a unit, reduced to letters and digits.
     quantity_name: String,
     /// Unit among the words of the name, as in `Defl_pN_Ex`.
     unit: Option<String>,
@@ -435,8 +441,8 @@ impl Named {
         }
     }
 
-    /// Returns the rank of the unit of a column of forces; smaller is better. It is 0 for a unit of
-    /// force or no unit, 1 for a deflection, and 2 for any other unit.
+    /// Returns the rank of a column of forces by its unit; the smallest rank is preferred. The rank
+    /// is 0 for a unit of force or no unit, 1 for a deflection, and 2 for any other unit.
     fn rank(&self) -> usize {
         match self.unit.as_deref() {
             None => 0,
@@ -447,9 +453,9 @@ impl Named {
     }
 }
 
-/// Returns the indices of the columns of displacement and force that follow from the names. If
-/// approach and retraction have separate columns, there are two pairs. The error is the name of the
-/// quantity for which no column is found.
+/// Returns the indices of the columns of displacement and force that follow from the names of the
+/// columns. If approach and retraction have separate columns, the result has two pairs. The error
+/// is the name of the quantity for which no column is found.
 fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     if let Some(approach) = pair_of_direction(named, APPROACH)
         && let Some(retraction) = pair_of_direction(named, RETRACTION)
@@ -460,7 +466,8 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     let force = find_column(named, FORCE, None);
     match (displacement, force) {
         (Some(displacement), Some(force)) => Ok(vec![[displacement, force]]),
-        // If one of two columns is known, the other column is the missing quantity.
+        // If the file has two columns and the quantity of one is known, the other column is taken
+        // for the other quantity.
         (Some(displacement), None) if named.len() == 2 => {
             Ok(vec![[displacement, 1 - displacement]])
         }
@@ -470,8 +477,9 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     }
 }
 
-/// Returns the columns of displacement and force of a direction. Approach and retraction may have
-/// the same column of displacements. The name of a column of forces may be only the direction.
+/// Returns the columns of displacement and force of one direction (approach or retraction). Both
+/// directions may have the same column of displacements. The name of a column of forces may be the
+/// direction alone.
 fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
     let direction = Some(direction);
     let displacement = find_column(named, DISPLACEMENT, direction)
@@ -481,8 +489,8 @@ fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
     Some([displacement, force])
 }
 
-/// Returns the column of a quantity and direction. If several columns have names of the quantity,
-/// the name that comes first in its list is preferred.
+/// Returns the column of a quantity in one direction. If several columns have a name of this
+/// quantity, the column whose name comes first in [`Quantity::names`] is returned.
 fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Option<usize> {
     for name in QUANTITIES[quantity].names.split(' ') {
         if let Some(place) = best_column(named, quantity, direction, name) {
@@ -492,8 +500,8 @@ fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Op
     None
 }
 
-/// Returns the first column with this name and direction. Among several columns of forces, the
-/// column with the best rank of its unit is returned.
+/// Returns the first column with this name and direction. Of several columns of forces, the one
+/// with the best [`rank`](Named::rank) is returned.
 fn best_column(
     named: &[Named],
     quantity: usize,

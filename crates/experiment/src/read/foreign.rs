@@ -1,5 +1,5 @@
-//! Recognition of binary files of instruments. They are refused with an error that says how to
-//! export a text.
+//! Recognition of binary files of instruments. The program refuses these files with an error that
+//! says how to export their data as text.
 
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
@@ -12,7 +12,7 @@ struct Format {
     /// First bytes of the files of this format; empty if they are unknown.
     signature: &'static [u8],
     name: &'static str,
-    /// Instruction for the export of a text, for the error.
+    /// Part of the error message that says how the user can export the data as text.
     way: &'static str,
 }
 

@@ -1,10 +1,10 @@
-//! Properties of the instrument, from the lines above the numbers of a curve.
+//! Properties of the instrument that a file states in the lines above the points of a curve.
 
 use crate::read::names::{letters, unit};
 use asperity_data::parse_quantity;
 use asperity_data::text_table::{Decimal, Separator, TextCell};
 
-/// Names of the stiffness of the instrument, reduced by [`letters`].
+/// Names of the stiffness of the instrument in files, reduced by [`letters`].
 const STIFFNESS: [&str; 6] = [
     "springconstant",
     "forceconstant",
@@ -13,7 +13,7 @@ const STIFFNESS: [&str; 6] = [
     "springk",
     "k",
 ];
-/// Names of the deflection for 1 V, reduced by [`letters`].
+/// Names of the sensitivity (the deflection for 1 V) in files, reduced by [`letters`].
 const SENSITIVITY: [&str; 5] = [
     "sensitivity",
     "deflectionsensitivity",
@@ -21,13 +21,13 @@ const SENSITIVITY: [&str; 5] = [
     "sensdeflection",
     "lightlevergain",
 ];
-/// Names of the travel of the piezo, reduced by [`letters`].
+/// Names of the travel of the piezo in files, reduced by [`letters`].
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
 /// Stiffness and sensitivity of the instrument, and the travel of its piezo.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Metadata {
-    /// Name of the stiffness of the instrument in the file, and its value in N/m.
+    /// Stiffness of the instrument: its name in the file, and its value in N/m.
     pub stiffness: Option<(String, f64)>,
     /// Deflection for 1 V in m/V.
     pub sensitivity: Option<f64>,
@@ -36,8 +36,9 @@ pub(crate) struct Metadata {
 }
 
 impl Metadata {
-    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit follows the
-    /// key or the value. A value without a unit is in SI units.
+    /// Reads a line of the header. Its form is `key: value`, `key = value`, or key and value
+    /// separated by a tab. The unit is written after the key or after the value; a value without a
+    /// unit is in SI units.
     pub fn take(&mut self, line: &str) {
         let Some(entry) = Entry::of(line) else {
             return;
@@ -76,7 +77,8 @@ impl<'a> Entry<'a> {
             .or_else(|| line.split_once([':', '=', '\t']))?;
         let (name, unit_of_key) = key.split_once(['(', '[', ',']).unwrap_or((key, ""));
         let value = value.trim_matches(|c: char| !(c.is_alphanumeric() || "+-./".contains(c)));
-        // Some instruments write `V 65.3 nm/V` for a value that is related to a voltage.
+        // Some instruments write `V 65.3 nm/V`, where the first V says that the value is related to
+        // a voltage.
         let value = value.strip_prefix("V ").unwrap_or(value).trim();
         let end = value
             .find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))
@@ -99,11 +101,10 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// Returns the deflection for 1 V in m/V. It also follows from an inverse value, a voltage for
-    /// a deflection of 1 m.
+    /// Returns the deflection for 1 V in m/V. The file may also state the inverse, in V/m.
     fn sensitivity(&self) -> Option<f64> {
-        // A value of exactly 1, such as 1 mV/nm, is the default of an instrument without
-        // calibration, and is not used.
+        // A value of exactly 1, such as 1 mV/nm, is not used, because it is the default of an
+        // instrument without calibration.
         if !self.unit.is_empty()
             && self.number != 1.0
             && let Some(unit) = ratio(self.unit, "V", "m")
@@ -118,8 +119,8 @@ fn only_unit(text: &str) -> &str {
     text.trim_matches(|c: char| !(c.is_alphabetic() || c == '/'))
 }
 
-/// Returns the SI value that the number 1 means in a unit that is a ratio, such as nN/nm. Returns 1
-/// if there is no unit.
+/// Returns the SI value that the number 1 means in a ratio of two units, such as nN/nm with `over`
+/// N and `under` m. Returns 1 if there is no unit.
 fn ratio(text: &str, over: &str, under: &str) -> Option<f64> {
     if text.is_empty() {
         return Some(1.0);

@@ -24,8 +24,8 @@ use asperity_surface::files::{columns as npy_columns, is_igor_wave, unpacked};
 use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
-/// Reads the content of a file, which may be compressed by gzip. The name of the file serves to
-/// recognise binary formats of instruments, which are refused.
+/// Reads the columns of a curve from `bytes`, the content of a file, which may be compressed by
+/// gzip. The name of the file serves to recognise and refuse binary formats of instruments.
 pub(crate) fn parse(
     name: &Path,
     bytes: &[u8],
@@ -48,11 +48,11 @@ pub(crate) fn parse(
     Ok(columns)
 }
 
-/// Reads the content of a NumPy file.
+/// Reads the columns of a curve from the content of a NumPy file.
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
-    // Columns with these names are from a force curve or a fit that this program has written in SI
-    // units.
+    // A column with one of these names shows that this program has written the file, in SI units,
+    // with a force curve or a fit.
     let is_si = names
         .iter()
         .any(|name| name == "contact_length" || name == "residual");
@@ -109,8 +109,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns a text with the curve of the spring. It has this header, and `form` writes each
-    /// point.
+    /// Returns a text with the curve of the spring. It begins with `header`, and `form` writes the
+    /// line of each point.
     fn text(header: &str, form: impl Fn(f64, f64) -> String) -> String {
         text_of_spring(header, 600, form)
     }
@@ -127,7 +127,8 @@ pub(crate) mod tests {
         };
         let plain = CurveOptions::default;
         let expected = spring();
-        // The two points at the turning point have the same displacement.
+        // Points 299 and 300, at the turning point, have the same displacement, so that either
+        // segment may contain them.
         assert_eq!(
             (
                 expected.segment[298],
@@ -264,8 +265,8 @@ pub(crate) mod tests {
 
     #[test]
     fn units_of_the_command_line_overrule_those_of_the_file() {
-        // The first unit can be converted by a division by a whole number, and the second only by a
-        // multiplication.
+        // Conversion to N: a value in 4 nN is divided by a whole number, and a value in 3 nN is
+        // multiplied.
         for unit in [4.0, 3.0] {
             let text = text("Piezo [nm],Deflection [nm]\n", |d, f| {
                 format!("{},{}", d / 1e3, f / unit)
@@ -352,8 +353,8 @@ pub(crate) mod tests {
                 error.starts_with(said) && error.contains("allowed: "),
                 "{said}: {error}"
             );
-            // Only a file without names and units needs both options, and only then the message
-            // names the units.
+            // Only in a file without names and units both the columns and the units have to be
+            // stated. Only then the message speaks of units.
             assert!(
                 error.contains(", with their units") == error.contains("without names"),
                 "{error}"

@@ -1,4 +1,4 @@
-//! Names of columns, directions, segments and units that files of curves use.
+//! Names that files of curves use for columns, directions, segments and units.
 
 use asperity_data::parse_quantity;
 use asperity_data::text_table::is_one_of;
@@ -17,9 +17,9 @@ pub(crate) struct Quantity {
 pub(crate) const DISPLACEMENT: usize = 0;
 /// Index of the force in [`QUANTITIES`].
 pub(crate) const FORCE: usize = 1;
-/// Displacement and force. Among the names, the displacement of the instrument is preferred to that
-/// of the body, which lacks the deflection of the instrument, and a force is preferred to a
-/// deflection.
+/// Displacement and force, with the names of their columns. The displacement of the instrument is
+/// preferred to that of the body, which lacks the deflection of the instrument. A force is
+/// preferred to a deflection.
 pub(crate) const QUANTITIES: [Quantity; 2] = [
     Quantity {
         term: "displacement",
@@ -54,7 +54,7 @@ const DIRECTIONS: [&str; 2] = [
 /// Words for a pause in the names of segments.
 const PAUSES: &str = "pause hold dwell delay wait";
 
-/// Returns the letters and digits of a name in lower case, so that `Z-Sense` and `z_sense` are
+/// Returns the letters and digits of a name in lower case, so that `Z-Sense` and `z_sense` become
 /// equal.
 pub(crate) fn letters(name: &str) -> String {
     name.chars()
@@ -79,7 +79,7 @@ pub(crate) fn is_pause(text: &str) -> bool {
     words(text).any(|word| is_one_of(&letters(word), PAUSES))
 }
 
-/// Returns true for a line that names a segment.
+/// Returns true if a line is the name of a segment: a pause, an approach or a retraction.
 pub(crate) fn names_segment(text: &str) -> bool {
     is_pause(text) || words(text).any(|word| direction(word).is_some())
 }
@@ -91,8 +91,8 @@ pub(crate) fn is_unit(text: &str) -> bool {
         .any(|quantity| unit(text, quantity.si_unit).is_some())
 }
 
-/// Returns true for a word in the name of a column that is a unit of length, force or voltage. A
-/// single letter counts as a symbol and not as a unit, except V.
+/// Returns true if a word in the name of a column is a unit of length, force or voltage. A single
+/// letter counts as a symbol of a quantity and not as a unit, except V.
 pub(crate) fn names_unit(word: &str) -> bool {
     if word.chars().count() > 1 {
         return is_unit(word) || unit(word, "V").is_some();

@@ -1,4 +1,4 @@
-//! The points of a file in SI units, collected from its rows.
+//! The points of a curve in SI units, collected from the rows of a file.
 
 use crate::error::ExperimentError;
 use crate::read::columns::{Choice, Pair, Stated};
@@ -12,11 +12,11 @@ use std::borrow::Cow;
 
 /// Largest magnitude of a displacement in m, and of a force in N, that a file may contain.
 const LARGEST: [f64; 2] = [1e3, 1e6];
-/// Distance from the range of the central nine tenths of all displacements, in units of this range,
-/// beyond which a few displacements count as errors of the file.
+/// Distance from the central nine tenths of all displacements, in units of the range of these nine
+/// tenths. A few displacements beyond this distance count as errors of the file.
 const WILD: f64 = 10.0;
 
-/// Label that a file gives to the points in a part of it.
+/// Label that a file gives to the points of one part of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
     /// Number of the part. A new part begins where the name of the segment changes.
@@ -42,24 +42,24 @@ pub(crate) struct Columns {
     pub force: Vec<f64>,
     /// Label of the segment of each point; empty if the file has no names of segments.
     pub labels: Vec<Label>,
-    /// True if the approach and the retraction have their own columns.
+    /// True if approach and retraction were in separate columns of the file.
     pub is_beside: bool,
     /// Number of points left out because a value is missing.
     pub missing: usize,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the
-    /// instrument.
+    /// Name of the column of the displacement if this displacement excludes the deflection of the
+    /// instrument, otherwise `None`.
     pub of_body: Option<String>,
-    /// Description of the columns and their units.
+    /// Description of the columns and their units, for the report.
     pub assumed: String,
-    /// Sentences on names and units of the file that the options replace.
+    /// Sentences, for the report, on names and units in the file that the options replace.
     pub statements: Vec<String>,
     /// Number of points left out because they are equal to the previous point.
     repeated: usize,
     /// Place of the first repeated point.
     first_repeated: Option<Place>,
-    /// Number of the line or of the point in the file, for each point.
+    /// For each point, the number of its line, or its number among the points of the file.
     places: Vec<usize>,
 }
 
@@ -90,7 +90,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Returns in words how many points were left out, and why; empty if none were.
+    /// Returns phrases on how many points were left out, and why; empty if no points were left out.
     pub fn left_out(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.missing > 0 {
@@ -108,7 +108,8 @@ impl Columns {
         sentences
     }
 
-    /// Joins the points of an approach and of a retraction that were in columns side by side.
+    /// Joins the points of an approach and of a retraction that were in separate columns of the
+    /// file.
     pub fn joined(parts: Vec<Columns>) -> Columns {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
@@ -118,8 +119,9 @@ impl Columns {
         joined
     }
 
-    /// Adds the retraction to an approach. If the last point of the retraction is nearer to the end
-    /// of the approach than its first point, its order is reversed.
+    /// Adds the points of a retraction after those of an approach. If the last point of the
+    /// retraction is nearer to the end of the approach than the first point, the retraction is
+    /// reversed.
     fn append_retraction(&mut self, mut retraction: Columns) {
         if let Some(turn) = self.displacement.last()
             && let Some(first) = retraction.displacement.first()
@@ -143,8 +145,8 @@ impl Columns {
     }
 
     /// Adds a point with these values of displacement and force in the units of the file. A point
-    /// with a missing value, or equal to the point before, is not added. Returns true if the point
-    /// was added.
+    /// is not added if a value is missing or if it is equal to the previous point. Returns true if
+    /// the point was added.
     fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, SurfaceError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
@@ -168,9 +170,10 @@ impl Columns {
         Ok(true)
     }
 
-    /// Returns an error if a few displacements are far from all others. Such errors of a file would
-    /// determine the range of displacements, and thereby the segments. `place` returns the place in
-    /// the file from the number of a line or a point.
+    /// Returns an error if a few displacements are far from all others. Such displacements are
+    /// errors of the file, and the range of displacements, by which the segments are found, would
+    /// depend on them. `place` converts the number of a line or of a point to its place in the
+    /// file.
     pub fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
@@ -206,8 +209,8 @@ impl Columns {
     }
 }
 
-/// Returns a value in SI units. If 1/`unit` is a whole number, the value is divided by it, because
-/// the unit itself, such as 1e-9, is rounded and a multiplication would round twice.
+/// Returns a value in SI units. If 1/`unit` is a whole number, the value is divided by this number,
+/// because a unit such as 1e-9 is itself rounded, and a multiplication would round twice.
 fn in_si(value: f64, unit: f64) -> f64 {
     let divisor = (1.0 / unit).round();
     if (divisor * unit - 1.0).abs() < 1e-12 {
@@ -217,7 +220,7 @@ fn in_si(value: f64, unit: f64) -> f64 {
     }
 }
 
-/// Returns an error for a value that no instrument measures.
+/// Returns an error for a value that is larger than any value an instrument could measure.
 fn check_magnitude(value: f64, quantity: usize, place: &Place) -> Result<(), SurfaceError> {
     let largest = LARGEST[quantity];
     if (-largest..=largest).contains(&value) {
@@ -230,15 +233,16 @@ fn check_magnitude(value: f64, quantity: usize, place: &Place) -> Result<(), Sur
     Err(refused(place.clone(), found, allowed))
 }
 
-/// Collector of the points from the chosen columns of the rows of a file.
+/// Collector that reads the chosen columns of each row of a file and adds them as points.
 pub(crate) struct Rows {
     pub choice: Choice,
-    /// One set of columns, or two sets for approach and retraction in columns side by side.
+    /// One set of columns, or two sets if approach and retraction have separate columns in the
+    /// file.
     pub parts: Vec<Columns>,
     label: Label,
-    /// Name of the present segment; empty before the first segment.
+    /// Name of the segment of the rows that are read now; empty before the first segment.
     name: String,
-    /// Number of rows so far.
+    /// Number of rows that have been read.
     count: usize,
 }
 
@@ -263,7 +267,7 @@ impl Rows {
         })
     }
 
-    /// Begins another segment if the name differs from that of the present segment.
+    /// Begins another segment if `name` differs from the name of the present segment.
     pub fn begin_segment(&mut self, name: &str) {
         if self.name != name {
             self.label = Label {
@@ -274,8 +278,8 @@ impl Rows {
         }
     }
 
-    /// Adds the points of a row. `value` returns the number in a column, or NaN if it is missing.
-    /// `text` returns the text of a cell.
+    /// Adds the points of a row. `value` returns the number in a column, or NaN if the number is
+    /// missing. `text` returns the text of a cell.
     pub fn take<'a>(
         &mut self,
         place: &Place,
@@ -294,7 +298,8 @@ impl Rows {
                 Some(_) => self.count as f64,
                 None => value(pair.places[DISPLACEMENT])?,
             };
-            // If approach and retraction are side by side, one of them may have fewer rows.
+            // If approach and retraction have separate columns, one of them may have fewer rows
+            // than the other. The cells of its other rows are empty.
             if is_beside && pair.places.iter().all(|place| text(*place).is_empty()) {
                 continue;
             }
@@ -315,8 +320,9 @@ impl Rows {
         self.parts
     }
 
-    /// Sets the displacements of a file with forces only: the first half of the points is evenly
-    /// spaced over the travel `ramp` of the piezo in m, and the second half over the same way back.
+    /// Sets the displacements in a file with forces only. The first half of the points is evenly
+    /// spaced over the travel `ramp` of the piezo in m, and the second half is evenly spaced on the
+    /// way back.
     fn spread_over_ramp(&mut self, ramp: f64) {
         let Some(columns) = self.parts.first_mut() else {
             return;

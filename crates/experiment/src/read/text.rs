@@ -1,5 +1,5 @@
-//! Reader of the points of a text: the place where the points begin, the information in the lines
-//! above them, and the rows of points.
+//! Reader of a curve from a text. It finds where the points begin, takes the information from the
+//! lines above them, and reads the rows of points.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
@@ -13,14 +13,14 @@ use asperity_data::{PROVENANCE, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// Number of consecutive rows of numbers with the same form from which on they count as points.
-/// Metadata have fewer such lines.
+/// Number of consecutive rows of numbers with the same form, from which on such rows count as
+/// points. A header may also have rows of numbers, but fewer in succession.
 const RUN: usize = 5;
-/// Header line of tables that the programs PyJibe and afmformats write. Their columns are in SI
-/// units.
+/// Header line that the programs PyJibe and afmformats write above a table. The columns of such a
+/// table are in SI units.
 const OF_AFMFORMATS: &str = "END METADATA";
 
-/// Form of a row of numbers: the separator, the number of cells, and which cells are words.
+/// Form of a row of numbers: the separator, the number of cells, and which of the cells are words.
 #[derive(Clone, Debug, PartialEq)]
 struct Shape {
     pub separator: Separator,
@@ -29,8 +29,8 @@ struct Shape {
 }
 
 impl Shape {
-    /// Returns the form of a line with at least `least` values, of which at least one is not
-    /// missing.
+    /// Returns the form of a line; `None` if it has fewer than `least` values or if all its values
+    /// are missing.
     fn of(line: &str, least: usize) -> Option<Shape> {
         let separator = Separator::of(line);
         let mut words = Vec::new();
@@ -67,16 +67,16 @@ impl Shape {
     }
 }
 
-/// Place where the points of a text begin, and form of the first row.
+/// Place in a text where the points begin, and the form of the first row of points.
 struct Beginning {
     /// Number of the line, from 1.
     pub line: usize,
     pub shape: Shape,
 }
 
-/// Returns where the points of a text begin: at the first [`RUN`] consecutive rows with the same
-/// form, or, if there are none, at the first row of numbers. Returns `None` if there is no row of
-/// numbers.
+/// Returns the place where the points of a text begin. It is the first of [`RUN`] consecutive rows
+/// with the same form or, if there are no such rows, the first row of numbers. Returns `None` if
+/// there is no row of numbers.
 fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     for least in [2, 1] {
         let mut runs = Runs::default();
@@ -92,7 +92,7 @@ fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     Ok(None)
 }
 
-/// Runs of consecutive rows of numbers with the same form.
+/// Search for runs, which are consecutive rows of numbers with the same form.
 #[derive(Default)]
 struct Runs {
     /// First row of numbers in the text.
@@ -104,8 +104,8 @@ struct Runs {
 }
 
 impl Runs {
-    /// Reads a line, unless a run has already [`RUN`] rows. A row of numbers has at least `least`
-    /// values.
+    /// Adds a line to the search, unless a run already has [`RUN`] rows. A line counts as a row of
+    /// numbers if it has at least `least` values.
     fn take(&mut self, number: usize, line: &str, least: usize) {
         if self.is_long() || line.is_empty() || is_comment(line) {
             return;
@@ -146,7 +146,8 @@ fn is_comment(line: &str) -> bool {
     line.starts_with(COMMENT)
 }
 
-/// Returns the name of the segment that a comment states.
+/// Returns the name of the segment that a comment line of the file states; `None` for another
+/// comment.
 fn segment_of(comment: &str) -> Option<&str> {
     let (key, name) = comment.trim_start_matches(COMMENT).split_once(':')?;
     let is_segment = key.trim().eq_ignore_ascii_case("segment");
@@ -158,8 +159,8 @@ fn segment_of(comment: &str) -> Option<&str> {
 struct Above {
     header: HeadLines,
     pub metadata: Metadata,
-    /// Names of columns from a line that also has the first numbers, because the file lacks a line
-    /// end between them.
+    /// Names of the columns, from a line that also contains the first numbers because the file
+    /// lacks a line end after the names.
     merged: Option<String>,
 }
 
@@ -180,8 +181,8 @@ impl Above {
         columns_of(&header, shape)
     }
 
-    /// Returns true if the first row of numbers is in the line with the names of the columns, so
-    /// that it is lost.
+    /// Returns true if the first row of numbers is in the same line as the names of the columns.
+    /// This row cannot be read.
     pub fn has_merged(&self) -> bool {
         self.merged.is_some()
     }
@@ -196,8 +197,8 @@ fn columns_of(header: &HeadLines, shape: &Shape) -> Vec<TextColumn> {
     header.columns(shape.count, shape.count, shape.separator, is_unit)
 }
 
-/// Returns the names of columns from a comment to which the first row of numbers is attached, so
-/// that the last name and the first number are in the same cell. Returns `None` for another line.
+/// Returns the names of columns from a comment line that continues with the first row of numbers,
+/// so that the last name and the first number share a cell. Returns `None` for another line.
 fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
     let text = line.trim_start_matches(COMMENT);
     let cells: Vec<&str> = shape.separator.split(text).collect();
@@ -220,7 +221,7 @@ fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
     Some(names.join("\t"))
 }
 
-/// Reads the content of a text file.
+/// Reads the columns of a curve from the content of a text file.
 pub(crate) fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let Some(beginning) = beginning(bytes)? else {
         return Ok(Vec::new());
@@ -248,14 +249,14 @@ pub(crate) fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Column
 /// Reader of the lines of a text.
 struct TextReader<'a> {
     options: &'a CurveOptions,
-    /// True for a table that this program has written, in SI units.
+    /// True for a table that this program has written. Such a table is in SI units.
     is_of_program: bool,
     beginning: Beginning,
     above: Above,
-    /// Rows that have been read; `None` before the first row.
+    /// Collector with the rows read so far; `None` before the first row.
     rows: Option<Rows>,
     decimal: Decimal,
-    /// Name of the segment from a line above its points.
+    /// Name of the segment, taken from a line above its points.
     name: String,
 }
 
@@ -277,7 +278,7 @@ impl TextReader<'_> {
         self.take_row(Place::Line(number), line)
     }
 
-    /// Reads a line of numbers, or a line between numbers with the name of a segment.
+    /// Reads a row of numbers, or a line between such rows that names a segment.
     fn take_row(&mut self, place: Place, line: &str) -> Result<(), SurfaceError> {
         let mut rows = match self.rows.take() {
             Some(rows) => rows,
@@ -308,7 +309,8 @@ impl TextReader<'_> {
         Ok(())
     }
 
-    /// Chooses the columns with the information from the lines above the first row.
+    /// Chooses the columns from the lines above the first row, and returns an empty collector of
+    /// rows.
     fn first_rows(&self) -> Result<Rows, SurfaceError> {
         let stated = Stated {
             metadata: &self.above.metadata,
@@ -328,8 +330,8 @@ fn number_in(
     place: &Place,
 ) -> Result<f64, SurfaceError> {
     let (fault, allowed) = match decimal.read(cell, shape.separator) {
-        // A number with so many digits that it becomes infinite is an error. The word for infinity,
-        // without digits, marks a missing value.
+        // A number with so many digits that it becomes infinite is refused. The word for infinity,
+        // which has no digits, marks a missing value.
         TextCell::Number(value)
             if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) =>
         {
@@ -360,7 +362,7 @@ mod tests {
     use crate::read::options::CurveOptions;
     use crate::read::tests::assert_same;
 
-    /// Returns a text with a head and `count` rows.
+    /// Returns a text of `head` and `count` lines.
     fn joined(head: &str, count: usize, line: &dyn Fn(usize) -> String) -> String {
         (0..count).fold(head.to_owned(), |all, index| all + &line(index) + "\n")
     }
@@ -370,8 +372,8 @@ mod tests {
             .unwrap_or_else(|error| panic!("{error}: {}", &text[..80]))
     }
 
-    /// The curve of the spring is read from the form of each program without options. Each case has
-    /// a part of the first statement.
+    /// A curve in the form that each program writes is read without options. Each case ends with a
+    /// text that the first statement must contain.
     #[test]
     fn exports_of_other_programs_are_read_without_options() {
         let (all, expected) = (of_spring(600), read(&lines(of_spring(600))));
@@ -448,8 +450,8 @@ mod tests {
                 one.0, other.0, volts[0], volts[1]
             )
         });
-        // The retraction is written in the same direction as the approach, and with the minus signs
-        // of a spreadsheet.
+        // The retraction is listed in the same direction as the approach. Its minus signs are those
+        // that spreadsheets write.
         let side = joined(
             "Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n",
             300,
@@ -589,7 +591,7 @@ mod tests {
             stated("Tip Position (nm),Force (nN)\n"),
             (None, some("Tip Position"))
         );
-        // If the options choose a column by its number, the meaning of its name is ignored.
+        // The options choose the column by its number, so the meaning of its name is ignored.
         let options = CurveOptions {
             columns: vec!["1".into(), "2".into()],
             ..CurveOptions::default()
@@ -600,8 +602,8 @@ mod tests {
                 .of_body,
             None
         );
-        // With the stiffness from the file or from the scene, the displacement of the body is
-        // converted to that of the instrument.
+        // The displacement of the body is converted to that of the instrument by the stiffness that
+        // the file or the scene states.
         let body = |head: &str| {
             joined(head, 600, &|index| {
                 format!("{},{}", all[index].1 / 4.0 - all[index].0, all[index].1)

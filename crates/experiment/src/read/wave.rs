@@ -1,6 +1,6 @@
-//! Force curves in binary waves (arrays) of the program Igor, as microscopes of Asylum Research
-//! write them. A wave has a column for each quantity, and a note with the properties of the
-//! cantilever.
+//! Reader of force curves from binary waves, which are the array files of the program Igor, written
+//! by microscopes of Asylum Research. A wave has a column for each quantity, and a note with the
+//! properties of the cantilever.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
@@ -11,10 +11,10 @@ use asperity_data::text_table::TextColumn;
 use asperity_surface::files::{IgorWave, refused};
 use asperity_surface::{Place, SurfaceError};
 
-/// Largest number of columns.
+/// Largest allowed number of columns in a wave.
 const MOST_COLUMNS: usize = 64;
 
-/// Reads the content of a binary wave.
+/// Reads the columns of a curve from the content of a binary wave (an array file of Igor).
 pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [points, names, ..] = &wave.dimensions;
@@ -47,8 +47,8 @@ pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Column
     Ok(rows.finished())
 }
 
-/// Returns the columns with their names. The unit of each column is the unit of the wave. Returns
-/// an error for a wave that is not a table with named columns.
+/// Returns the columns with their names. Every column has the unit that the wave states. Returns an
+/// error if the wave is not a table with named columns.
 fn columns(wave: &IgorWave<'_>) -> Result<Vec<TextColumn>, SurfaceError> {
     let [points, names, layers, _] = &wave.dimensions;
     let is_table = (2..=MOST_COLUMNS).contains(&names.count) && layers.count == 0;
@@ -74,7 +74,8 @@ fn columns(wave: &IgorWave<'_>) -> Result<Vec<TextColumn>, SurfaceError> {
         .collect())
 }
 
-/// Segments that the note of a wave states: for each the last point and the direction.
+/// Segments of the curve that the note of a wave states. Each has the index of its last point and
+/// its direction.
 struct Segments(Vec<Segment>);
 
 struct Segment {
@@ -83,9 +84,9 @@ struct Segment {
 }
 
 impl Segments {
-    /// Returns the segments from two lists in the note, the last points and the directions. The
-    /// first element of each list is for the beginning of the curve, and is skipped. Returns `None`
-    /// if the lists are missing or do not fit together.
+    /// Returns the segments from two lists in the note: the indices of the last points, and the
+    /// directions. The first element of each list belongs to the beginning of the curve and is
+    /// skipped. Returns `None` if a list is missing or if the lists do not fit together.
     fn of(wave: &IgorWave<'_>) -> Option<Self> {
         let list = |key: &str| {
             let text = wave.entry(key)?;
@@ -106,8 +107,8 @@ impl Segments {
         (ascends && !segments.is_empty()).then_some(Segments(segments))
     }
 
-    /// Returns the name of the segment of a point. Points after the last segment belong to the last
-    /// segment.
+    /// Returns the name of the segment to which the point `row` belongs. Points after the end of
+    /// the last segment belong to the last segment.
     fn name(&self, row: usize) -> Option<&'static str> {
         let segment = self.0.iter().find(|segment| row <= segment.end);
         segment.or(self.0.last()).map(|segment| segment.name)
@@ -121,8 +122,8 @@ mod tests {
     use crate::read::tests::assert_same;
     use asperity_surface::files::is_igor_wave;
 
-    /// Returns a file of a wave of version 5 with these columns and this note. The values are
-    /// stored column by column.
+    /// Returns the content of a binary wave of version 5 with these columns and this note. The
+    /// values are stored column by column.
     fn wave(names: &[&str], values: &[Vec<f64>], note: &str) -> Vec<u8> {
         let points = values[0].len();
         let mut header = vec![0; 384];
@@ -155,8 +156,8 @@ mod tests {
         [&header[..], &numbers, note.as_bytes(), &labels].concat()
     }
 
-    /// Returns a file with the curve of a spring: raw positions, deflections of a cantilever of 4
-    /// N/m, and positions, all in m.
+    /// Returns a binary wave with the curve of a spring. Its columns are raw positions, deflections
+    /// of a cantilever of 4 N/m, and positions, all in m.
     fn curve(note: &str) -> Vec<u8> {
         let points = of_spring(600);
         let positions: Vec<f64> = points.iter().map(|(d, _)| 1e-9 * d).collect();
@@ -182,7 +183,7 @@ mod tests {
             found.stiffness.as_ref().map(|(_, stiffness)| *stiffness),
             Some(4.0)
         );
-        // The note states the segments.
+        // With the indices and directions of the segments in the note.
         let segments = format!("{note}\rIndexes: 0,299,599,\rDirection: NaN,1,-1,");
         let found = from_bytes(&curve(&segments), &plain).unwrap();
         assert_eq!(

@@ -1,4 +1,4 @@
-//! A case of the catalogue of checks, and the adhesive rough bodies of some cases.
+//! A case of the catalogue of checks, and random rough bodies on which some cases are computed.
 
 use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
@@ -11,13 +11,13 @@ pub(super) const CLOSED_FORM: &str = "closed form";
 pub(super) const INDEPENDENT: &str = "independent computation";
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
-/// Scene or bodies of a case, with the function that measures its error.
+/// What a case computes (a scene, or random bodies), with the function that measures the error.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
     /// Scene, given as the text of a scene file.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
     /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The
-    /// largest error of all bodies counts.
+    /// error of the case is the largest error of all bodies.
     Bodies(fn(&Body) -> Measured),
 }
 
@@ -63,8 +63,8 @@ impl Case {
     }
 }
 
-/// Returns the bounds of a case for both rules of edges: edges at springs, and edges between
-/// springs.
+/// Returns the bounds of the error of a case for both rules for the edges of patches of contact.
+/// `grid` is the bound for edges at springs, and `sub_cell` is the bound for edges between springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
@@ -92,7 +92,7 @@ pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measure
     largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
 }
 
-/// Returns the largest error. NaN counts as infinite.
+/// Returns the largest error. An error that is NaN counts as infinite.
 pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
     errors.into_iter().try_fold(0.0, |most: f64, error| {
         let error = error?;
@@ -109,14 +109,14 @@ pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// Effective modulus E* of random bodies in Pa. The next constants are their length in m, and their
-/// rms height or largest height in m.
+/// Effective modulus E* of random bodies in Pa. `LENGTH` is their length in m, and `HEIGHT` is
+/// their rms height or largest height in m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
 
-/// Rigid profile on an adhesive foundation: heights in m, length in m, effective modulus E* in Pa,
-/// work of adhesion γ in J/m².
+/// Rigid rough profile on an adhesive elastic foundation: heights in m, length in m, effective
+/// modulus E* in Pa, work of adhesion γ in J/m².
 #[derive(Clone, Debug)]
 pub struct Body {
     pub heights: Vec<f64>,
@@ -127,14 +127,14 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a body with one of several kinds of profiles. The seed determines the same body on
-    /// every machine.
+    /// Creates a random body with one of several kinds of profiles. The same seed gives the same
+    /// body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
-        // The work γ is chosen so that the largest stretch of a patch as long as the profile is
-        // 1e−3 to 3 rms heights.
+        // The work of adhesion is chosen so that springs at the edges of a patch of contact as long
+        // as the profile stretch by 1e−3 to 3 times `HEIGHT`.
         let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
         let work = reach * reach * MODULUS / (PI * LENGTH);
         let heights = match seed % 3 {
@@ -185,8 +185,8 @@ impl Body {
         self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// Returns irregular indentations in m, from just before separation to full contact, as turning
-    /// points.
+    /// Returns irregular indentations in m between just before separation and full contact. They
+    /// serve as turning points of a loading.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
         let low = -0.9 * self.stretch();
         let high = 1.1 * self.depth() + 1e-3 * self.stretch();
@@ -194,8 +194,8 @@ impl Body {
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Loads the separated body to one indentation after the other, and to separation at the end if
-    /// `separates` is true. `samples` is the number of points in the curve of each stage.
+    /// Moves the separated body to one indentation after the other, and to separation at the end if
+    /// `separates` is true. `samples` is the number of points in the curve of each move.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns

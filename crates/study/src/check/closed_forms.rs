@@ -1,4 +1,4 @@
-//! Cases whose force curve has a closed form.
+//! Cases of the catalogue of checks in which the force curve is known in closed form.
 
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_errors};

@@ -30,14 +30,16 @@ pub const CASES: &[Case] = &[
         &both(4.0, 4.0), OfScene(ROUGH, far_loads)),
 ];
 
-/// Returns the force in N on a rough flat face in full contact, in closed form. The roughness is a
-/// sum of cosines with the mean 0, so the mean gap equals the height of the highest point.
+/// Returns the force in N on a rough flat body in full contact at this indentation in m, from a
+/// closed form. The roughness is a sum of cosines with the mean 0, so the mean gap at first touch
+/// equals the height of the highest point.
 fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
     outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
 
 fn near_ties(body: &Body) -> Measured {
-    // Each height changes by a few units in the last place, so that equal gaps become nearly equal.
+    // Each height is changed by a few units in the last place. Heights that were equal are then
+    // nearly equal.
     let jitter =
         |(height, phase): (&f64, f64)| height * (1.0 + f64::EPSILON * (phase - PI).round());
     let near = Body {
@@ -62,7 +64,8 @@ fn near_ties(body: &Body) -> Measured {
 }
 
 fn heights_of_any_size(body: &Body) -> Measured {
-    // With a modulus of 1 Pa the work of adhesion γ remains within its allowed range.
+    // The modulus is 1 Pa, so that the work of adhesion γ remains within its allowed range for all
+    // factors.
     only_scales(
         &Body {
             modulus: 1.0,
@@ -80,8 +83,9 @@ fn heights_of_any_size(body: &Body) -> Measured {
     )
 }
 
-/// Presses a scene to large indentations, and then to the forces found there. Returns the largest
-/// error of a force, divided by the change of the force by one rounding of the indentation.
+/// Presses the body of a scene to large indentations, and then to the forces found there. Returns
+/// the largest error of a force, divided by the change of the force due to one rounding of the
+/// indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
     let depth = outcome(scene)?.line.deepest;
     let bare = with(scene, "adhesion.work", 0.0)?;

@@ -1,5 +1,5 @@
 //! Cases with laws that hold for every body: reversible loading without adhesion, memory of turning
-//! points, balance of energy, scaling, and agreement of both solvers.
+//! points, balance of energy, scaling, and agreement between the exact and the stepwise solver.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
@@ -36,9 +36,9 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
     leg.curve.last().copied().unwrap_or_default()
 }
 
-/// Loads and unloads a body without adhesion. No energy is released, and the unloading returns
-/// through the same contacts. Returns the largest difference between the forces of loading and
-/// unloading, divided by the largest force.
+/// Loads and unloads a body without adhesion, and returns the largest difference between the forces
+/// of loading and unloading, divided by the largest force. The law is that no energy is released,
+/// and that the unloading passes through the same contacts as the loading.
 fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body {
         work: 0.0,
@@ -115,8 +115,8 @@ fn energy(body: &Body) -> Measured {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
     let cycle = body.load(&[high, low, high], true, 20_000)?;
-    // A jump may lie anywhere between two points of the curve. The error of the work by the
-    // trapezoidal rule therefore falls with the number of points.
+    // A jump of the force may lie anywhere between two points of the curve. The error of the work,
+    // computed by the trapezoidal rule, therefore decreases with the number of points.
     let mut done = -0.0;
     for leg in cycle.stages() {
         for pair in leg.curve.windows(2) {
@@ -127,9 +127,9 @@ fn energy(body: &Body) -> Measured {
     Ok((released(cycle.stages()) - done).abs() / scale)
 }
 
-/// Multiplies lengths along the profile, heights and stresses by powers of two with these
-/// exponents. Results must change by powers of two only, without any change of the bits of a
-/// mantissa.
+/// Scales a body by powers of two and compares the loadings. Each element of `powers` has three
+/// exponents: for lengths along the profile, for heights and for stresses. The results must change
+/// by powers of two only, without any change of the bits of a mantissa.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
@@ -139,9 +139,9 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
             heights: body.heights.iter().map(|point| height * point).collect(),
             length: length * body.length,
             modulus: stress * body.modulus,
-            // The square of the largest stretch, Δl² = πℓγ/E*, is in proportion to γ, so γ grows
-            // with the square of the heights. The factors are multiplied one by one, because the
-            // square alone may overflow or underflow.
+            // The square of the largest stretch, Δl² = πℓγ/E*, is proportional to the work γ, so γ
+            // is scaled with the square of the factor of heights. The factors are multiplied one
+            // after another, because the square alone may overflow or underflow.
             work: height * (height * body.work) * (stress / length),
             edges: body.edges,
         };
@@ -154,8 +154,8 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     Ok(0.0)
 }
 
-/// Returns the bits of the points and released energies after division by the units of height and
-/// force, and the number of springs. Adding 0 turns −0 into 0.
+/// Returns the bits of all points and released energies, after multiplication by the factors
+/// `height` and `force`, and the number of springs in contact. Adding 0 turns −0 into 0.
 fn bits(cycle: &Cycle, height: f64, force: f64) -> Vec<([u64; 2], u64)> {
     let mut bits = Vec::new();
     for point in cycle.points() {
@@ -184,8 +184,9 @@ fn units(body: &Body) -> Measured {
     )
 }
 
-/// Computes a scene with eight works of adhesion and Hurst exponents by both solvers. Returns the
-/// largest difference between their forces, divided by E* times length times largest gap.
+/// Computes a scene with several works of adhesion and Hurst exponents by both solvers, exact and
+/// stepwise. Returns the largest difference between their forces, divided by E* times length times
+/// largest gap.
 fn stepwise(scene: &CheckedScene) -> Measured {
     largest(
         [0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3]

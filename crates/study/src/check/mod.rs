@@ -1,5 +1,5 @@
-//! The catalogue of checks: scenes and profiles with known results, computed by the public
-//! functions.
+//! The catalogue of checks: scenes and profiles with known results, which are computed with the
+//! public functions of the library.
 //!
 //! A check computes one number, the error of a result, and compares it with a fixed bound. The
 //! correct result is known from a closed form, from a law that holds for every body, or from the

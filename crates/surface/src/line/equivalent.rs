@@ -10,7 +10,7 @@ use crate::spectrum::moments::{LineMoments, line_moments};
 use asperity_data::check_room;
 use std::f64::consts::TAU;
 
-/// Largest relative excess of a wavelength over the length of the scan that counts as a rounding
+/// Relative excess of a wavelength over the length of the line up to which it counts as a rounding
 /// error.
 const ROUNDING: f64 = 1.0e-9;
 
@@ -67,8 +67,8 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces: spectra })
     }
 
-    /// Computes the heights in m of a random profile of this length in m, at the middles of
-    /// `points` equal cells. The seed gives the random phases.
+    /// Computes the heights in m of a random profile of this length in m. The heights are at the
+    /// middles of `points` equal cells, and the seed determines the random phases of the waves.
     ///
     /// # Errors
     /// Returns an error if no wave of the spectrum fits the length and is resolved by the points,
@@ -80,9 +80,9 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&amplitude, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns the line with a random error of the spectrum of each face, drawn from the
-    /// distribution of the errors of its fit and multiplied by `share`. `number` is the seed: equal
-    /// numbers give equal errors.
+    /// Returns the line after a change of the spectrum of each face by a random error. The error is
+    /// drawn from the distribution of the errors of the fit and multiplied by `share`. `number` is
+    /// the seed: equal numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let mut faces = Vec::new();
         for (index, spectrum) in (0_u64..).zip(&self.faces) {
@@ -104,8 +104,8 @@ impl EquivalentLine {
     }
 
     /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
-    /// wave number that the spectra of all faces contain. The last is the largest wave number of
-    /// any face.
+    /// wave number that all faces have in their spectra. The last is the largest wave number of any
+    /// face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
         let mut last = 0.0_f64;
@@ -144,7 +144,7 @@ impl EquivalentLine {
         })
     }
 
-    /// Returns the same line without the waves whose wave number is above this one, in rad/m.
+    /// Returns the same line without the waves whose wave number exceeds `wave_number` in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine {
             faces: self
@@ -179,8 +179,8 @@ impl EquivalentLine {
         let mut power = 0.0;
         for face in &self.faces {
             let [_, end] = face.range();
-            // The last wave number of a line may exceed the end of the spectrum by a rounding
-            // error.
+            // Because of a rounding error, the last wave number of a line may exceed the end of the
+            // spectrum.
             let is_at_end = wave_number <= end * (1.0 + ROUNDING);
             power += if is_at_end {
                 face.line(wave_number.min(end))
@@ -191,14 +191,14 @@ impl EquivalentLine {
         4.0 * power / length
     }
 
-    /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that
-    /// has only these modes.
+    /// Computes the roughness amplitude (rms height, gradient and curvature) of a line that has
+    /// only the modes `modes`. `length` is its length in m.
     pub fn amplitude_of_modes(&self, length: f64, modes: ModeRange) -> Amplitude {
         let square = |mode: u64| ModeSquare {
             mode,
             square: 0.5 * self.amplitude(mode, length).powi(2),
         };
-        // The sum starts with the smallest amplitudes, for accuracy.
+        // The sum starts with the smallest amplitudes, so that its rounding error is small.
         let modes = (modes.first..=modes.last).rev();
         Amplitude::from_modes(modes.map(square), length)
     }
@@ -271,8 +271,8 @@ mod tests {
         EquivalentLine::new(&[face()], options).unwrap()
     }
 
-    /// The squares of the waves of a surface, in all directions, sum to the mean square height of
-    /// its equivalent line.
+    /// The mean squares of the waves of a surface, added over all directions, give the mean square
+    /// height of its equivalent line.
     #[test]
     fn a_surface_has_the_rms_height_of_its_line() {
         let side = 256e-6;
@@ -338,7 +338,7 @@ mod tests {
             );
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
-        // The squares of the moments add too, over the waves that both scans have.
+        // The squares of the moments of two scans add up, over the waves that both scans have.
         let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
             assert!(

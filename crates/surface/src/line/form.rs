@@ -11,9 +11,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. A depth is the distance along
-/// the axis from the apex to a point of the surface, in m, and r is the distance of this point from
-/// the axis in m.
+/// Macroscopic form of the rigid body: its shape without roughness. A depth in m is the distance of
+/// a point of the surface from the apex, measured along the axis. The distance of this point from
+/// the axis is r in m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -82,9 +82,9 @@ pub enum Form {
 
 impl Form {
     /// Reads the file of a [`Form::Table`], unless the file has been read already. Does nothing for
-    /// other forms. `folder` is the folder of the scene file, and `length` the length of the
-    /// profile in m. Returns an error if the file holds no table, or if the table ends before the
-    /// profile does.
+    /// other forms. `folder` is the folder of the scene file, and `length` is the length of the
+    /// profile in m. Returns an error if the file contains no table, or if the table does not reach
+    /// the end of the profile.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
@@ -120,11 +120,11 @@ impl Form {
     }
 
     /// Returns the index ⌊N/2⌋ of the spring on the axis of a body of revolution, for N = `points`
-    /// springs. Two forms differ: the axis of a punch is in the middle of the length, and
+    /// springs. Two forms are exceptions: the axis of a punch is in the middle of the length, and
     /// [`Form::TwoSpheres`] has an axis for each sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
-        // If the axis were between two springs, no spring would be at the tip, and the errors of
-        // the contact would be proportional to the spring spacing Δx.
+        // If the axis were between two springs, no spring would be under the tip. The errors of the
+        // contact would then be proportional to the spring spacing Δx.
         points / 2
     }
 
@@ -219,9 +219,9 @@ impl Form {
         }
     }
 
-    /// Returns the depth in m of the equivalent profile below its apex, at the spring of the index
-    /// `spring` of N = `points` springs at the distance `spacing` in m. Springs count from the left
-    /// end of the profile.
+    /// Returns the depth in m of the equivalent profile below its apex at one spring. `spring` is
+    /// the index of the spring, counted from the left end of the profile. N = `points` is the
+    /// number of springs, and `spacing` is their distance in m.
     ///
     /// ```
     /// use asperity_surface::Form;
@@ -233,7 +233,7 @@ impl Form {
     /// ```
     pub fn depth_of_spring(&self, spring: usize, points: usize, spacing: f64) -> f64 {
         // The distance is a whole number of spacings, computed from integers and therefore exact.
-        // So the profile is exactly as symmetric as its form.
+        // The profile is then exactly as symmetric as the form.
         let distance = |axis: usize| spring.abs_diff(axis) as f64 * spacing;
         let &Form::TwoSpheres {
             radius,
@@ -301,8 +301,8 @@ impl Form {
                     return x * x / radius;
                 }
                 // This term equals the published form (x − √(x² − b²))/b (Popov, Heß and Willert,
-                // Handbook of Contact Mechanics, 2019, cone with a rounded tip), but is written
-                // without the difference of nearly equal numbers.
+                // Handbook of Contact Mechanics, 2019, cone with a rounded tip). It is written in
+                // another way to avoid the difference of nearly equal numbers.
                 let root = ((x - rounded) * (x + rounded)).sqrt();
                 x * slope * (rounded / (x + root) + (rounded / x).acos())
             }
@@ -393,8 +393,8 @@ impl Form {
         })
     }
 
-    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent
-    /// profile g(x) = c |x|ⁿ. Returns `None` for all other forms.
+    /// Returns the coefficient c in m^(1−n) and the exponent n of a form whose equivalent profile
+    /// is the power law g(x) = c |x|ⁿ. Returns `None` for all other forms.
     ///
     /// ```
     /// assert_eq!(
@@ -441,17 +441,17 @@ impl Form {
 /// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
 /// has the equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
-    // The difference of the logarithms of Γ remains finite where both values of Γ would overflow.
+    // The logarithms of Γ are subtracted, because both values of Γ may be too large for a number.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
     PI.sqrt() / 2.0 * exponent * quotient
 }
 
-/// Argument z above which the asymptotic series of H₀ is accurate to rounding. The smallest term of
-/// the series is about e^(−z).
+/// Value of z above which the asymptotic series of H₀(z) is accurate to rounding. The smallest term
+/// of the series is about e^(−z).
 const LARGE: f64 = 40.0;
 
-/// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up
-/// to `LARGE`.
+/// Number of nodes of the quadrature for H₀. It is enough for the oscillations of the integrand
+/// with arguments up to [`LARGE`].
 const NODES: usize = 56;
 
 /// Gauss rule on a quarter circle for the integral of H₀.
@@ -466,7 +466,7 @@ pub fn struve_0(z: f64) -> f64 {
         return FRAC_2_PI * terms.sum::<f64>();
     }
     // Asymptotic series H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1). The sum ends where the terms
-    // begin to grow or are smaller than the rounding error of the sum.
+    // begin to grow, or where they are smaller than the rounding error of the sum.
     let mut sum = 0.0;
     let mut term = z.recip();
     for k in 0..LARGE as u32 {
@@ -484,7 +484,7 @@ pub fn struve_0(z: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Computes g(x) by its definition. With r = x sin t the integral is x ∫₀^{π/2} f′(x sin t) dt.
+    /// Computes g(x) from its definition. With r = x sin t, g(x) is x ∫₀^{π/2} f′(x sin t) dt.
     fn by_definition(slope: impl Fn(f64) -> f64, x: f64) -> f64 {
         let steps = 20_000;
         let width = std::f64::consts::FRAC_PI_2 / f64::from(steps);
@@ -506,8 +506,8 @@ mod tests {
             wavelength: 0.3,
         };
         let wave = 2.0 * PI / 0.3;
-        // The rounded apex ends at r = R tan θ. One radius puts this end below x, and the other
-        // above x.
+        // The rounded apex ends at r = R tan θ. With one of the two radii this end is below x, and
+        // with the other above x.
         let apex = |radius: f64| -> (Form, Slope) {
             let rounded = radius * angle.tan();
             let slope = move |r: f64| {
@@ -548,8 +548,8 @@ mod tests {
                 "{form:?}: {found} against {expected}"
             );
         }
-        // Special cases of the power law: n = 1 is the cone with g = (π/2) f, and n = 2 the
-        // paraboloid with g = 2f.
+        // Special cases of the power law: for n = 1 (a cone) g = (π/2) f, and for n = 2 (a
+        // paraboloid) g = 2f.
         assert!((power_law_factor(1.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
         assert!((power_law_factor(2.0) - 2.0).abs() < 1e-14);
     }
@@ -569,8 +569,8 @@ mod tests {
         let step = 1e-6 * rounded;
         let beyond = form.mdr_profile(rounded + step) - form.mdr_profile(rounded);
         assert!(beyond > 0.0 && beyond < 3.0 * step * rounded / 0.5);
-        // Far outside, the depth f = r tan θ − b tan θ/2 is smaller than the depth of the cone by b
-        // tan θ/2.
+        // Far outside, the depth f = r tan θ − b tan θ/2 is by b tan θ/2 smaller than the depth of
+        // a cone.
         let cone = Form::Cone { angle };
         let far = 1e6 * rounded;
         let missing = cone.depth(far).unwrap() - form.depth(far).unwrap();
@@ -602,12 +602,12 @@ mod tests {
             }
             let deepest = depths.iter().copied().fold(0.0, f64::max);
             // If the number of springs is odd, one half of the profile has one spring more than the
-            // other.
+            // other half.
             let wider = (1.0 + 2.0 * spacing).powi(2);
             assert!(deepest <= form.depth_within(1.0) * wider);
         }
-        // In a square the axes of the spheres are half a side apart, and the sphere that is nearer
-        // to the elastic body gives the depth.
+        // In a square the axes of the spheres are half a side apart. The depth is that of the
+        // sphere which is nearer to the elastic body.
         let square = |x, y| form.depth_in_square(x, y, 1.0).unwrap();
         assert_eq!([square(-0.25, 0.0), square(0.25, 0.0)], [0.0, 0.0625]);
         assert!((square(0.25, 1.0) - 0.3125).abs() < 1e-15);
@@ -622,7 +622,7 @@ mod tests {
             (3..7, 3..8, 2..8)
         );
         assert_eq!((under(0.2, 5), under(0.3, 5)), (1..3, 1..4));
-        // A punch needs a radius of at least a quarter of a cell to have a spring.
+        // A punch covers a spring only if its radius is at least a quarter of a cell.
         assert_eq!((under(0.026, 10).count(), under(0.024, 10).count()), (1, 0));
         for points in 1..20 {
             assert_eq!(under(0.5, points), 0..points);

@@ -1,5 +1,5 @@
-//! Measured surfaces as roughness: the profile of a file as an equivalent line, or a random
-//! equivalent line with the measured spectrum.
+//! Measured surfaces as roughness. The roughness is the profile in a file, used as an equivalent
+//! line, or a random equivalent line with the measured spectrum.
 
 use super::spectrum::{Amplitude, ModeSquare};
 use crate::error::{Place, SurfaceError, refused};
@@ -13,8 +13,8 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound, in bytes per point, of the memory of the Fourier transform and its arrays. The
-/// bound includes an odd number of points, which is transformed at twice its length.
+/// Upper bound, in bytes per point, of the memory of the Fourier transform and its arrays. It holds
+/// for an odd number of points too, which is transformed at twice its length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.
@@ -72,16 +72,16 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Returns the distance between points in m if the points are the centres of equal cells, the
-    /// first of which begins at x = 0; `None` for other positions.
+    /// Returns the distance in m between the points if the points are the centres of equal cells
+    /// and the first cell begins at x = 0; `None` for other positions.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         let is_even = first_uneven(&self.positions, 0.5 * cell, cell).is_none();
         is_even.then_some(cell)
     }
 
-    /// Computes the root mean square height about the mean and the root mean square gradient of the
-    /// polyline through the measured points.
+    /// Computes the rms height about the mean and the rms gradient of the polyline through the
+    /// measured points.
     fn polyline_moments(&self) -> PolylineMoments {
         let length = self.span();
         let mean = self.pieces().map(|piece| piece.integral()).sum::<f64>() / length;
@@ -101,8 +101,8 @@ impl MeasuredProfile {
 
     /// Returns the pieces of the polyline between neighbouring points.
     fn pieces(&self) -> impl Iterator<Item = Piece> {
-        // The first height is subtracted, because an offset far larger than the roughness would
-        // cost digits.
+        // The first height is subtracted: an offset that is far larger than the roughness would
+        // increase the rounding errors.
         let level = self.heights[0];
         let positions = self.positions.windows(2);
         positions
@@ -167,8 +167,9 @@ impl MeasuredProfile {
         }
     }
 
-    /// Computes the heights in m at the centres of `points` cells of the width `cell` in m,
-    /// displaced by `shift` cells towards smaller x. The first cell begins at x = `begins` in m.
+    /// Computes the heights in m at the centres of `points` cells of the width `cell` in m. The
+    /// first cell begins at x = `begins` in m, and all centres are displaced by `shift` cells
+    /// towards smaller x.
     fn heights_from(
         &self,
         begins: f64,
@@ -181,8 +182,8 @@ impl MeasuredProfile {
         gathered(points, heights)
     }
 
-    /// Returns the position in m at which a line of this length (m) begins on the profile. If the
-    /// profile is too short, the error is the length that it covers in m.
+    /// Returns the position in m on the profile at which a line of this length in m begins. If the
+    /// profile is too short, the error is the length in m that it covers.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let first = self.positions[0];
@@ -197,7 +198,7 @@ impl MeasuredProfile {
         } else {
             return Err(self.span());
         };
-        // The end of the profile may be off by as much as a point may be off an even grid.
+        // The end of the profile may be displaced by as much as a point of an even grid may be.
         let covers = points * distance;
         if length <= covers + UNEVEN * distance {
             Ok(begins)
@@ -206,8 +207,9 @@ impl MeasuredProfile {
         }
     }
 
-    /// Returns the height in m that is subtracted from all heights before their interpolation: the
-    /// first height, if all differences from it are exact in floating-point arithmetic, or else 0.
+    /// Returns the height in m that is subtracted from all heights before they are interpolated. It
+    /// is the first height if all differences from it are exact in floating-point arithmetic,
+    /// otherwise 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
         // By the lemma of Sterbenz the difference of two numbers is exact if neither is more than
@@ -232,7 +234,7 @@ struct PolylineMoments {
 /// A piece of the polyline through the points of a profile. Lengths are in m.
 struct Piece {
     width: f64,
-    /// Height at the first end of the piece; `to` is the height at the other end.
+    /// Height at the first end of the piece. `to` is the height at its other end.
     from: f64,
     to: f64,
 }
@@ -242,21 +244,22 @@ impl Piece {
         self.width * (self.from + self.to) / 2.0
     }
 
-    /// Returns the integral of the squared height above a mean.
+    /// Returns the integral, over the piece, of the squared height about the mean height `mean`.
     fn squared_about(&self, mean: f64) -> f64 {
         let from = self.from - mean;
         let to = self.to - mean;
         self.width * (from * from + from * to + to * to) / 3.0
     }
 
-    /// Returns the integral of the squared gradient.
+    /// Returns the integral of the squared gradient over the piece.
     fn squared_gradient(&self) -> f64 {
         let rise = self.to - self.from;
         rise * rise / self.width
     }
 }
 
-/// Returns the mean squares of the modes of heights at the points of a periodic profile.
+/// Returns the mean square height of each mode of a periodic profile, from its heights at evenly
+/// spaced points.
 fn modes(mut heights: Vec<f64>) -> Result<Vec<ModeSquare>, SurfaceError> {
     let points = heights.len();
     let plan = plan_real_forward(points);
@@ -266,9 +269,9 @@ fn modes(mut heights: Vec<f64>) -> Result<Vec<ModeSquare>, SurfaceError> {
     let modes = (1_u64..)
         .zip(&coefficients[1..])
         .map(|(mode, coefficient)| {
-            // A cosine wave is a sum of two exponentials with opposite wave numbers. The wave with
-            // a wavelength of two points has both exponentials in one coefficient, any other wave
-            // in two.
+            // A cosine wave is a sum of two exponentials with opposite wave numbers. Its mean
+            // square is therefore distributed over two coefficients. Only for the wave with a
+            // wavelength of two points, both exponentials are in one coefficient.
             let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
             ModeSquare {
                 mode,
@@ -278,8 +281,8 @@ fn modes(mut heights: Vec<f64>) -> Result<Vec<ModeSquare>, SurfaceError> {
     Ok(modes.collect())
 }
 
-/// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second
-/// differences.
+/// Computes the rms curvature in 1/m from second differences of heights, which have this spacing in
+/// m.
 fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     let squares = heights
         .windows(3)
@@ -289,9 +292,9 @@ fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts a straight line, so that the profile continues periodically without a jump. The step
-/// from the last height back to the first is then the mean of the first and the last step between
-/// neighbouring heights.
+/// Subtracts a straight line so that the profile can be continued periodically without a jump.
+/// After that, the step from the last height to the first height equals the mean of the first and
+/// the last step between neighbouring heights.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -328,7 +331,7 @@ impl MeasuredOptions {
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let mut surfaces = Vec::new();
-        // Path of the file in which each surface is; a file may hold several.
+        // For each surface, the path of its file. A file may contain several surfaces.
         let mut paths: Vec<&Path> = Vec::new();
         for (path, content) in face {
             let of_file = parse_all(content, &self.reading);
@@ -370,8 +373,8 @@ mod tests {
         let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
-        // Beyond the first and the last point the height is that of the point; halfway between two
-        // points it is their mean.
+        // Before the first and beyond the last point, the height is that of this point. Halfway
+        // between two points, it is the mean of their heights.
         assert_eq!(
             profile.sample(3.0, 6, 0.5).unwrap(),
             [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]
@@ -385,10 +388,11 @@ mod tests {
                 .to_string()
                 .contains("covers 3e0 m")
         );
-        // Positions are rounded to the digits of a file.
+        // These positions are rounded to a few digits, as in a file.
         let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
-        // Any other profile covers the distance between its points.
+        // A profile whose points are not the centres of cells covers the distance from its first to
+        // its last point.
         for (text, length) in [
             ("0 3\n1 4\n2 -1", 2.0),
             ("0.5 3\n1.5 4\n2.4 -1", 1.9),
@@ -397,7 +401,7 @@ mod tests {
             let profile = parsed(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
-            // Equally spaced points cover half a distance beyond each end.
+            // Equally spaced points cover half a spacing more at each end.
             let longest = if length == 1.9 { length } else { 3.0 };
             assert!(
                 profile.sample(longest, 3, 0.0).is_ok()
@@ -487,10 +491,10 @@ mod tests {
 
     #[test]
     fn statistics_are_those_of_the_straight_pieces() {
-        // The first profile is a triangle of height 1 and length 2, with the mean 1/2, the variance
-        // 1/12 and the slope 1. The second has pieces of different lengths and the mean 1/2; ∫ (z −
-        // 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2. The third has
-        // a constant height and no roughness.
+        // The first profile is a triangle of the height 1 and the length 2, with the mean 1/2, the
+        // variance 1/12 and the slope 1. The second profile has two pieces of different lengths,
+        // with the mean 1/2 and the slopes 2 and −2; on the pieces, ∫ (z − 1/2)² dx is 31/12 and
+        // 39/4. The third profile has a constant height and no roughness.
         for (text, square, slope) in [
             ("5 0\n6 1\n7 0", 1.0 / 12.0, 1.0),
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),

@@ -1,4 +1,5 @@
-//! The rigid profile: macroscopic form, self-affine or measured roughness, and its statistics.
+//! The rigid profile of a body: its macroscopic form, its self-affine or measured roughness, and
+//! the statistics of this roughness.
 
 pub(crate) mod equivalent;
 pub(crate) mod form;

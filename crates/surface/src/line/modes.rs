@@ -8,16 +8,17 @@ use asperity_fourier::Complex64;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 
-/// Number of modes of a block. Block b always holds the modes 64 b + 1 … 64 b + 64, whichever mode
-/// is drawn first, so that no result depends on the division of the modes between threads.
+/// Number of modes in a block, which is computed at once. Block b always has the modes 64 b + 1 to
+/// 64 b + 64, whichever mode is needed first. The result therefore does not depend on how the modes
+/// are divided among threads.
 const BLOCK: usize = 64;
 
-/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term
-/// is below 1e-18. For |x| ≤ 1/1024 six terms suffice.
+/// Number of terms of the power series of (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first
+/// omitted term is below 1e-18. For |x| ≤ 1/1024 six terms are enough.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ as a polynomial in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. It is a
-/// minimax approximation. The error of the sine is at most 4e-18 in addition to rounding.
+/// Coefficients of the minimax approximation of (sin y − y)/y³ by a polynomial in y² for |y| ≤ π/4
+/// (1 + 2⁻⁹), lowest power first. The error of the sine is at most 4e-18 in addition to rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -27,7 +28,8 @@ const SINE: [f64; 6] = [
     1.589_681_178_661_149_6e-10,
 ];
 
-/// (cos y − 1 + y²/2)/y⁴ as a polynomial in y², with the same range and order as [`SINE`].
+/// Coefficients of the approximation of (cos y − 1 + y²/2)/y⁴ by a polynomial in y². Range and
+/// order are those of [`SINE`].
 const COSINE: [f64; 6] = [
     0.041_666_666_666_666_6,
     -0.001_388_888_888_887_413_1,
@@ -37,25 +39,26 @@ const COSINE: [f64; 6] = [
     -1.135_965_883_378_375_8e-11,
 ];
 
-/// Coefficients of the inverse Fourier transform that yields the profile on a grid.
+/// Computes the coefficients whose inverse Fourier transform is the profile on a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modes {
     spectrum: SelfAffine,
     seed: u64,
-    /// Half the amplitude of mode 1 without a roll-off. It is half, because a cosine wave is the
-    /// sum of two complex exponentials of half its amplitude.
+    /// Half the amplitude that mode 1 would have without a roll-off. Half of it is needed because a
+    /// cosine wave is the sum of two complex exponentials with half its amplitude.
     half_amplitude: f64,
-    /// Phase of mode 1 at the first point of the grid less its phase at the beginning of the
-    /// profile, in turns.
+    /// Phase of mode 1 at the first point of the grid minus its phase at the beginning of the
+    /// profile, in turns (1 is 2π).
     advance: f64,
-    /// Coefficients of the power series of (1 + x)^p in x without its first term 1, where p is the
-    /// exponent of the amplitudes.
+    /// Coefficients of the power series of (1 + x)^p − 1 in x, where p is the exponent of the
+    /// amplitudes.
     series: [f64; TERMS],
 }
 
 impl Modes {
-    /// Creates the modes of a profile of rms height 1 with this spectrum and seed, on `points`
-    /// points. The first point lies `start` cells along the profile.
+    /// Creates the modes of a profile with the rms height 1, this spectrum and this seed. The grid
+    /// has `points` points, and its first point lies `start` cells after the beginning of the
+    /// profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
@@ -91,8 +94,8 @@ impl Modes {
         }
     }
 
-    /// Fills in the coefficients of the block that follows the mode `before`, from one random word
-    /// for each mode.
+    /// Computes the coefficients of the block of modes after the mode `before`. `words` has one
+    /// random word for the phase of each mode.
     fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
         let amplitudes = self.half_amplitudes(before);
         let before = before as f64;
@@ -105,7 +108,7 @@ impl Modes {
         }
     }
 
-    /// Returns half the amplitudes of the block that follows the mode `before`.
+    /// Returns half the amplitude of each mode in the block after the mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
         if (before as f64) < self.spectrum.roll_off_mode {
             return self.half_amplitudes_one_by_one(before);
@@ -122,8 +125,8 @@ impl Modes {
         std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64))
     }
 
-    /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded
-    /// about the middle of its `SPAN` modes with the first `COUNT` terms of the series.
+    /// Returns half the amplitude of each mode in the block after the mode `before`. Groups of
+    /// `SPAN` modes are expanded about their middle, with the first `COUNT` terms of the series.
     #[inline(always)]
     fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(
         &self,
@@ -153,12 +156,12 @@ struct SineAndCosine {
     cosine: f64,
 }
 
-/// Computes the sine and the cosine of 2π `turns`, for `turns` from 0 to 2.
+/// Computes the sine and the cosine of 2π `turns`, where `turns` is between 0 and 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> SineAndCosine {
     // Adding 3·2⁴¹ moves the number of quarter turns into the lowest bits of the floating-point
-    // number, with 10 bits for the fraction of a quarter. So the nearest quarter is found with an
-    // uncertainty of 2⁻¹⁰, however the sum is rounded.
+    // number, with 10 bits for the fraction of a quarter. The nearest quarter is therefore found
+    // with an uncertainty of 2⁻¹⁰, in whatever way the sum is rounded.
     const ALIGN: f64 = 6_597_069_766_656.0;
     let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
     let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
@@ -167,8 +170,8 @@ fn sine_and_cosine(turns: f64) -> SineAndCosine {
     let z = y * y;
     let sine = (y + y * (z * polynomial(&SINE, z))).to_bits();
     let cosine = (1.0 - (0.5 * z - z * z * polynomial(&COSINE, z))).to_bits();
-    // An odd number of quarter turns exchanges sine and cosine. Their signs follow from the
-    // quadrant.
+    // After an odd number of quarter turns, sine and cosine are exchanged. Their signs depend on
+    // the quadrant.
     let swap = 0_u64.wrapping_sub(quarters & 1);
     let sine_sign = (quarters & 2) << 62;
     let cosine_sign = (quarters.wrapping_add(1) & 2) << 62;
@@ -180,7 +183,7 @@ fn sine_and_cosine(turns: f64) -> SineAndCosine {
 }
 
 /// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed
-/// separately, so that the two sums do not wait for each other.
+/// separately, so that the processor can compute both sums at the same time.
 #[inline(always)]
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let square = x * x;
@@ -205,8 +208,8 @@ const COUNTS: [f64; BLOCK] = {
     counts
 };
 
-/// Part of the key of the random generator that separates this use from other uses with the same
-/// seed. If the way in which phases are drawn changes, this text has to change too.
+/// Part of the key of the random generator. It makes the phases independent of other random numbers
+/// with the same seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
 /// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed,
@@ -219,23 +222,24 @@ pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns a random generator whose next 64-bit words are those of the modes `first`, `first` + 1,
-/// …, for a seed.
+/// Returns a random generator whose next 64-bit words belong to the modes `first`, `first` + 1, …,
+/// for this seed.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
     key[8..].copy_from_slice(PURPOSE);
     let mut generator = ChaCha8Rng::from_seed(key);
-    // The position counts 32-bit words, and each phase takes two.
+    // The position is counted in words of 32 bits, of which each phase takes two.
     generator.set_word_pos(2 * u128::from(first.saturating_sub(1)));
     generator
 }
 
-/// Returns the phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
+/// Returns the phase of a mode divided by 2π, in [0, 1), from the upper 53 bits of its random word.
 ///
-/// The upper 52 bits become the mantissa of a number from 1 to 2, from which 1 is subtracted. The
-/// 53rd bit adds half of the last digit. Every processor can do these steps for several words in
-/// one instruction, whereas few can convert several integers to floating-point numbers at once.
+/// The upper 52 bits become the mantissa of a number from 1 to 2, and 1 is subtracted from this
+/// number. The 53rd bit adds half of the last digit. Every processor can do this for several words
+/// in one instruction, but few processors can convert several integers to floating-point numbers at
+/// once.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();
@@ -296,7 +300,7 @@ mod tests {
                 (1 << 27) - 64,
             ] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
-                    // A profile with mode 1 alone and the amplitude 1 has the rms height √½.
+                    // If mode 1 alone has the amplitude 1, the rms height of the profile is √½.
                     let error =
                         amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
                     assert!(error.abs() <= 1e-15, "H = {hurst}, mode {mode}: {error:e}");

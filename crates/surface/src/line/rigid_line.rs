@@ -1,4 +1,4 @@
-//! The rigid profile as the input of the contact: gaps below its highest point.
+//! The rigid profile as the contact needs it: the gaps between its highest point and its surface.
 
 use super::form::Form;
 use crate::error::{Place, SurfaceError, refused};
@@ -61,8 +61,8 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the profile as [`Line::new`] does, and stores the gaps in the memory of the
-    /// roughness.
+    /// Creates the same profile as [`Line::new`], and stores its gaps in the memory of the
+    /// roughness `gaps`.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -116,8 +116,8 @@ impl Line {
     /// Returns the height in m of a point with this gap in m.
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
-        // Because the height is rounded, its gap may differ from the given gap in the last bit. The
-        // next larger or smaller number then has exactly the given gap.
+        // The height is rounded, so its gap may differ from the given gap in the last bit. Then the
+        // next larger or the next smaller number has exactly the given gap.
         let nearby = [height, height.next_up(), height.next_down()];
         nearby
             .into_iter()
@@ -136,13 +136,13 @@ impl Line {
     }
 }
 
-/// Depths of the equivalent profile of a form at the springs.
+/// Depths of the equivalent profile of a form at each spring.
 struct Depths<'a> {
     form: &'a Form,
     points: usize,
     spacing: f64,
-    /// Depths in m of the form of a table at the springs, from the spring on the axis outwards;
-    /// `None` for other forms.
+    /// For the form of a table, its depths in m at the springs, from the spring on the axis
+    /// outwards; `None` for other forms.
     of_table: Option<Vec<f64>>,
 }
 
@@ -168,10 +168,11 @@ impl<'a> Depths<'a> {
     }
 }
 
-/// Returns the largest value. The error is the index of the first value that is not finite.
+/// Returns the largest value. If a value is not finite, the error is the index of the first such
+/// value.
 fn largest(values: &[f64]) -> Result<f64, usize> {
-    // Eight maxima are kept side by side, because with a single maximum each comparison would have
-    // to wait for the previous one.
+    // Eight maxima are computed side by side. With a single maximum, each comparison would have to
+    // wait for the previous one.
     let mut largest = [f64::NEG_INFINITY; 8];
     let mut all_finite = true;
     let mut take = |values: &[f64]| {
@@ -216,8 +217,8 @@ impl Histogram {
         let scale = counts.len() as f64 / (high - low);
         for height in heights {
             if (low..=high).contains(&height) {
-                // If `low` equals `high`, the product is NaN, which the conversion to an integer
-                // maps to bin 0.
+                // If `low` equals `high`, the product is NaN, and its conversion to an integer
+                // gives bin 0.
                 let bin = ((height - low) * scale) as usize;
                 counts[bin.min(last)] += 1;
             }
@@ -226,9 +227,9 @@ impl Histogram {
     }
 }
 
-/// Returns the error for a punch under which no spring lies. The diameter of a punch is rounded to
-/// a whole number of spacings, so a punch is too narrow if its diameter is below half of `spacing`
-/// in m.
+/// Returns the error for a punch that is so narrow that no spring lies under it. The diameter of a
+/// punch is rounded to a whole number of spacings, so it is too small if it is below half of
+/// `spacing` in m.
 fn no_springs(spacing: f64) -> SurfaceError {
     let found = "no spring lies under the punch";
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
@@ -306,7 +307,7 @@ mod tests {
     fn gaps_follow_from_heights_bit_for_bit() {
         let written = |line: &Line| line.heights().collect::<Vec<f64>>();
         let digit = f64::EPSILON;
-        // The gap is 1. The rounded height summit − 1 = −1 would have the gap 1 − ε/2.
+        // The exact gap is 1. The rounded height summit − 1 = −1 would give the gap 1 − ε/2.
         let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
         assert_eq!(
             (line.gaps[1], line.summit - (line.summit - 1.0)),
@@ -338,7 +339,7 @@ mod tests {
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
         assert_eq!(result, Err(not_finite(1)));
-        // The first spring under the punch is the second of the foundation.
+        // The first spring under the punch is the second spring of the foundation.
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let result = Line::new(
             1.0,

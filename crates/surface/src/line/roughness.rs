@@ -1,5 +1,5 @@
-//! Synthesis of a self-affine profile of rms height 1 with random phases, by one inverse Fourier
-//! transform.
+//! Synthesis of a self-affine profile with the rms height 1 and random phases, by one inverse
+//! Fourier transform.
 
 use super::modes::{Modes, phases};
 use super::spectrum::{ModeRange, SelfAffine};
@@ -12,13 +12,13 @@ use std::sync::Arc;
 /// Smallest number of modes for which a second thread saves more time than it takes to start.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs for which the planned transform is kept for the next profile. The plan
-/// takes 20 bytes per spring, and for longer profiles this memory is worth more than the time that
-/// the plan saves.
+/// Largest number of springs with which the plan of the transform is kept for the next profile. The
+/// plan takes 20 bytes per spring. For longer profiles this memory is more important than the time
+/// that the plan saves.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Computes random self-affine profiles one after the other. The planned Fourier transform and its
-/// memory are kept for the next profile.
+/// Computes random self-affine profiles one after another. It keeps the plan of the Fourier
+/// transform, and the memory of the transform, for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -47,8 +47,8 @@ impl Transform {
 
 impl Synthesizer {
     /// Computes the profile of [`SelfAffine::heights`], displaced along the springs by `shift`
-    /// spring spacings. Spring i then has the height of this profile at x = (i + ½ − `shift`)L/N.
-    /// The heights are stored in the memory of the vector `memory`.
+    /// spring spacings: spring i has the height of this profile at x = (i + ½ − `shift`)L/N. The
+    /// heights are stored in the vector `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -75,9 +75,10 @@ impl Synthesizer {
         })
     }
 
-    /// Sums the cosine waves with k periods over the length, for all `modes` k. Their amplitudes
-    /// `amplitude`(k) are in m, and their phases come from the seed. The last mode is at most
-    /// `points`/2. The heights are at the same positions as the heights of [`Self::synthesize`].
+    /// Computes the sum of cosine waves with k periods over the length, for all k in `modes`. Their
+    /// amplitudes are `amplitude`(k) in m, and the seed determines their phases. The last mode must
+    /// be at most `points`/2. The heights are at the same positions as those of
+    /// [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -87,7 +88,7 @@ impl Synthesizer {
         shift: f64,
         memory: Vec<f64>,
     ) -> Result<Vec<f64>, SurfaceError> {
-        // Phase of mode 1 at the first point of the grid less its phase at the beginning of the
+        // Phase of mode 1 at the first point of the grid minus its phase at the beginning of the
         // profile, in rad.
         let advance = TAU * (0.5 - shift) / points as f64;
         let first = modes.first;
@@ -100,8 +101,8 @@ impl Synthesizer {
         })
     }
 
-    /// Computes the heights of a sum of these modes. `draw` fills in their coefficients ½ A_k
-    /// e^(iφ). Its first argument is the first mode to fill in.
+    /// Computes the heights of a sum of these modes. `draw` fills in the coefficients ½ A_k e^(iφ)
+    /// of the modes; its first argument is the first mode to be filled in.
     fn transform(
         &mut self,
         modes: ModeRange,
@@ -124,8 +125,9 @@ impl Synthesizer {
         draw(first, &mut coefficients[first..end]);
         let has_nyquist = 2 * modes.last == points as u64;
         if has_nyquist {
-            // At the Nyquist wave number of the grid, a wave of two points, the two exponentials of
-            // the cosine coincide. So their coefficients add to a real number.
+            // A wave with a wavelength of two points has the Nyquist wave number of the grid. The
+            // two exponentials of such a cosine wave coincide, and their coefficients add up to a
+            // real number.
             coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
         }
 
@@ -219,7 +221,7 @@ mod tests {
                 }
             }
         }
-        // The profile has the rms height 1.
+        // The profile has the rms height 1, which is the mean square 1.
         let heights = SelfAffine {
             hurst: 0.8,
             first: 1,
@@ -257,8 +259,7 @@ mod tests {
                 .synthesize(spectrum, seed, points, 0.0, memory)
                 .unwrap();
             assert_eq!(kept, spectrum.heights(seed, points).unwrap());
-            // The heights are the same, bit for bit, on one thread and with another plan of the
-            // transform.
+            // On one thread and with another plan of the transform, the heights have the same bits.
             let alone = on_this_thread(|| spectrum.heights(seed, points).unwrap());
             assert_eq!(kept, alone);
             memory = kept;

@@ -118,8 +118,8 @@ impl SelfAffine {
         TAU / length * (self.continuum_moment(2) / height).sqrt()
     }
 
-    /// Computes ∫ k^power A_k² dk from the first to the last mode, where A_k are the relative
-    /// amplitudes.
+    /// Computes ∫ k^power A_k² dk from the first to the last mode. A_k are amplitudes in units of
+    /// A₁, see [`Self::relative_amplitude`].
     fn continuum_moment(&self, power: i32) -> f64 {
         let low = self.first as f64;
         let high = self.last as f64;
@@ -131,8 +131,8 @@ impl SelfAffine {
         above + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, roll_off)
     }
 
-    /// Computes Σ k^power A_k² over the modes, where A_k are the relative amplitudes. The relative
-    /// error is a few units in the last place.
+    /// Computes Σ k^power A_k² over the modes, with a relative error of a few units in the last
+    /// place. A_k are amplitudes in units of A₁, see [`Self::relative_amplitude`].
     fn moment(&self, power: i32) -> f64 {
         let first_above = (self.roll_off_mode.ceil() as u64)
             .max(self.first)
@@ -145,12 +145,12 @@ impl SelfAffine {
         above + self.flat_level() * below
     }
 
-    /// Returns the exponent of k in k^power A_k² for modes above the roll-off.
+    /// Returns the exponent of k in the product k^power A_k², for modes above the roll-off.
     fn exponent(&self, power: i32) -> f64 {
         f64::from(power) - 1.0 - 2.0 * self.hurst
     }
 
-    /// Returns A_k²/k for modes below the roll-off.
+    /// Returns A_k²/k for modes below the roll-off, where this ratio is constant.
     fn flat_level(&self) -> f64 {
         self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
     }
@@ -271,13 +271,14 @@ mod tests {
             roll_off_mode: 0.0,
         };
         let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
-        // For H = 1 the integrals are ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
+        // For H = 1 the exact ratio follows from the integrals ∫dq/q = ln 4096 and ∫q⁻³dq = (1 −
+        // 4096⁻²)/2.
         let exact =
             std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
         assert!((limit - exact).abs() < 4.0 * f64::EPSILON * exact);
         for distance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
             let found = spectrum(1.0 - distance).continuum_gradient_per_height(1.0);
-            // The logarithm of the ratio changes by about ln 4096 for a unit change of H.
+            // If H changes by 1, the logarithm of the ratio changes by about ln 4096.
             assert!(
                 (found / limit - 1.0).abs() < 10.0 * distance + 1e-14,
                 "{distance}: {found}"
@@ -299,8 +300,8 @@ mod tests {
                 .unit_amplitude(length)
                 .scaled(height)
                 .elastic_energy(modulus);
-            // The energy of a surface is (E*/4) ∫ q C2D d²q, and its mean square height ∫ C2D d²q,
-            // with C2D ∝ q^(−2−2H).
+            // The energy of a surface is (E*/4) ∫ q C2D d²q, and its mean square height is ∫ C2D
+            // d²q. Here C2D is proportional to q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
             let (low, high) = (q(spectrum.first), q(spectrum.last));
             let power = |exponent: f64| (high.powf(exponent) - low.powf(exponent)) / exponent;
@@ -333,8 +334,8 @@ mod tests {
                 last,
                 roll_off_mode: roll_off,
             };
-            // C2D is constant up to the roll-off q_r and ∝ q^(−2−2H) above it. The squared
-            // amplitudes A² are proportional to C1D = π q C2D.
+            // C2D is constant up to the roll-off q_r and proportional to q^(−2−2H) above it. The
+            // squared amplitudes A² are proportional to C1D = π q C2D.
             let squares = (first..=last).rev().map(|mode| {
                 let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
                 ModeSquare {
@@ -368,8 +369,8 @@ mod tests {
                     "{spectrum:?}, mode {mode}"
                 );
             }
-            // Integrals over all wave numbers from the first to the last mode, by the midpoint
-            // rule.
+            // The integrals over all wave numbers from the first to the last mode are computed by
+            // the midpoint rule.
             let integral = |power: i32| -> f64 {
                 let (low, step) = ((first as f64).ln(), (last as f64 / first as f64).ln() / 4e5);
                 let values =

@@ -1,9 +1,9 @@
 //! A body of revolution from a table of radii and depths, and its equivalent profile.
 //!
-//! Between two rows the depth f is a cubic polynomial, whose slopes at the rows are limited so that
-//! f does not overshoot. So f′ = a + b s + c s², where s is the distance beyond the first of the
-//! two rows. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the intervals
-//! between rows.
+//! Between two rows the depth f is a cubic polynomial. Its slopes at the rows are limited so that f
+//! does not overshoot. Therefore f′ = a + b s + c s², where s is the distance from the first of the
+//! two rows. The equivalent profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the
+//! intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::open::{content, parse};
@@ -15,24 +15,24 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
-/// Number of Chebyshev nodes by which the contributions of rows far nearer the axis are
-/// interpolated. With this number the error of the interpolation is 1e-15.
+/// Number of Chebyshev nodes of the interpolation in [`FarParts`]. With this number the error of
+/// the interpolation is 1e-15.
 const NODES: usize = 20;
 
 /// Number of steps in which [`FormTable::falls_from`] searches the distance at which the equivalent
 /// profile begins to fall.
 const STEPS: usize = 1024;
 
-/// Smallest allowed distance between two rows, divided by the radius of the last row. The digits of
-/// a file resolve no smaller distance.
+/// Smallest allowed distance between two rows, divided by the radius of the last row. The digits in
+/// a file do not resolve smaller distances.
 const CLOSEST: f64 = 1e-9;
 
-/// Largest decrease of the depth, divided by the largest depth, that may be an effect of rounded
-/// numbers in the file.
+/// Largest decrease of the depth, divided by the largest depth, that is explained by the rounding
+/// of the numbers in the file.
 const ROUNDED: f64 = 1e-9;
 
-/// Limit of the sine of the angle δ of an interval, see [`FormTable::part`]. Below this limit the
-/// power series are accurate to rounding.
+/// Largest sine of the angle δ of an interval (see [`FormTable::part`]) for which power series are
+/// used. Below this limit the power series are accurate to rounding.
 const NARROW: f64 = 0.05;
 
 /// Coefficients of the power series of (arcsin s)/s in s².
@@ -51,14 +51,14 @@ const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
 /// Coefficients of the power series of (δ − sin δ)/δ³ in δ².
 const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 / 362880.0];
 
-/// Coefficients of the power series of ∫ sin² t dt/δ³ in δ², where t goes from 0 to δ.
+/// Coefficients of the power series of (∫ sin² t dt)/δ³ in δ², where t goes from 0 to δ.
 const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
 
-/// Coefficients of the power series of ∫ (1 − cos t)² dt/δ⁵ in δ², where t goes from 0 to δ.
+/// Coefficients of the power series of (∫ (1 − cos t)² dt)/δ⁵ in δ², where t goes from 0 to δ.
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
 
-/// Gauss rule for the integral over the angle of an interval above [`NARROW`]. It has few nodes
-/// because f′ is a polynomial of sines and cosines of the angle.
+/// Gauss rule for the integral over the angle of an interval, if the sine of the angle is above
+/// [`NARROW`]. A few nodes suffice, because f′ is a polynomial of sines and cosines of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
@@ -69,8 +69,8 @@ pub struct FormTable {
     cubics: Vec<Cubic>,
 }
 
-/// Slope f′ = a + b s + c s² between two rows, where s is the distance from the first row. The
-/// depth is a cubic polynomial of s.
+/// Slope f′ = a + b s + c s² between two rows, where s is the distance from the first row in m. The
+/// depth f is therefore a cubic polynomial of s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cubic {
     a: f64,
@@ -79,8 +79,9 @@ struct Cubic {
 }
 
 impl Cubic {
-    /// Creates the cubic between two rows at the distance `width`. `secant` is the slope of the
-    /// straight line between both rows; `from` and `to` are the slopes of the cubic at the rows.
+    /// Creates the cubic polynomial between two rows at the distance `width`. `secant` is the slope
+    /// of the straight line between the rows. `from` and `to` are the slopes of the polynomial at
+    /// the rows.
     fn between(width: f64, secant: f64, from: f64, to: f64) -> Self {
         Cubic {
             a: from,
@@ -89,7 +90,7 @@ impl Cubic {
         }
     }
 
-    /// Returns the depth at a distance from the first row, less the depth of the first row.
+    /// Returns the depth at a distance from the first row, minus the depth at the first row.
     fn depth(&self, distance: f64) -> f64 {
         distance * (self.a + distance * (self.b / 2.0 + distance * (self.c / 3.0)))
     }
@@ -107,16 +108,16 @@ impl PartialEq for Rows {
     fn eq(&self, other: &Self) -> bool {
         match (self.0.get(), other.0.get()) {
             (Some(table), Some(other)) => table == other,
-            // Two tables of which one has not been read yet count as equal: the fields of the form
-            // compare the file names.
+            // If one of two tables has not been read yet, the tables count as equal, because the
+            // names of their files are compared as fields of the form.
             _ => true,
         }
     }
 }
 
 impl FormTable {
-    /// Reads a table of two columns, radius and depth. Their unit is m, unless the file states a
-    /// unit or `unit` is given.
+    /// Reads a table with two columns, radius and depth. The unit is the one that the file states,
+    /// or else `unit`, or else m.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,
@@ -187,7 +188,7 @@ impl FormTable {
         before + cubic.depth(width) + beyond * cubic.slope(width)
     }
 
-    /// Returns the curvature at the summit in 1/m; `None` for a pointed tip.
+    /// Returns the curvature at the summit in 1/m; `None` if the tip is pointed.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
         let Cubic {
             a: slope,
@@ -198,17 +199,17 @@ impl FormTable {
         (is_round && curvature >= 0.0).then_some(curvature)
     }
 
-    /// Computes the contribution of the interval after a row to g(x)/x. The contribution is ∫
-    /// f′(r)/√(x² − r²) dr from the row to the radius `end` in m, which lies in the interval and is
-    /// at most x.
+    /// Computes the contribution to g(x)/x of the interval after a row. It is the integral ∫
+    /// f′(r)/√(x² − r²) dr from this row to the radius `end` in m, which lies in the interval and
+    /// is at most x.
     ///
-    /// Let u be the radius of the row, δ = arcsin(r/x) − arcsin(u/x) and w = √(x² − u²). Then r = u
-    /// + w sin δ − u (1 − cos δ), and the integral is taken over δ. No digits are lost by
-    /// subtraction of nearly equal numbers, however close the rows are.
+    /// Let u be the radius of the row, δ = arcsin(r/x) − arcsin(u/x) and w = √(x² − u²). Then
+    /// r = u + w sin δ − u (1 − cos δ), and the integral is taken over δ. In this form no nearly
+    /// equal numbers are subtracted, however close the rows are.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let u = self.radii[row];
         let Cubic { a, b, c } = self.cubics[row];
-        // If x is on the row, rounding may make x smaller than u.
+        // If x equals the radius of the row, rounding may make x smaller than u.
         if end <= u {
             return 0.0;
         }
@@ -240,8 +241,8 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Computes the contribution to g(x)/x of the intervals after these rows. All these intervals
-    /// end at x (in m) or nearer the axis.
+    /// Computes the contribution to g(x)/x of the intervals after the rows `rows`. All these
+    /// intervals must end at x (in m) or nearer the axis.
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
@@ -281,7 +282,7 @@ impl FormTable {
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;
-        // The numbers of the file are rounded, so a tiny decrease means nothing.
+        // The numbers in the file are rounded, so a tiny decrease has no meaning.
         let slack = ROUNDED * depths.iter().copied().fold(0.0, f64::max);
         let mut pairs = depths.windows(2);
         let place = pairs.position(|pair| pair[1] < pair[0] - slack)?;
@@ -289,8 +290,8 @@ impl FormTable {
     }
 }
 
-/// Returns an error that names the row at fault, unless the radii ascend from 0 and all numbers are
-/// finite.
+/// Returns an error unless the radii ascend from 0 and all numbers are finite. The error names the
+/// row at fault.
 fn check_rows(radii: &[f64], depths: &[f64]) -> Result<(), SurfaceError> {
     let rows = radii.len();
     if rows < 2 || depths.len() != rows {
@@ -331,12 +332,12 @@ fn series(terms: &[f64], z: f64) -> f64 {
 /// Contributions to g(x)/x of the rows that are much nearer the axis than x.
 ///
 /// The exact computation of one depth takes a square root for each row nearer the axis. If many
-/// depths between two neighbouring rows are needed, the contributions of all rows that are at least
-/// one interval away from these two rows are therefore interpolated by a polynomial of x.
+/// depths between two neighbouring rows are needed, a polynomial of x therefore replaces the
+/// contributions of all rows that are at least one interval away from these two rows.
 struct FarParts {
     /// Number of rows whose contributions are interpolated.
     rows: usize,
-    /// Lower end of the interval of x in m; `high` is its upper end.
+    /// Lower end in m of the interval of x. `high` is the upper end in m.
     low: f64,
     high: f64,
     /// Coefficients of the Chebyshev polynomials whose sum is the interpolated contribution.
@@ -344,8 +345,8 @@ struct FarParts {
 }
 
 impl FarParts {
-    /// Prepares the interpolation for `points` values of x in the interval after row `gap`. With
-    /// few values nothing is interpolated.
+    /// Prepares the interpolation for `points` values of x in the interval after row `gap`. If
+    /// there are few values, nothing is interpolated.
     fn new(table: &FormTable, gap: usize, points: usize) -> Self {
         let low = table.radii[gap];
         let high = table.radii[gap + 1];
@@ -370,7 +371,8 @@ impl FarParts {
         far
     }
 
-    /// Returns the sum of the contributions at x in m, by Clenshaw's sum of Chebyshev polynomials.
+    /// Returns the sum of the contributions at x in m, computed from the Chebyshev polynomials by
+    /// Clenshaw's recurrence.
     fn sum(&self, x: f64) -> f64 {
         let twice_place = 2.0 * (2.0 * x - self.low - self.high) / (self.high - self.low);
         let mut sum = 0.0;
@@ -384,15 +386,14 @@ impl FarParts {
     }
 }
 
-/// Returns the slope of the form at a row, from the secants between rows. The slope is that of the
-/// parabola through three rows. Its magnitude is limited to three times the smaller secant beside
-/// the row, and it is zero where the two secants differ in sign. With these limits the cubic
-/// between two rows stays between the depths of the rows (Fritsch and Carlson, SIAM J. Numer. Anal.
-/// 17 (1980) 238).
+/// Returns the slope of the form at a row. It is the slope of the parabola through three rows,
+/// limited in two ways: its magnitude is at most three times the smaller secant beside the row, and
+/// it is zero where the two secants differ in sign. The cubic polynomial between two rows then
+/// stays between the depths at the rows (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238).
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let last = secants.len() - 1;
-    // Indices of the two secants beside the row; at either end of the table, of the two secants
-    // nearest to it.
+    // Indices of the two secants beside the row. At either end of the table, these are the two
+    // secants nearest to the end.
     let inner = row.saturating_sub(1).min(last.saturating_sub(1));
     let outer = (inner + 1).min(last);
     let middle = |secant: usize| 0.5 * (radii[secant] + radii[secant + 1]);

@@ -139,7 +139,8 @@ pub fn analyse(
     let observations = powers.observations(fits.last_wave_number());
     let mut isotropic = fits.isotropic(&observations)?;
     let apart = powers.apart();
-    // A surface whose waves depend on their direction has no self-affine isotropic spectrum.
+    // If the waves of a surface depend on their direction, its isotropic spectrum is not
+    // self-affine.
     let mut power_law = if apart == 0.0 {
         fits.self_affine(&observations)
     } else {
@@ -162,8 +163,8 @@ pub fn analyse(
         if !fits.ends_inside {
             isotropic.missing = fits.missing_waves(&observations, &isotropic);
         }
-        // Subtracting the median of each row removes a part of the rms height, so the height of the
-        // points cannot be compared with the spectrum.
+        // If the median of each row was subtracted, a part of the rms height of the points is
+        // missing, so this height cannot be compared with the spectrum.
         let has_height = !surfaces.iter().any(|surface| surface.aligned);
         points.check_identities(&mut isotropic, has_height);
     }
@@ -194,13 +195,13 @@ pub fn analyse(
     })
 }
 
-/// Results that follow from the surfaces without a fit of a spectrum.
+/// Results that are computed from the surfaces without fitting a spectrum.
 #[derive(Default)]
 struct Measured {
     points: PointResults,
     powers: Powers,
     differences: Differences,
-    /// True if the curvature of each surface was removed.
+    /// True if the curvature of each surface was removed before the analysis.
     is_levelled: bool,
 }
 

@@ -1,39 +1,40 @@
-//! Waves of a map that run parallel to an axis. Offsets of whole rows or columns against each other
-//! appear only in these waves.
+//! Waves of a map that run parallel to one of its axes. If whole rows or columns are offset against
+//! each other, only these waves change.
 
 use super::periodogram::Wave;
 use std::ops::RangeInclusive;
 
-/// Smallest number of a wave, divided by the number of points along the axis, from which on the
-/// wave is compared with its neighbours.
+/// Smallest number of a wave along the axis, divided by the number of points along the axis, with
+/// which the wave is compared with its neighbours.
 const COMPARED: f64 = 1.0 / 8.0;
 
-/// Smallest number of a wave, divided by the number of points along the axis, from which on the
-/// wave may be left out. The surface has more power in longer waves than offsets have.
+/// Smallest number of a wave along the axis, divided by the number of points along the axis, with
+/// which the wave may be left out. In longer waves the surface has more power than offsets have.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Limit of chance for the relative difference between the mean power of n waves along an axis and
-/// that of their neighbours, times √n. The limit is about four standard deviations under a window.
+/// Largest relative difference, times √n, between the mean power of n waves along an axis and that
+/// of their neighbours that counts as chance. It is about four standard deviations if a window
+/// function is used.
 const NO_CHANCE: f64 = 12.0;
 
-/// Distances from the axis, in waves, of the near group of neighbouring waves.
+/// Distances from the axis, counted in waves, of the nearer group of neighbouring waves.
 const NEAR: RangeInclusive<f64> = 3.0..=5.0;
 
-/// Distances from the axis, in waves, of the farther group of neighbouring waves.
+/// Distances from the axis, counted in waves, of the farther group of neighbouring waves.
 const FARTHER: RangeInclusive<f64> = 6.0..=8.0;
 
 /// Factor for the extrapolation of the power to the axis. The power is an even function a + bx² of
-/// the distance x from the axis, also on an anisotropic surface. So its value at the axis is the
-/// mean of the near group plus this factor times the mean of the near group less that of the
-/// farther group.
+/// the distance x from the axis, even on an anisotropic surface. The value at the axis is the mean
+/// of the nearer group plus this factor times the difference between the means of the nearer and
+/// the farther group.
 const EXTRAPOLATED: f64 = 0.486;
 
-/// Share of the squared gradient of the map above which the difference between waves along an axis
-/// and their neighbours is not negligible.
+/// Largest difference between waves along an axis and their neighbours that is negligible, as a
+/// share of the squared gradient of the map.
 const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
 
-/// Share of the squared gradient of the map above which this difference is attributed to the
-/// surface itself, and not to offsets of rows or columns.
+/// Largest such difference that is attributed to offsets of rows or columns, as a share of the
+/// squared gradient of the map. A larger difference is attributed to the surface itself.
 const LARGEST_OFFSETS: f64 = 0.25;
 
 /// Place of a wave in the plane of wave numbers, with respect to one axis.
@@ -45,7 +46,7 @@ pub(super) struct AxisPlace {
     pub along: f64,
 }
 
-/// Sum over several waves.
+/// Sum of squared gradients over several waves, and the number of these waves.
 #[derive(Clone, Copy, Default)]
 struct GradientSum {
     squared_gradient: f64,
@@ -63,20 +64,20 @@ impl GradientSum {
     }
 }
 
-/// Waves parallel to one axis, in which offsets of rows or columns appear, and sums over their
-/// neighbours, in which such offsets do not appear.
+/// Waves parallel to one axis, which offsets of rows or columns change, and sums over their
+/// neighbours, which offsets do not change.
 #[derive(Default)]
 struct AxisPower {
     waves: Vec<Wave>,
-    /// Sum over the short waves parallel to the axis.
+    /// Sum over those waves parallel to the axis that are short.
     parallel: GradientSum,
     near: GradientSum,
     farther: GradientSum,
 }
 
 impl AxisPower {
-    /// Adds a wave to the sums of its group. Waves up to the distance `reach` are parallel to the
-    /// axis.
+    /// Adds a wave to the sum of its group, if it belongs to a group. Waves at a distance of at
+    /// most `reach` from the axis are parallel to the axis.
     fn compare(&mut self, place: AxisPlace, reach: f64, wave: &Wave) {
         if place.along < COMPARED {
             return;
@@ -92,15 +93,16 @@ impl AxisPower {
         }
     }
 
-    /// Returns by how much the squared gradient of the waves parallel to the axis differs from the
-    /// value expected from their neighbours; zero if the difference may be chance.
+    /// Returns the difference between the squared gradient of the waves parallel to the axis and
+    /// the value expected from their neighbours. Returns 0 if the difference may be chance.
     fn departure(&self) -> f64 {
         let near = self.near.mean();
         let farther = self.farther.mean();
         let count = self.parallel.waves;
         let expected = (near + EXTRAPOLATED * (near - farther)) * count;
         let departure = (self.parallel.squared_gradient - expected).abs();
-        // Without neighbours `expected` is NaN, the comparison is false, and the result is 0.
+        // If there are no neighbours, `expected` is NaN, the comparison is false, and the result is
+        // 0.
         if departure * count.sqrt() > NO_CHANCE * expected.abs() {
             departure
         } else {
@@ -109,15 +111,16 @@ impl AxisPower {
     }
 }
 
-/// Waves of a map: those parallel to one of its axes, and all others.
+/// Waves of a map, divided into those parallel to an axis and all others.
 pub(super) struct WavesByAxis {
-    /// Largest distance in waves from an axis to which a wave counts as parallel.
+    /// Largest distance from an axis, counted in waves, at which a wave still counts as parallel to
+    /// it.
     reach: f64,
     others: Vec<Wave>,
     axes: [AxisPower; 2],
 }
 
-/// The waves of a map, without the waves that offsets of rows or columns falsify.
+/// The waves of a map without those that offsets of rows or columns have changed.
 pub(super) struct TrueWaves {
     pub waves: Vec<Wave>,
     /// True if waves parallel to an axis are left out.
@@ -128,7 +131,8 @@ pub(super) struct TrueWaves {
 }
 
 impl WavesByAxis {
-    /// Creates an empty collection. `memory` receives the waves that are parallel to no axis.
+    /// Creates an empty collection. The vector `memory` is used for the waves that are not parallel
+    /// to an axis.
     pub fn new(reach: f64, memory: Vec<Wave>) -> Self {
         WavesByAxis {
             reach,
@@ -137,7 +141,7 @@ impl WavesByAxis {
         }
     }
 
-    /// Adds a wave with its places with respect to both axes.
+    /// Adds a wave. `places` are its places with respect to the two axes.
     pub fn add(&mut self, wave: Wave, places: [AxisPlace; 2]) {
         for (axis, place) in self.axes.iter_mut().zip(places) {
             axis.compare(place, self.reach, &wave);
@@ -151,8 +155,8 @@ impl WavesByAxis {
         self.others.push(wave);
     }
 
-    /// Leaves out the short waves parallel to an axis if they differ from their neighbours by as
-    /// much as offsets of rows or columns can cause.
+    /// Leaves out the short waves parallel to an axis, if they differ from their neighbours and the
+    /// difference is small enough to be caused by offsets of rows or columns.
     pub fn without_offsets(self) -> TrueWaves {
         let gradient = self.squared_gradient();
         let mut waves = self.others;
@@ -176,7 +180,7 @@ impl WavesByAxis {
         }
     }
 
-    /// Returns all waves, also those parallel to an axis.
+    /// Returns all waves, including those parallel to an axis.
     pub fn all(self) -> Vec<Wave> {
         let mut waves = self.others;
         for axis in self.axes {

@@ -11,7 +11,7 @@ struct Monomial {
 }
 
 impl Detrend {
-    /// Returns the monomials that are removed from a profile or a map.
+    /// Returns the monomials of the polynomial that is removed from a profile or a map.
     fn monomials(self, is_map: bool) -> Vec<Monomial> {
         let degrees = match self {
             Detrend::None => 0..0,
@@ -29,7 +29,7 @@ impl Detrend {
         monomials
     }
 
-    /// Removes the least-squares polynomial from heights in rows of `columns` points.
+    /// Removes the least-squares polynomial from heights, which are in rows of `columns` points.
     pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
         let columns = columns.max(1);
         let rows = heights.len() / columns;
@@ -40,7 +40,8 @@ impl Detrend {
         let Some(&level) = heights.first() else {
             return;
         };
-        // The first height is subtracted, because a large offset would cost the sums digits.
+        // The first height is subtracted: a large offset would increase the rounding errors of the
+        // sums.
         for height in heights.iter_mut() {
             *height -= level;
         }
@@ -65,13 +66,13 @@ impl Detrend {
     }
 }
 
-/// Returns the coordinate of a point on an axis from −1 to 1. On such an axis the powers of the
-/// coordinates are of similar size, so that the solution keeps its digits.
+/// Returns the coordinate of a point along an axis, from −1 to 1. With such coordinates all their
+/// powers have a similar size, so that the rounding errors of the solution remain small.
 fn place(index: usize, count: usize) -> f64 {
     2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0
 }
 
-/// Returns the sums of the powers 0 to 4 of the coordinates on an axis.
+/// Returns the sums of the powers 0 to 4 of the coordinates of all points along an axis.
 fn sums_of_powers(count: usize) -> [f64; 5] {
     std::array::from_fn(|power| {
         (0..count)
@@ -80,8 +81,8 @@ fn sums_of_powers(count: usize) -> [f64; 5] {
     })
 }
 
-/// Returns the matrix of the normal equations. A sum over all points of the grid is a product of
-/// sums along its axes.
+/// Returns the matrix of the normal equations. Its elements are sums over all points of the grid,
+/// and each is the product of a sum along the rows and a sum along the columns.
 fn normal_matrix(monomials: &[Monomial], columns: usize, rows: usize) -> Vec<f64> {
     let along = sums_of_powers(columns);
     let between = sums_of_powers(rows);
@@ -96,7 +97,7 @@ fn normal_matrix(monomials: &[Monomial], columns: usize, rows: usize) -> Vec<f64
     matrix
 }
 
-/// Returns the right side of the normal equations.
+/// Returns the right-hand side of the normal equations.
 fn right_side(monomials: &[Monomial], heights: &[f64], columns: usize) -> Vec<f64> {
     let rows = heights.len() / columns;
     let mut right = vec![0.0; monomials.len()];

@@ -1,34 +1,35 @@
 //! Differences between the parts of a surface, and between several measurements of the same
-//! roughness. Only the part of a difference that chance does not explain is used.
+//! roughness. Only that part of a difference is used which chance does not explain.
 
 use super::levelled::LevelledSurface;
 use super::parts::{Spread, chance_factor, student_factor, variance_of_mean};
 use super::point_results::SAME;
 
-/// Surfaces with equal numbers and distances of points, whose moments can be compared.
+/// Surfaces with equal numbers and distances of points. Only the moments of such surfaces can be
+/// compared.
 struct Group {
     points: [usize; 2],
     spacing: f64,
     spreads: Vec<Spread>,
 }
 
-/// Differences between parts of a surface and between surfaces.
+/// Differences between the parts of each surface, and between surfaces with equal points.
 #[derive(Default)]
 pub(super) struct Differences {
     groups: Vec<Group>,
 }
 
-/// Errors and ratios that follow from the differences.
+/// Errors and ratios that are computed from the differences between parts and between surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unevenness {
-    /// Relative errors of [`IsotropicSpectrum::integrals`](super::isotropic::IsotropicSpectrum)
-    /// that come from the differences.
+    /// Relative errors, due to these differences, of the integrals that
+    /// [`IsotropicSpectrum::integrals`](super::isotropic::IsotropicSpectrum) returns.
     pub errors: [f64; 3],
-    /// Ratio of the largest to the smallest rms gradient among the parts of a surface: the largest
-    /// ratio of all surfaces; 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. It is the
+    /// largest such ratio of all surfaces, and 1 if chance explains the differences.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height, or rms gradient if this ratio is larger,
-    /// among surfaces with equal points; 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms height among surfaces with equal points, or the
+    /// same ratio of the rms gradients if it is larger. It is 1 if chance explains the differences.
     pub ratio_of_surfaces: f64,
 }
 
@@ -50,8 +51,8 @@ impl Differences {
         }
     }
 
-    /// Returns the errors and ratios that follow from all differences. The error is the largest
-    /// error of all groups.
+    /// Returns the errors and ratios that are computed from all differences. Each error is the
+    /// largest error among the groups of surfaces with equal points.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],
@@ -75,17 +76,17 @@ impl Differences {
 }
 
 impl Group {
-    /// Returns the relative variance of the mean of a moment over all surfaces that results from
-    /// differences between the parts of each surface, without the part that chance explains.
+    /// Returns the relative variance of the mean of a moment over all surfaces, as far as it is due
+    /// to differences between the parts of each surface that chance does not explain.
     fn within(&self, index: usize) -> f64 {
         let count = self.spreads.len() as f64;
         let sum: f64 = self.spreads.iter().map(|spread| spread.excess[index]).sum();
         sum / (count * count)
     }
 
-    /// Returns the spread of the moments between the surfaces. The expected spread by chance
-    /// results from the differences between the parts of each surface, and from the finite number
-    /// of waves.
+    /// Returns the spread of the moments between the surfaces. The spread expected by chance
+    /// follows from the differences between the parts of each surface and from the finite number of
+    /// waves.
     fn between(&self) -> Spread {
         let mut between = Spread::by_chance();
         let count = self.spreads.len();

@@ -1,5 +1,6 @@
-//! Fits of spectra to the observed powers of all surfaces. Also computes how the results change
-//! with other interpolated heights, and with waves that the points do not resolve.
+//! Fits of spectra to the measured powers of all surfaces together. The module also computes how
+//! the results change if other heights are interpolated, and if the surface has waves that the
+//! points do not resolve.
 
 use super::isotropic::IsotropicSpectrum;
 use super::isotropic_fit::fit_isotropic;
@@ -15,12 +16,12 @@ use super::self_affine_fit::SelfAffineFit;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::Topography;
 
-/// Number of waves that the self-affine fit leaves out before the end of a spectrum that ends
-/// before the last resolved wave.
+/// If a spectrum ends before the last resolved wave, the self-affine fit leaves out this number of
+/// waves before the end.
 const BEFORE_END: f64 = 4.0;
 
-/// Ratio of the largest wave number to the last resolved wave number, in the estimate of missing
-/// short waves.
+/// Ratio of the last wave number of the surface to the last resolved wave number that is assumed to
+/// estimate the influence of missing short waves.
 const CONTINUED: f64 = 4.0;
 
 /// Fits of spectra to observations over one range of wave numbers.
@@ -28,12 +29,11 @@ const CONTINUED: f64 = 4.0;
 pub(super) struct SpectrumFits {
     range: WaveRange,
     end: End,
-    /// True if the spectrum ends before the last resolved wave.
+    /// True if the spectrum ends at a longer wave than the last resolved wave.
     pub ends_inside: bool,
 }
 
-/// Largest changes of the results between several readings of the same surfaces. The readings
-/// differ in the heights that are interpolated.
+/// Largest changes of the results if the same surfaces are read with other interpolated heights.
 #[derive(Default)]
 pub(super) struct ReadingChanges {
     /// Relative changes of the integrals of [`IsotropicSpectrum::integrals`].
@@ -43,8 +43,8 @@ pub(super) struct ReadingChanges {
 }
 
 impl SpectrumFits {
-    /// Finds the range of the waves with significant power. Returns an error if `end` continues the
-    /// spectrum up to a wave number that the points already resolve.
+    /// Finds the range of the waves with significant power. Returns an error if `end` is a wave
+    /// number up to which the spectrum continues, but the points already resolve this wave number.
     pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
         let range = powers.range(|waves| last_significant(waves, has_gaps));
         let resolved = powers.range(|waves| waves.len());
@@ -68,7 +68,7 @@ impl SpectrumFits {
         self.range.last
     }
 
-    /// Fits the isotropic spectrum with nodes.
+    /// Fits the isotropic spectrum, which is given by its values at nodes.
     pub fn isotropic(
         &self,
         observations: &[Observation],
@@ -79,7 +79,7 @@ impl SpectrumFits {
 
     /// Fits the self-affine spectrum.
     pub fn self_affine(&self, observations: &[Observation]) -> Option<SelfAffineFit> {
-        // The powers of the last waves depend on how the spectrum ends.
+        // How the spectrum ends affects the powers of the last waves, so these waves are left out.
         let limit = if self.ends_inside {
             self.range.last - BEFORE_END * self.range.first
         } else {
@@ -90,8 +90,8 @@ impl SpectrumFits {
         fit_for_ends(&before_end, self.range, self.end, self.ends_inside)
     }
 
-    /// Repeats the fits with other heights at the points that were interpolated or resampled, and
-    /// returns the changes of the results.
+    /// Repeats the fits with other heights at the points that were interpolated or resampled.
+    /// Returns the largest changes of the results.
     pub fn changes_between_readings(
         &self,
         surfaces: &[Topography],
@@ -118,7 +118,7 @@ impl SpectrumFits {
     }
 
     /// Returns the largest relative changes of the integrals of [`IsotropicSpectrum::integrals`] if
-    /// the surface has waves beyond the last resolved one.
+    /// the surface has waves beyond the last resolved wave.
     pub fn missing_waves(
         &self,
         observations: &[Observation],
@@ -145,8 +145,8 @@ impl SpectrumFits {
     }
 }
 
-/// Returns the number of other readings of the same surfaces. The readings differ in the argument
-/// `quarters` of [`Topography::copied_heights`]. A resampled profile has only one other reading.
+/// Returns how many other readings of the same surfaces are used. Each has another argument
+/// `quarters` of [`Topography::copied_heights`]. A resampled profile has only one.
 fn other_readings(surfaces: &[Topography]) -> usize {
     if surfaces.iter().any(|surface| surface.interpolated() > 0) {
         3

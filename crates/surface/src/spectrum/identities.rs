@@ -1,22 +1,22 @@
 //! Comparison of the moments of a spectrum with the statistics of the points from which the
-//! spectrum was computed. For exact data both are equal.
+//! spectrum was computed. For exact data the moments and the statistics are equal.
 
 use super::isotropic::IsotropicSpectrum;
 use super::moments::{Moment, line_moments};
 use super::statistics::PointStatistics;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-/// Differences between the squared moments of the line and those of the measured points, divided by
-/// the squared moments.
+/// Differences between the squared moments of the equivalent line and those of the measured points,
+/// divided by the squared moments of the line.
 pub(super) struct Departures {
     pub squared_height: f64,
     pub squared_gradient: f64,
 }
 
-/// Compares the rms height of the line with the measured rms height `height` in m, if it is known,
-/// and the rms gradient of the line with the gradient of the measured points. The comparison finds,
-/// for example, a spike that the window function hides from the spectrum. Differences within three
-/// standard errors count as zero.
+/// Compares the moments of the equivalent line with the measured points: its rms height with
+/// `height` in m, if this height is known, and its rms gradient with the slopes between points. The
+/// comparison finds, for example, a spike that the window function hides from the spectrum.
+/// Differences within three standard errors count as zero.
 pub(super) fn departures(
     isotropic: &IsotropicSpectrum,
     height: Option<f64>,
@@ -28,8 +28,8 @@ pub(super) fn departures(
         Some(height) => departure(line.rms_height, height, height),
         None => 0.0,
     };
-    // The slope from the difference of two neighbouring points is smaller than the true slope, for
-    // a wave of two points by the factor π/2.
+    // A slope computed from two neighbouring points is smaller than the true slope. For a wave of
+    // two points the factor is π/2, which is the largest one.
     let squared_gradient = departure(line.rms_gradient, gradient, FRAC_PI_2 * gradient);
     Departures {
         squared_height,
@@ -37,12 +37,12 @@ pub(super) fn departures(
     }
 }
 
-/// Returns by how much the square of a moment lies outside the range that the points give, divided
+/// Returns by how much the square of a moment lies outside the range that the points allow, divided
 /// by the square of the moment.
 fn departure(moment: Moment, least: f64, most: f64) -> f64 {
     let beyond = (least - moment.value).max(moment.value - most);
     if beyond > 3.0 * moment.error {
-        // A square has twice the relative difference.
+        // The relative difference of a square is twice that of the number itself.
         2.0 * beyond / moment.value
     } else {
         0.0

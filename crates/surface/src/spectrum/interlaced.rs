@@ -1,26 +1,26 @@
-//! Maps whose rows come alternately from two scans, trace and retrace, which are displaced against
-//! each other along the rows.
+//! Recognition of maps whose rows come alternately from two scans (trace and retrace) that are
+//! displaced against each other along the rows.
 
-/// Largest number of pairs of neighbouring rows that are compared. The limit holds for pairs that
-/// begin with an even row, and for pairs that begin with an odd row.
+/// Largest number of pairs of neighbouring rows that are compared. The limit holds separately for
+/// pairs that begin with an even row and for pairs that begin with an odd row.
 const MOST_PAIRS: usize = 128;
 
-/// Largest displacement that is tried, in points.
+/// Largest displacement along the rows that is tried, in points.
 const REACH: usize = 16;
 
-/// Largest ratio of the mean square difference of neighbouring rows after the displacement to that
-/// before. Above this ratio the displacement is not certain.
+/// Largest ratio of the mean square difference between neighbouring rows with the displacement to
+/// that without displacement. If the ratio is larger, the displacement is not certain.
 const LEFT: f64 = 0.75;
 
 /// Returns the number of points by which the odd rows are displaced against the even rows; `None`
 /// unless this is certain.
 ///
-/// Neighbouring rows of a surface are most alike without a displacement, or with the same
-/// displacement from each row to the next. An equal displacement from row to row results from a
+/// On most surfaces, neighbouring rows are most alike without a displacement, or with the same
+/// displacement from each row to the next. The same displacement from row to row comes from a
 /// drift, or from a surface with a lay (direction of machining marks) oblique to the rows. A
-/// displacement whose sign alternates from row to row results from two scans.
+/// displacement whose sign alternates from row to row comes from two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
-    // The first displacement is that of odd rows against the even rows before them. The second is
+    // `of_odd` is the displacement of odd rows against the even rows before them, and `of_even`
     // that of even rows against the odd rows before them.
     let of_odd = displacement_of_pairs(heights, columns, 0)?;
     let of_even = displacement_of_pairs(heights, columns, 1)?;
@@ -29,8 +29,8 @@ pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
 }
 
 /// Returns the number of points by which the second row of each pair is displaced against the first
-/// one. The pairs begin at the rows `first`, `first` + 2, … `None` if the rows are not much more
-/// alike after a displacement.
+/// row. The pairs begin at the rows `first`, `first` + 2, and so on. Returns `None` if no
+/// displacement makes the rows much more alike.
 fn displacement_of_pairs(heights: &[f64], columns: usize, first: usize) -> Option<f64> {
     let rows = heights.len() / columns;
     let reach = REACH.min(columns / 8);
@@ -51,8 +51,8 @@ fn displacement_of_pairs(heights: &[f64], columns: usize, first: usize) -> Optio
     is_certain.then_some(least as f64 - reach as f64)
 }
 
-/// Sums the squares of the differences of two rows about their mean, because rows may differ in
-/// their mean height.
+/// Returns the sum of the squared differences of two rows about their mean difference. Rows may
+/// differ in their mean height.
 fn squares_about_mean(row: &[f64], next: &[f64]) -> f64 {
     let mut count = 0.0;
     let mut sum = 0.0;
@@ -70,8 +70,8 @@ fn squares_about_mean(row: &[f64], next: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Returns heights with waves of all directions in rows of 64 points. Each row is displaced by
-    /// `displaced` points.
+    /// Returns heights in rows of 64 points. The surface has waves in all directions, and each row
+    /// is displaced by `displaced` points.
     fn rows(displaced: impl Fn(usize) -> f64) -> Vec<f64> {
         let wave = |k: u32, x: f64, y: f64| {
             let angle = f64::from(k * k);
@@ -93,14 +93,14 @@ mod tests {
         let parity = |row: usize| (row % 2) as f64;
         assert_eq!(displacement(&rows(|row| 3.0 * parity(row)), 64), Some(3.0));
         assert_eq!(displacement(&rows(|row| -parity(row)), 64), Some(1.0));
-        // These maps have no displacement, a drift, and a lay oblique to the rows.
+        // The next maps have no displacement, a drift, or a lay oblique to the rows.
         assert_eq!(displacement(&rows(|_| 0.0), 64), None);
         assert_eq!(displacement(&rows(|row| 2.0 * row as f64), 64), None);
         let lay: Vec<f64> = (0..64 * 48)
             .map(|i| (0.3 * (i % 64 + 4 * (i / 64)) as f64).sin())
             .collect();
         assert_eq!(displacement(&lay, 64), None);
-        // These maps have noise, and rows that alternate between two levels.
+        // The next maps have noise, or rows that alternate between two levels.
         let noise: Vec<f64> = (0..64 * 48_u32).map(|i| f64::from(i * i % 8191)).collect();
         assert_eq!(displacement(&noise, 64), None);
         let levels: Vec<f64> = rows(|_| 0.0)

@@ -11,11 +11,11 @@ use std::f64::consts::{PI, TAU};
 #[cfg(test)]
 pub(super) use tests::known;
 
-/// Part of the key of the random generator that makes its numbers differ from those of other uses
-/// with the same seed.
+/// Part of the key of the random generator. It makes the numbers independent of other random
+/// numbers with the same seed.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
-/// Number of quadrature pieces per unit of u in [`cut`].
+/// Number of pieces per unit of u into which the quadrature of [`cut`] divides its range.
 const CUT_PIECES: f64 = 8.0;
 
 /// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The
@@ -66,7 +66,7 @@ pub struct IsotropicSpectrum {
     pub(super) ratio_of_kinds: f64,
 }
 
-/// Integral over a spectrum, and its derivatives with respect to ln C2D at the nodes.
+/// Integral over a spectrum, and derivatives of this integral with respect to ln C2D at the nodes.
 pub(super) struct Integral {
     pub value: f64,
     pub gradient: Vec<f64>,
@@ -126,13 +126,15 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Changes ln C2D at the nodes by `share` of a random step, drawn from the normal distribution
-    /// of the errors of the fit. `number` selects the step: equal numbers give equal steps.
+    /// Changes ln C2D at the nodes by a random step times `share`. The step is drawn from the
+    /// normal distribution of the errors of the fit. `number` selects the step: equal numbers give
+    /// equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
         let steps = self.information.solve_transposed(independent);
-        // The error of the method changes ln C2D at all nodes by the same amount.
+        // The error of the method is common to all nodes: it changes ln C2D at each of them by the
+        // same amount.
         let common = draws.next() * self.method.into_iter().fold(0.0, f64::max);
         let mut drawn = self.clone();
         for (value, step) in drawn.values.iter_mut().zip(steps) {
@@ -145,7 +147,7 @@ impl IsotropicSpectrum {
         self.nodes.place(ln_q).interpolate(&self.values).exp()
     }
 
-    /// Computes ∫ q^power C2D dq over the waves from a wave number (rad/m) on.
+    /// Computes ∫ q^power C2D dq over the waves with wave numbers from `from` (in rad/m) on.
     pub(super) fn integral(&self, power: i32, from: f64) -> Integral {
         let mut value = 0.0;
         let mut gradient = vec![0.0; self.values.len()];
@@ -169,16 +171,16 @@ impl IsotropicSpectrum {
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences of the integrals of [`Self::integrals`] between another
-    /// spectrum and this one.
+    /// Returns the relative differences between the integrals of `other` and those of this
+    /// spectrum, see [`Self::integrals`].
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();
         [0, 1, 2].map(|index| others[index] / own[index] - 1.0)
     }
 
-    /// Adds further relative errors of the integrals that come from the method. Independent errors
-    /// add as squares.
+    /// Adds further errors of the method to the relative errors of the integrals. The squares of
+    /// the errors are added, because the errors are independent.
     pub(super) fn add_method_errors(&mut self, errors: [f64; 3]) {
         for (method, error) in self.method.iter_mut().zip(errors) {
             *method = method.hypot(error);
@@ -186,7 +188,7 @@ impl IsotropicSpectrum {
     }
 }
 
-/// Random numbers of the normal distribution, by Box and Muller.
+/// Random numbers with the standard normal distribution, by the method of Box and Muller.
 struct NormalDraws {
     generator: ChaCha8Rng,
 }
@@ -206,7 +208,7 @@ impl NormalDraws {
         radius * (TAU * self.uniform()).cos()
     }
 
-    /// Returns a random number above 0 and up to 1, so that its logarithm is finite.
+    /// Returns a random number above 0 and at most 1, whose logarithm is finite.
     fn uniform(&mut self) -> f64 {
         ((self.generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
     }
@@ -218,7 +220,7 @@ mod tests {
     use super::super::nodes::{End, WaveRange};
     use super::*;
 
-    /// Returns a spectrum with the values of `c2d` at the nodes and without errors.
+    /// Returns a spectrum without errors that has the values of `c2d` at the nodes.
     pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
         let values = (0..nodes.count)
             .map(|index| c2d(nodes.wave_number(index)).ln())
@@ -244,7 +246,7 @@ mod tests {
         };
         let nodes = Nodes::new(range, 6.0, End::Ends);
         let count = nodes.count;
-        // The errors of neighbouring nodes are correlated.
+        // In this information matrix the errors of neighbouring nodes are correlated.
         let mut information = vec![0.0; count * count];
         for row in 0..count {
             information[row * count + row] = 30.0;
@@ -284,7 +286,7 @@ mod tests {
         for (moment, estimate) in errors.into_iter().enumerate() {
             let spread = (square[moment] - mean[moment].powi(2)).sqrt();
             let expected = estimate.error / estimate.value;
-            // The limits allow for terms of second order in the errors, and for chance.
+            // The tolerance allows for terms of second order in the errors, and for chance.
             assert!(
                 (spread / expected - 1.0).abs() < 0.1,
                 "{moment}: {spread} {expected}"

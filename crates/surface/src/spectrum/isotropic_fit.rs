@@ -2,7 +2,8 @@
 //!
 //! The fit finds the values x_i = ln C2D at the nodes that minimise Σ w (P/m + ln m) + λ Σ (x_{i−1}
 //! − 2x_i + x_{i+1})². The first sum runs over the observations: P is the observed mean power of w
-//! waves, and m(x) the expected mean. The second sum makes the spectrum smooth.
+//! waves, and m is the mean power that the values x_i predict. The second sum makes the spectrum
+//! smooth.
 
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
@@ -11,7 +12,7 @@ use super::parts::student_factor;
 use super::scoring::{Linearised, Objective, descend};
 use std::f64::consts::TAU;
 
-/// Weight λ of the squared second differences of ln C2D.
+/// Weight λ of the sum of squared second differences of ln C2D, which makes the spectrum smooth.
 const SMOOTHNESS: f64 = 1.0;
 
 /// Weights of three neighbouring values in a second difference.
@@ -20,18 +21,19 @@ const SECOND_DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
 /// Largest number of steps of the search.
 const MOST_STEPS: usize = 200;
 
-/// Largest change of ln C2D at a node in one step.
+/// Largest change of ln C2D at a node in one step of the search.
 const LARGEST_STEP: f64 = 1.5;
 
-/// Number of standard errors that a difference exceeds by chance once in a few hundred times.
+/// Largest difference, in standard errors, that counts as chance. Chance exceeds it once in a few
+/// hundred times.
 const LEAST_DEVIATIONS: f64 = 3.0;
 
-/// Exponent of the power law q^(−3) that the spectrum is assumed to follow near each observation,
-/// when the initial values are computed.
+/// Exponent 3 of the power law q^(−3). The initial values are computed as if the spectrum followed
+/// this law near each observation.
 const INITIAL_EXPONENT: f64 = 3.0;
 
-/// Finds the isotropic spectrum. `None` if the information matrix is not positive definite, as for
-/// powers that are zero or not finite.
+/// Finds the isotropic spectrum. Returns `None` if the information matrix is not positive definite,
+/// which happens for powers that are zero or not finite.
 pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
     let likelihood = PenalisedLikelihood { model };
     let values = descend(&likelihood, initial_values(model), MOST_STEPS)?.parameters;
@@ -50,7 +52,7 @@ pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
     Some(spectrum)
 }
 
-/// The penalised negative log-likelihood as a function of ln C2D at the nodes.
+/// The penalised negative log-likelihood, as a function of the values of ln C2D at the nodes.
 struct PenalisedLikelihood<'a> {
     model: &'a Model<'a>,
 }
@@ -88,7 +90,7 @@ impl Objective for PenalisedLikelihood<'_> {
 
 fn add_likelihood(model: &Model<'_>, values: &[f64], linearised: &mut Linearised) {
     let count = values.len();
-    // Derivatives of the logarithm of a mean with respect to ln C2D at the nodes.
+    // Derivatives of the logarithm of an expected mean power with respect to ln C2D at the nodes.
     let mut slope = vec![0.0; count];
     for (observed, terms) in model.observations.iter().zip(&model.terms) {
         slope.fill(0.0);
@@ -126,21 +128,21 @@ fn add_penalty(values: &[f64], linearised: &mut Linearised) {
     }
 }
 
-/// Mean of ln C2D of the observations nearest to a node.
+/// Mean of ln C2D over the observations that are nearest to a node.
 #[derive(Clone, Copy, Default)]
 struct NodeMean {
     sum: f64,
     waves: f64,
 }
 
-/// Returns the initial values of ln C2D at the nodes. They follow from the observed powers as if
-/// C2D were a power law, and are constant outside the observations.
+/// Returns the initial values of ln C2D at the nodes. They are computed from the observed powers as
+/// if C2D were a power law, and are constant outside the range of the observations.
 fn initial_values(model: &Model<'_>) -> Vec<f64> {
     let count = model.nodes.count;
     let mut means = vec![NodeMean::default(); count];
     for (observed, terms) in model.observations.iter().zip(&model.terms) {
         let ln_q = observed.wave_number.ln();
-        // Expected mean power for a power law that is 1 at the observed wave number.
+        // Expected mean power for a power law whose value at the observed wave number is 1.
         let weight: f64 = terms
             .iter()
             .map(|term| term.weight * ((ln_q - term.ln_q) * INITIAL_EXPONENT).exp())
@@ -159,7 +161,8 @@ fn initial_values(model: &Model<'_>) -> Vec<f64> {
     (0..count).map(|index| between(&means, index)).collect()
 }
 
-/// Returns the mean at a node, interpolated linearly where no observation is near.
+/// Returns the mean at a node. If no observation is near the node, the mean is interpolated
+/// linearly.
 fn between(means: &[NodeMean], index: usize) -> f64 {
     let is_known = |index: &usize| means[*index].waves > 0.0;
     let value = |index: usize| means[index].sum / means[index].waves;
@@ -175,22 +178,22 @@ fn between(means: &[NodeMean], index: usize) -> f64 {
     }
 }
 
-/// Differences between the moments of the measured powers and of the fitted means.
+/// Differences between the moments of the measured powers and those of the fitted mean powers.
 struct Departure {
     /// Largest difference of each moment among the kinds of surfaces, in the unit of the moment. A
     /// kind is all profiles or all maps with equal points.
     moments: [f64; 3],
-    /// Ratio of the largest to the smallest rms height or rms gradient among the kinds; 1 if chance
-    /// explains the differences.
+    /// Ratio of the largest to the smallest rms height or rms gradient among the kinds of surfaces;
+    /// 1 if chance explains the differences.
     ratio_of_kinds: f64,
 }
 
-/// Moments of the measured powers of one kind of surfaces, and of the fitted means over the same
-/// waves.
+/// Moments of the measured powers of one kind of surfaces, and of the fitted mean powers of the
+/// same waves.
 struct KindMoments {
     differences: [f64; 3],
     fitted: [f64; 3],
-    /// Standard errors of the fitted moments, because the number of waves is finite.
+    /// Standard errors of the fitted moments that result from the finite number of waves.
     errors: [f64; 3],
 }
 
@@ -221,10 +224,10 @@ impl KindMoments {
     }
 }
 
-/// Compares the moments of the measured powers with the moments of the fitted means over the same
-/// waves, for the profiles and maps of each kind. With several kinds, only the part of a difference
-/// that exceeds chance counts. If the kinds differ by more than chance, this part is multiplied by
-/// Student's factor.
+/// Compares the moments of the measured powers with those of the fitted mean powers of the same
+/// waves, for each kind of profiles and maps. If there are several kinds, only that part of a
+/// difference counts which exceeds chance. If the kinds differ by more than chance, this part is
+/// multiplied by Student's factor.
 fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
     let mut means = model.means(values);
     let mut kinds = Vec::new();
@@ -232,7 +235,7 @@ fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
         .observations
         .chunk_by(|observation, next| observation.kind == next.kind)
     {
-        // The iterator then continues with the means of the next kind.
+        // `take` leaves the means of the following kinds in the iterator `means`.
         let mut own_means = means.by_ref().take(observations.len());
         kinds.push(KindMoments::new(observations, &mut own_means));
     }
@@ -245,8 +248,8 @@ fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
         for index in 0..3 {
             let difference = kind.differences[index].abs();
             is_chance &= difference <= LEAST_DEVIATIONS * kind.errors[index];
-            // Scans with the same spectrum depart from it by chance. This part of the difference is
-            // already in the statistical error.
+            // If there are several kinds, scans with the same spectrum differ by chance. This part
+            // of the difference is already contained in the statistical error.
             let chance = if kinds.len() > 1 {
                 2.0 * kind.errors[index]
             } else {

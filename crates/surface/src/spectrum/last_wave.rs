@@ -2,24 +2,25 @@
 
 use super::periodogram::{Wave, squared_gradient};
 
-/// Largest share of the squared gradient that the waves beyond the end of the spectrum may have.
+/// Largest share of the squared gradient that waves beyond the end of the spectrum may have.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// The power of the last 1/`FLOOR` of all waves is the noise floor that interpolated points cause.
+/// The mean power of the last 1/`FLOOR` of all waves is taken for the noise that errors of
+/// interpolated points add to all waves.
 const FLOOR: usize = 8;
 
-/// Excess over the noise floor, as a share of it, that is attributed to chance.
+/// Excess of a power over this noise, as a share of the noise, that is attributed to chance.
 const CHANCE: f64 = 0.25;
 
-/// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before
-/// it.
+/// Largest ratio of the power of the waves beyond the end of the spectrum to the power of the same
+/// number of waves before the end.
 const DROP: f64 = 0.03;
 
-/// Finds the end of a spectrum. Returns the number of waves up to the end. The waves beyond have a
-/// negligible share of the squared gradient, and far less power than those before. If there is no
-/// such end, returns the number of all waves. If `has_floor` is true, only the power above the
-/// level of the last waves is used, because errors of single interpolated points add the same power
-/// to all waves.
+/// Finds the end of a spectrum and returns the number of waves up to this end. The waves beyond it
+/// have a negligible share of the squared gradient, and far less power than the waves before it. If
+/// there is no such end, returns the number of all waves. If `has_floor` is true, only the power
+/// above the mean power of the last waves is used, because errors of single interpolated points add
+/// the same power to all waves.
 pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
     let floor = if has_floor { noise_floor(waves) } else { 0.0 };
     let excess_over_floor =
@@ -43,7 +44,7 @@ pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
     }
 }
 
-/// Returns the mean power of the last waves. This is the power that errors of single interpolated
+/// Returns the mean power of the last waves, which is the power that errors of single interpolated
 /// points add to all waves.
 fn noise_floor(waves: &[Wave]) -> f64 {
     let last = &waves[waves.len() - waves.len() / FLOOR..];

@@ -1,15 +1,15 @@
-//! A surface after removal of a polynomial: the input of the analysis.
+//! A surface from which a polynomial was removed. The analysis starts from such surfaces.
 
 use super::options::AnalysisOptions;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::{Detrend, Topography};
 use asperity_data::resized;
 
-/// Smallest allowed number of points along a row and of rows of a map.
+/// Smallest allowed number of points in a row, and of rows in a map.
 const LEAST_POINTS: usize = 32;
 
-/// Largest ratio of the heights after removal of the polynomial to the original heights at which
-/// the former are only rounding errors.
+/// Largest ratio of the heights after removal of the polynomial to the original heights with which
+/// the remaining heights are only rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 /// Smallest allowed height in m. The squares of smaller heights could be rounded to zero.
@@ -21,8 +21,8 @@ pub(super) struct LevelledSurface {
     pub heights: Vec<f64>,
     pub columns: usize,
     pub rows: usize,
-    /// True for each point that is measured, false for interpolated ones; empty if all points are
-    /// measured.
+    /// True for each point that was measured, and false for each interpolated point. Empty if all
+    /// points were measured.
     pub measured: Vec<bool>,
     /// Distances of the points along and between the rows in m.
     pub distances: [f64; 2],
@@ -37,7 +37,7 @@ pub(super) struct LevelledSurface {
 impl LevelledSurface {
     /// Copies the heights of a surface and removes the polynomial. `index` is the number of the
     /// surface, for errors. If `quarters` is above zero, the heights are changed by about as much
-    /// as interpolation may have falsified them, see [`Topography::copied_heights`].
+    /// as interpolation may have changed them, see [`Topography::copied_heights`].
     pub fn new(
         index: usize,
         surface: &Topography,
@@ -66,13 +66,14 @@ impl LevelledSurface {
         })
     }
 
-    /// Returns the height in m of a point; `None` if it is interpolated.
+    /// Returns the height of a point in m; `None` if the height was interpolated.
     pub fn measured_height(&self, index: usize) -> Option<f64> {
         let is_measured = self.measured.get(index).copied().unwrap_or(true);
         is_measured.then(|| self.heights[index])
     }
 
-    /// Checks that the heights exceed the rounding errors of the original heights.
+    /// Returns an error unless the remaining heights exceed the rounding errors of the original
+    /// heights.
     pub fn check_rough(&self, original: &Topography) -> Result<(), SurfaceError> {
         let left = largest_height(&self.heights);
         if left > ROUNDING * largest_height(&original.heights) && left > LEAST_HEIGHT {
@@ -107,8 +108,8 @@ fn check_points(columns: usize, rows: usize) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns the polynomial to remove: that of the options, or else that of the file, or else the
-/// default.
+/// Returns the polynomial that is removed. The polynomial in the options is used, or else the one
+/// that the file states, or else the default.
 fn polynomial(surface: &Topography, options: &AnalysisOptions, periodic: bool) -> Detrend {
     let default = if periodic {
         Detrend::Mean

@@ -1,5 +1,5 @@
-//! Likelihood of the observed powers by Whittle: the powers of the waves are independent and
-//! exponentially distributed, with the means of the spectrum.
+//! Likelihood of the observed powers by Whittle's method. The powers of the waves are assumed to be
+//! independent and exponentially distributed, with mean values that the spectrum gives.
 
 use super::nodes::{End, Nodes, Term, WaveRange};
 use super::observation::Observation;
@@ -7,13 +7,14 @@ use super::observation::Observation;
 /// Number of nodes of a spectrum per decade of wave numbers.
 const NODES_PER_DECADE: f64 = 6.0;
 
-/// Distance in ln q of the grid of wave numbers to which [`Model::condensed`] moves the terms.
+/// Spacing in ln q of the grid of wave numbers to which [`Model::condensed`] moves terms.
 const GRID: f64 = 0.02;
 
-/// Observed powers, with the terms by which their expected means follow from a spectrum.
+/// Observed powers, with the terms from which their expected means are computed for a given
+/// spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
-    /// Terms of the mean of each observation.
+    /// For each observation, the terms whose sum is its expected mean.
     pub terms: Vec<Vec<Term>>,
     pub nodes: Nodes,
 }
@@ -33,9 +34,9 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the same model with fewer terms: the weight of each term is divided between the two
-    /// nearest wave numbers of a fine grid. The expected mean for a power law q^(−4) changes by
-    /// less than 0.1 %.
+    /// Returns the same model with fewer terms. The weight of each term is divided between the two
+    /// nearest wave numbers of a fine grid. For a power law q^(−4), the expected mean then changes
+    /// by less than 0.1 %.
     pub fn condensed(&self) -> Model<'a> {
         let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
         Model {
@@ -46,7 +47,8 @@ impl<'a> Model<'a> {
     }
 
     fn condensed_terms(&self, terms: &[Term]) -> Vec<Term> {
-        // Terms below the first node are moved to it, because the spectrum is constant there.
+        // Terms below the first node are moved to this node, because the spectrum is constant below
+        // it.
         let ln_q = |term: &Term| term.ln_q.max(self.nodes.first);
         let lowest = terms.iter().map(ln_q).fold(f64::INFINITY, f64::min);
         let highest = terms.iter().map(ln_q).fold(lowest, f64::max);
@@ -72,8 +74,8 @@ impl<'a> Model<'a> {
         condensed
     }
 
-    /// Computes the negative logarithm of the likelihood, Σ w (P/m + ln m), summed over the
-    /// observations. P is the observed mean power of w waves, and m its expected mean.
+    /// Computes the negative logarithm of the likelihood, which is the sum of w (P/m + ln m) over
+    /// the observations. P is the observed mean power of w waves, and m is its expected mean.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()
@@ -82,7 +84,7 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected means of the observed powers for these values of ln C2D at the nodes.
+    /// Returns the expected mean of each observed power if ln C2D has these values at the nodes.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

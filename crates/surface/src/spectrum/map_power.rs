@@ -1,4 +1,4 @@
-//! Periodograms of maps: the power of each plane wave.
+//! Periodograms of maps, which give the power of each plane wave of a map.
 
 use super::axis_power::{AxisPlace, WavesByAxis};
 use super::levelled::LevelledSurface;
@@ -8,7 +8,7 @@ use asperity_data::{check_room, emptied};
 use asperity_fourier::{Complex64, plan_forward};
 use std::f64::consts::{PI, TAU};
 
-/// Memory of the computation of the spectrum of a map in bytes per point.
+/// Memory in bytes per point that the computation of the spectrum of a map needs.
 const BYTES: u64 = 48;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -19,20 +19,20 @@ pub(super) struct MapPower {
     /// 2π over the distance between points, along and between the rows, in rad/m.
     pub sampling: [f64; 2],
     /// The waves with their C2D, up to the smaller of the two Nyquist wave numbers, sorted by wave
-    /// number. They are in one half of the plane of wave numbers, because the other half has the
-    /// same powers.
+    /// number. They cover one half of the plane of wave numbers; the other half has the same
+    /// powers.
     pub waves: Vec<Wave>,
     /// True if the waves parallel to one axis are left out, because rows or columns are offset
-    /// against each other or each row was levelled.
+    /// against each other or because each row was levelled.
     pub offsets: bool,
-    /// Largest departure of the remaining waves parallel to an axis from the value expected from
-    /// neighbouring waves, as a share of the squared gradient.
+    /// Largest difference between the remaining waves parallel to an axis and the value expected
+    /// from neighbouring waves, as a share of the squared gradient.
     pub apart: f64,
 }
 
 impl MapPower {
-    /// Computes the power spectrum of a map. If each row was levelled, the waves that run across
-    /// the rows are left out, because levelling changes them.
+    /// Computes the power spectrum of a map. If each row was levelled, waves that run across the
+    /// rows are left out, because levelling changes these waves.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);
@@ -51,7 +51,7 @@ impl MapPower {
     }
 }
 
-/// Returns all waves of a map up to the smaller Nyquist wave number, in any order.
+/// Returns all waves of a map up to the smaller of the two Nyquist wave numbers, in any order.
 pub(super) fn waves_of_map(map: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
     Ok(waves_by_axis(map, steps(map))?.all())
 }
@@ -65,8 +65,8 @@ fn steps(map: &LevelledSurface) -> [f64; 2] {
     ]
 }
 
-/// Computes the powers of the waves in one half of the plane of wave numbers. Wave 1 along and
-/// between the rows has the wave numbers `steps` in rad/m.
+/// Computes the powers of the waves in one half of the plane of wave numbers. `steps` are the wave
+/// numbers in rad/m of wave 1 along the rows and of wave 1 between the rows.
 fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, SurfaceError> {
     let [along, between] = map.distances;
     let columns = map.columns;
@@ -80,7 +80,7 @@ fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, 
     let mut column = vec![Complex64::ZERO; rows];
     let row_window = window(rows, map.windowed);
 
-    // A window spreads the power of waves parallel to an axis to the next waves.
+    // A window function spreads the power of waves parallel to an axis over the next waves.
     let reach = if map.windowed { 1.0 } else { 0.0 };
     let mut waves = WavesByAxis::new(reach, emptied(Vec::new(), half * rows)?);
     let nyquist = (PI / along).min(PI / between);
@@ -94,7 +94,7 @@ fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, 
         for (y, value) in column.iter().enumerate() {
             let x = x as f64;
             let y = signed_number(y, rows);
-            // A wave and its mirror image have equal power, so only one of the two is used.
+            // A wave and its mirror image have the same power, so only one of them is used.
             let is_first = x > 0.0 || y > 0.0;
             let wave_number = (x * steps[0]).hypot(y * steps[1]);
             if !is_first || wave_number >= nyquist {
@@ -130,8 +130,8 @@ fn transformed_rows(map: &LevelledSurface) -> Result<Vec<Complex64>, SurfaceErro
     Ok(coefficients)
 }
 
-/// Returns the number of a wave across the rows from its index in the Fourier transform. The number
-/// is negative for indices above half the number of rows.
+/// Returns the number of a wave across the rows, from its index in the Fourier transform. For
+/// indices above half the number of rows, the number is negative.
 fn signed_number(index: usize, rows: usize) -> f64 {
     if 2 * index > rows {
         index as f64 - rows as f64

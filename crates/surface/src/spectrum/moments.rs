@@ -109,7 +109,7 @@ pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     }
 }
 
-/// The integrals ∫ q^power C2D dq of several faces, for power = 1, 2, 3.
+/// The integrals ∫ q^power C2D dq over the spectra of several faces, for power = 1, 2, 3.
 struct LineIntegrals<'a> {
     faces: &'a [IsotropicSpectrum],
     /// The integrals of each face.
@@ -141,9 +141,9 @@ impl<'a> LineIntegrals<'a> {
         }
     }
 
-    /// Returns a moment with this value and its errors. The moment is proportional to the product
-    /// of the three integrals, each raised to the power of its exponent. The errors of several
-    /// faces are independent.
+    /// Returns the moment `value` with its errors. The moment must be proportional to the product
+    /// of the three integrals, each raised to its power in `exponents`. The errors of several faces
+    /// are independent.
     fn moment(&self, value: f64, exponents: [f64; 3]) -> Moment {
         let mut statistical_variance = 0.0;
         let mut method_variance = 0.0;
@@ -186,14 +186,14 @@ mod tests {
 
     #[test]
     fn moments_of_a_power_law_are_those_of_its_integrals() {
-        // C2D is q⁻³ from q = 1 on, and constant below.
+        // C2D is q⁻³ above q = 1, and constant below q = 1.
         let range = WaveRange {
             first: 1.0,
             last: 100.0,
         };
         let spectrum = known(Nodes::new(range, 6.0, End::Ends), |q| q.powi(-3));
         let moments = line_moments(std::slice::from_ref(&spectrum));
-        // ∫ q C2D from ½ to 1 is 3/8, from 1 to 100 it is 1 − 1/100.
+        // The integral ∫ q C2D dq is 3/8 from ½ to 1, and 1 − 1/100 from 1 to 100.
         let expected = ((0.375 + 0.99) / (2.0 * PI)).sqrt();
         assert!(
             (moments.rms_height.value / expected - 1.0).abs() < 1e-8,
@@ -201,8 +201,8 @@ mod tests {
         );
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
-        // The error of a product is at most the sum of those of its factors, and at least their
-        // difference.
+        // The relative error of a product is at most the sum of the errors of its factors, and at
+        // least the difference of these errors.
         let relative = |moment: Moment| moment.error / moment.value;
         let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
         let product = relative(moments.height_gradient);

@@ -1,5 +1,5 @@
-//! Nodes of a spectrum: wave numbers q between which ln C2D is linear in ln q, and terms of sums
-//! over such a spectrum.
+//! Nodes of a spectrum, which are wave numbers q between which ln C2D is linear in ln q. The module
+//! also has the terms of sums over such a spectrum.
 
 use super::quadrature::{GaussPoint, gauss};
 
@@ -22,7 +22,7 @@ pub(super) struct WaveRange {
     pub last: f64,
 }
 
-/// Nodes equally spaced in ln q.
+/// Nodes that are equally spaced in ln q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nodes {
     /// ln q of the first node.
@@ -30,12 +30,12 @@ pub(super) struct Nodes {
     /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum in rad/m. It lies beyond the last node if the spectrum
-    /// is continued.
+    /// Largest wave number of the spectrum in rad/m. It is larger than that of the last node if the
+    /// spectrum is continued beyond the resolved waves.
     pub end: f64,
 }
 
-/// Place of a wave number between a node and the next node.
+/// Place of a wave number between two neighbouring nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
     /// Index of the node at or below the wave number.
@@ -51,8 +51,8 @@ impl NodePlace {
     }
 
     /// Divides the derivative of a quantity with respect to ln C2D at this place between the two
-    /// nodes beside it. The parts are added to `gradient`, the derivatives with respect to ln C2D
-    /// at the nodes.
+    /// neighbouring nodes. The parts are added to `gradient`, which has the derivatives with
+    /// respect to ln C2D at the nodes.
     pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
         gradient[self.index] += (1.0 - self.share) * derivative;
         gradient[self.index + 1] += self.share * derivative;
@@ -67,15 +67,15 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Returns the points of the quadrature over ln q.
+    /// Returns the points of the quadrature, whose variable is ln q.
     pub fn logarithms(&self) -> impl Iterator<Item = GaussPoint> {
         gauss(self.low.ln(), self.high.ln())
     }
 }
 
 impl Nodes {
-    /// Creates nodes over a range of wave numbers, `per_decade` of them in a decade, for a spectrum
-    /// with this end.
+    /// Creates nodes over a range of wave numbers, with `per_decade` nodes per decade. `end` says
+    /// where the spectrum ends.
     pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
         let ratio = range.last / range.first;
         let pieces = (per_decade * ratio.log10()).ceil().max(2.0);
@@ -107,11 +107,11 @@ impl Nodes {
         }
     }
 
-    /// Returns the intervals of the wave number in rad/m from `low` to the end of the spectrum. In
-    /// each interval the spectrum is a power law.
+    /// Returns the intervals of the wave number, in rad/m, in which the spectrum is a power law.
+    /// They cover the wave numbers from `low` to the end of the spectrum.
     pub fn pieces_from(&self, low: f64) -> Vec<Piece> {
         let node_number = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
-        // For `low` = 0 the logarithm is −∞, which is below all nodes.
+        // For `low` = 0 the logarithm is −∞, which is smaller than ln q of every node.
         let first = (node_number(low).floor() + 1.0).max(0.0) as usize;
         let last = node_number(self.end).ceil() as usize;
         let bounds = (first..=last).map(|index| self.wave_number(index).min(self.end));

@@ -6,27 +6,28 @@ use super::periodogram::{ProfilePower, Wave};
 use super::quadrature::gauss;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Number of the longest waves of a profile that are observations of their own; shorter waves are
-/// averaged in bands.
+/// Number of the longest waves of a profile, each of which is an observation of its own. Shorter
+/// waves are averaged in bands.
 const SINGLE: usize = 32;
 
-/// Number of bands per decade of wave numbers. In such a band, the mean of a power law with the
-/// exponent −3 differs from its value at the mean wave number by 0.1 %.
+/// Number of bands per decade of wave numbers. In a band of this width, the mean of a power law
+/// with the exponent −3 differs by 0.1 % from the value at the mean wave number.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Number of waves under a Hann window that carry as much information as one independent wave. The
-/// powers of waves 1 and 2 numbers apart have the correlation coefficients (2/3)² and (1/6)².
+/// Number of waves that carry as much information as one independent wave if a Hann window is used.
+/// The powers of waves whose numbers differ by 1 and by 2 have the correlation coefficients (2/3)²
+/// and (1/6)².
 pub(super) const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
-/// A wave that contributes to the observed power of a wave.
+/// A wave whose power contributes to the observed power of another wave.
 struct Contribution {
-    /// Number of the contributing wave, less the number of the observed wave.
+    /// Number of the contributing wave minus the number of the observed wave.
     distance: f64,
-    /// Share of the power of the contributing wave in the mean of the observed power.
+    /// Factor of the power of the contributing wave in the mean of the observed power.
     share: f64,
 }
 
-/// Contributions to the power of a wave under a Hann window.
+/// Contributions to the observed power of a wave if a Hann window is used.
 const HANN_CONTRIBUTIONS: [Contribution; 3] = [
     Contribution {
         distance: -1.0,
@@ -42,7 +43,7 @@ const HANN_CONTRIBUTIONS: [Contribution; 3] = [
     },
 ];
 
-/// The only contribution to the power of a wave without a window: the wave itself.
+/// The only contribution to the observed power of a wave without a window: that of the wave itself.
 const OWN_CONTRIBUTION: [Contribution; 1] = [Contribution {
     distance: 0.0,
     share: 1.0,
@@ -52,7 +53,8 @@ const OWN_CONTRIBUTION: [Contribution; 1] = [Contribution {
 /// Aliases are waves that look the same at the sampled points.
 const MOST_ALIASES: u32 = 4;
 
-/// Number of waves that a band must exceed to be used for the estimate of the dispersion of powers.
+/// A band must have more waves than this number to be used for the estimate of the dispersion of
+/// powers.
 const LEAST_DISPERSED: f64 = 8.0;
 
 /// Mean power of the waves in a band of wave numbers.
@@ -62,9 +64,8 @@ pub(super) struct Observation {
     /// Mean power spectral density of the band: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Weight of the band in a moment. The mean power, times this weight, times a power of q, is
-    /// the contribution of the band to a moment of the equivalent line, see
-    /// [`Observation::moments`].
+    /// Weight of the band in moments. The contribution of the band to a moment of the equivalent
+    /// line is the mean power times this weight times a power of q, see [`Observation::moments`].
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
@@ -81,8 +82,9 @@ pub(super) enum Kind {
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
-/// Returns the observations of the spectrum of profiles up to the wave number `last` in rad/m. They
-/// begin with wave 1, or under a window with wave 2, because removing a polynomial reduces wave 1.
+/// Returns the observations of the spectrum of profiles, up to the wave number `last` in rad/m. The
+/// first observation is wave 1. If a window is used it is wave 2, because removal of a polynomial
+/// reduces the power of wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut {
         step: power.step,
@@ -113,7 +115,7 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     observations
 }
 
-/// Returns the number of the wave of a profile with which the next band begins.
+/// Returns the number of the wave of a profile at which the band after the wave `first` begins.
 fn first_of_next_band(first: usize) -> usize {
     if first <= SINGLE {
         return first + 1;
@@ -122,8 +124,8 @@ fn first_of_next_band(first: usize) -> usize {
     ((first as f64 * ratio) as usize).max(first + 1)
 }
 
-/// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a
-/// polynomial reduces the waves around wave 1.
+/// Returns the smallest wave number of a map that is used, in rad/m. If a window is used, the waves
+/// around wave 1 are left out, because removal of a polynomial reduces their power.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed {
         2.0 * power.steps[0].max(power.steps[1])
@@ -132,7 +134,7 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
     }
 }
 
-/// Sums over the waves of a map whose wave numbers lie in one band.
+/// Sums over those waves of a map whose wave numbers lie in the same band.
 #[derive(Default)]
 struct BandSums {
     waves: f64,
@@ -178,7 +180,7 @@ pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     let observations = bands.into_iter().map(|band| Observation {
         wave_number: band.wave_number / band.waves,
         power: band.power / band.waves,
-        // The factor 2 is for the mirror image of each wave, which is not in the sum.
+        // The factor 2 counts the mirror image of each wave, which is not in the sum.
         range: 2.0 * band.waves * along * between / (4.0 * PI * PI),
         waves: band.waves / (correlated * dispersion),
         windowed: map.windowed,
@@ -190,9 +192,9 @@ pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     observations.collect()
 }
 
-/// Computes the variance of the powers in a band, divided by the square of their mean, as an
-/// average over all bands weighted by their waves. The result is 1 for an isotropic surface. It is
-/// larger for an anisotropic surface, whose mean powers are less certain. A result below 1 is
+/// Computes the variance of the powers in a band divided by the square of their mean. The result is
+/// an average over all bands, weighted by their numbers of waves. It is 1 for an isotropic surface.
+/// It is larger for an anisotropic surface, whose mean powers are less certain. A result below 1 is
 /// raised to 1.
 fn dispersion(bands: &[BandSums]) -> f64 {
     let mut sum = 0.0;
@@ -204,8 +206,8 @@ fn dispersion(bands: &[BandSums]) -> f64 {
         }
         let n = band.waves;
         let square = n * band.squared_power / (band.power * band.power);
-        // For n exponentially distributed powers the mean of `square − 1` is (n − 1)/(n + 1), so
-        // the product has the mean 1.
+        // If n powers are exponentially distributed, the mean of `square − 1` is (n − 1)/(n + 1),
+        // so the mean of the product is 1.
         let variance = (square - 1.0) * (n + 1.0) / (n - 1.0);
         sum += n * variance;
         waves += n;
@@ -218,9 +220,9 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of a mean power of this band to the moments ∫ q^(p+1) C2D dq/2π of
-    /// the equivalent line, for p = 0, 1, 2. The corresponding moments of a cut are 1, 2/π and 1/2
-    /// times these moments.
+    /// Computes the contribution of this band, with the mean power `power`, to the moments ∫
+    /// q^(p+1) C2D dq/2π of the equivalent line, for p = 0, 1, 2. The moments of a cut are 1, 2/π
+    /// and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         let factors = match self.kind {
@@ -230,8 +232,8 @@ impl Observation {
         factors.map(|factor| factor * self.range * power)
     }
 
-    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes,
-    /// including aliases of waves that the points do not resolve.
+    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes. It
+    /// includes aliases of waves that the points do not resolve.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),
@@ -239,7 +241,7 @@ impl Observation {
         }
     }
 
-    /// Returns the waves whose power is observed together with the power of this wave.
+    /// Returns the waves that contribute to the observed power of this wave.
     fn contributions(&self) -> &'static [Contribution] {
         if self.windowed {
             &HANN_CONTRIBUTIONS
@@ -264,16 +266,16 @@ impl Observation {
         terms
     }
 
-    /// Returns the terms for a wave of a map: its own power and the powers of the neighbouring
-    /// waves that the window adds, and the aliases of these waves.
+    /// Returns the terms of a wave of a map: its own power, the powers of neighbouring waves that
+    /// the window adds, and the powers of the aliases of all these waves.
     fn terms_of_plane(&self, nodes: &Nodes, steps: [f64; 2], sampling: [f64; 2]) -> Vec<Term> {
         let mut terms = Vec::new();
         if nodes.end > 0.5 * sampling[0].min(sampling[1]) {
             add_aliases(&mut terms, nodes, self.wave_number, sampling);
         }
-        // The wave is taken along the rows and between the rows, because an isotropic spectrum has
-        // no direction. Its neighbours ahead and aside then have different distances if the map is
-        // not square.
+        // An isotropic spectrum has no direction, so the wave is assumed to run along the rows and,
+        // a second time, between the rows. On a map that is not square, these two directions give
+        // different distances to the neighbouring waves.
         let turned = [steps[1], steps[0]];
         let directions = if steps == turned {
             vec![steps]
@@ -328,16 +330,16 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, sampling:
     }
 }
 
-/// Adds a term unless its wave lies beyond the end of the spectrum.
+/// Adds a term, unless its wave number is beyond the end of the spectrum.
 fn add_term(terms: &mut Vec<Term>, nodes: &Nodes, q: f64, weight: f64) {
     if q <= nodes.end {
         terms.push(nodes.term(q, weight));
     }
 }
 
-/// Adds the terms of `factor` times the power of a cut, (1/π) ∫ C2D(√(k² + t²)) dt, with one
-/// quadrature for each piece between nodes. The variable is t and not q = √(k² + t²), because the
-/// integrand over q has a pole at q = k.
+/// Adds the terms of `factor` times the power of a cut, (1/π) ∫ C2D(√(k² + t²)) dt. Each piece
+/// between two nodes has a quadrature of its own. The variable is t and not q = √(k² + t²), because
+/// the integrand over q has a pole at q = k.
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
     for piece in nodes.pieces_from(k) {
@@ -360,8 +362,8 @@ mod tests {
 
     #[test]
     fn powers_that_differ_between_directions_count_as_fewer_waves() {
-        // The powers are quantiles of the exponential distribution, multiplied by a factor for half
-        // of the waves.
+        // These powers are quantiles of the exponential distribution. Every second one is
+        // multiplied by a factor.
         let powers = |factor: f64| -> Vec<f64> {
             let quantile = |i: u32| -((f64::from(i) + 0.5) / 2000.0).ln();
             (0..2000)
@@ -384,8 +386,8 @@ mod tests {
             2000.0 / of_map(&map, 2.0)[0].waves
         };
         assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
-        // The mean is 5 and the mean square 2 (1 + 81)/2 = 82, so the variance over the squared
-        // mean is (82 − 25)/25.
+        // The mean is 5 and the mean square is 2 (1 + 81)/2 = 82. The variance divided by the
+        // squared mean is therefore (82 − 25)/25.
         assert!((found(9.0) - 57.0 / 25.0).abs() < 0.03, "{}", found(9.0));
     }
 
@@ -397,11 +399,11 @@ mod tests {
         };
         let nodes = Nodes::new(range, 12.0, End::Ends);
         for hurst in [0.3, 0.8] {
-            // The roll-off is at the wave number 10.
+            // In this spectrum the roll-off is at the wave number 10.
             let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
-            // Moments of the cut, integrated over its own spectrum. The cut also has power below
-            // half the first wave number, where the line has none: waves that run nearly across the
-            // cut appear in it as long waves.
+            // Moments of the cut, integrated over the spectrum of the cut. The cut also has power
+            // below half the first wave number, where the line has none: waves that run nearly
+            // across the cut appear in it as long waves.
             let mut sums = [0.0; 3];
             let wave_numbers: Vec<f64> = (0..=600)
                 .map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0))
@@ -425,8 +427,8 @@ mod tests {
             ];
             let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
             for (ratio, expected) in ratios.into_iter().zip(expected) {
-                // The line has no waves below half the first wave number, which would add 0.1 % to
-                // the height.
+                // Without waves below half the first wave number, the height of the line is too
+                // small by 0.1 %.
                 assert!(
                     (ratio / expected - 1.0).abs() < 2e-3,
                     "H = {hurst}: {ratios:?}"

@@ -1,7 +1,7 @@
-//! Parts of a surface: the powers of the waves in equal blocks of its points. The differences
-//! between the blocks show whether the surface is uniform. For a surface that is not uniform they
-//! give the additional error of its moments, and a correction of its spectrum: a window function
-//! weighs the middle of the surface more than its borders, and thereby falsifies the spectrum.
+//! Parts of a surface, which are equal blocks of its points, and the powers of the waves in these
+//! blocks. Differences between the blocks show that a surface is not uniform. They then give an
+//! additional error of its moments and a correction of its spectrum. The correction is needed
+//! because a window function gives the middle of the surface more weight than its borders.
 
 use super::levelled::LevelledSurface;
 use super::map_power::waves_of_map;
@@ -21,14 +21,14 @@ const MOST_OF_MAP: usize = 8;
 /// Largest number of blocks of a profile.
 const MOST_OF_PROFILE: usize = 16;
 
-/// Number of the first wave of a block that is used. The longer waves are left out, because
-/// removing the tilt of a block reduces their power.
+/// Number of the first wave of a block that is used. Longer waves are left out, because removal of
+/// the tilt of the block reduces their power.
 const FIRST_WAVE: f64 = 2.0;
 
-/// Quantile of the normal distribution that is exceeded by chance once in a thousand times.
+/// Quantile of the standard normal distribution that chance exceeds once in a thousand times.
 const NO_CHANCE: f64 = 3.09;
 
-/// Powers of the waves of one block.
+/// Powers of the waves in one block.
 #[derive(Clone, Debug)]
 struct Block {
     /// Sum of the powers of the waves in each octave of wave numbers.
@@ -37,7 +37,7 @@ struct Block {
     /// constant factors these sums are the mean square height, the elastic energy and the mean
     /// square gradient.
     moments: [f64; 3],
-    /// Relative variances that these moments have because the number of waves is finite, for a
+    /// Relative variances of these moments that result from the finite number of waves, on a
     /// surface with normally distributed heights.
     variances: [f64; 3],
 }
@@ -50,20 +50,20 @@ pub(super) struct Blocks {
     /// Wave number in rad/m at which the first octave begins.
     first: f64,
     blocks: Vec<Block>,
-    /// Share of each block in the powers of the whole surface. The shares differ because the window
-    /// function weighs the blocks differently.
+    /// Weight of each block in the powers of the whole surface. The weights differ because of the
+    /// window function.
     shares: Vec<f64>,
 }
 
-/// Relative spread of the moments of the parts of a surface.
+/// Relative differences of the moments between the parts of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     /// Means of the moments over the blocks.
     pub means: [f64; 3],
-    /// Relative variances that these means have by chance, on a uniform surface with normally
+    /// Relative variances of these means that chance explains, on a uniform surface with normally
     /// distributed heights.
     pub chance: [f64; 3],
-    /// Relative variances of these means in addition to `chance`; zero if chance explains the
+    /// Relative variances of these means in excess of `chance`; zero if chance explains the
     /// differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
@@ -74,15 +74,15 @@ pub(super) struct Spread {
     pub is_chance: bool,
 }
 
-/// Relative spread of one moment of the parts of a surface.
+/// Relative differences of one moment between the parts of a surface.
 #[derive(Clone, Copy)]
 struct MomentSpread {
     mean: f64,
-    /// Relative variance that the mean has by chance, on a uniform surface with normally
+    /// Relative variance of the mean that chance explains, on a uniform surface with normally
     /// distributed heights.
     chance: f64,
-    /// Relative variance of the mean that follows from the differences between the parts: the
-    /// largest of the values for parts of several sizes.
+    /// Relative variance of the mean that follows from the differences between the parts. Parts of
+    /// several sizes are compared, and the largest variance is used.
     variance: f64,
     /// True if chance explains the differences between the parts.
     is_chance: bool,
@@ -100,7 +100,7 @@ impl Spread {
 }
 
 impl Blocks {
-    /// Computes the powers of the blocks of a surface.
+    /// Divides a surface into blocks and computes their powers.
     pub fn new(surface: &LevelledSurface) -> Result<Self, SurfaceError> {
         let is_profile = surface.rows == 1;
         let most = if is_profile {
@@ -147,8 +147,8 @@ impl Blocks {
         })
     }
 
-    /// Returns the spread of the moments. If chance explains the spread of each moment, the whole
-    /// spread counts as chance.
+    /// Returns the spread of all moments. If chance explains the spread of every moment, no excess
+    /// is left.
     pub fn spread(&self) -> Spread {
         let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
         let mut spread = Spread {
@@ -165,10 +165,10 @@ impl Blocks {
     }
 
     /// Returns the spread of one moment. The surface is divided into parts of 1, 2, 4, … blocks.
-    /// For each size of the parts, the differences between the parts give a variance of the mean,
-    /// which is multiplied by the square of Student's factor for the number of parts. The largest
-    /// of these variances is returned, because neighbouring small parts do not show differences
-    /// over long distances.
+    /// For each size, the differences between the parts give a variance of the mean, which is
+    /// multiplied by the square of Student's factor for the number of parts. The largest variance
+    /// is returned, because small parts that are neighbours do not show differences over long
+    /// distances.
     fn spread_of_moment(&self, index: usize) -> MomentSpread {
         let count = self.blocks.len() as f64;
         let moments: Vec<f64> = self
@@ -200,8 +200,8 @@ impl Blocks {
         spread
     }
 
-    /// Returns the means of a value over parts of 1, 2, 4, … blocks, one list for each size of the
-    /// parts. The last list has two parts.
+    /// Returns the means of `values` (one value per block) over parts of 1, 2, 4, … blocks. Each
+    /// list belongs to one size of the parts, and the last list has two parts.
     fn parts(&self, values: &[f64]) -> Vec<Vec<f64>> {
         let mut all = Vec::new();
         let mut parts = values.to_vec();
@@ -236,8 +236,8 @@ impl Blocks {
         most / least
     }
 
-    /// Returns the factors by which the powers of the whole surface change if all its blocks count
-    /// equally. The factors are 1 if chance explains `spread`.
+    /// Returns the factors by which the powers of the whole surface are multiplied so that all
+    /// blocks count equally. The factors are 1 if chance explains `spread`.
     pub fn weights(&self, spread: &Spread) -> EqualWeights {
         if spread.is_chance {
             EqualWeights::none()
@@ -273,7 +273,7 @@ impl Blocks {
 }
 
 impl Block {
-    /// Sums the powers of the waves of a block from the wave number `first` in rad/m on.
+    /// Sums the powers of those waves of a block whose wave number is at least `first` in rad/m.
     fn new(waves: &[Wave], first: f64, is_profile: bool) -> Self {
         let mut block = Block {
             octaves: Vec::new(),
@@ -309,8 +309,8 @@ impl Block {
                 if block.moments[index] > 0.0 {
                     let term = wave.power * wave.wave_number.powi(index as i32);
                     let share = term / block.moments[index];
-                    // The powers are exponentially distributed, and the mean square of such a
-                    // number is twice its variance.
+                    // The powers are exponentially distributed. The mean square of an exponentially
+                    // distributed number is twice its variance, hence the factor 0.5.
                     block.variances[index] += 0.5 * correlated * share * share;
                 }
             }
@@ -319,7 +319,8 @@ impl Block {
     }
 }
 
-/// Returns the number of blocks along a side of a surface, a power of two.
+/// Returns the number of blocks along a side of a surface, which is a power of two and at most
+/// `most`.
 fn block_count(points: usize, most: usize) -> usize {
     let mut blocks = 1;
     while 2 * blocks <= most && points / (2 * blocks) >= LEAST_POINTS {
@@ -328,8 +329,8 @@ fn block_count(points: usize, most: usize) -> usize {
     blocks
 }
 
-/// Copies a block of a surface and removes the tilt of the block. `first` is the first column and
-/// the first row of the block, and `size` the number of its columns and rows.
+/// Copies a block of a surface and removes its tilt. `first` are the first column and the first row
+/// of the block, and `size` are its numbers of columns and rows.
 fn copy_block(surface: &LevelledSurface, first: [usize; 2], size: [usize; 2]) -> LevelledSurface {
     let [first_column, first_row] = first;
     let [columns, rows] = size;
@@ -361,8 +362,8 @@ fn waves_of(block: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
     Ok(power.waves)
 }
 
-/// Returns the share of each of `blocks` equal blocks in the power of a row of `points` points: the
-/// share of the block in the sum of the squared window function.
+/// Returns the weight of each of `blocks` equal blocks in the power of a row of `points` points. It
+/// is the share of the block in the sum of the squared window function.
 fn shares(points: usize, blocks: usize, windowed: bool) -> Vec<f64> {
     let weights: Vec<f64> = window(points, windowed).iter().map(|w| w * w).collect();
     let size = points / blocks;
@@ -378,7 +379,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Returns the mean of each number of the first row and the number below it in the second row.
+/// Returns, for each column of two rows, the mean of the number in the first row and the number in
+/// the second row.
 fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
     let (first, second) = pair.split_at(columns);
     first
@@ -387,20 +389,20 @@ fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
         .map(|(first, second)| 0.5 * (first + second))
 }
 
-/// Returns the relative variance of the mean of several parts, as estimated from the differences
-/// between the parts.
+/// Returns the relative variance of the mean of several parts, which is estimated from the
+/// differences between the parts.
 pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     let count = parts.len() as f64;
     let squares: f64 = parts.iter().map(|part| (part / mean - 1.0).powi(2)).sum();
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the limit of the ratio of the estimated to the expected variance of a mean. An estimate
-/// from the differences between `parts` parts exceeds this ratio by chance once in a thousand
-/// times: the ratio is a quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is
-/// the relative variance of one part by chance. A part is then distributed like a sum of
-/// 1/`variance` exponentially distributed numbers. If they are few, the distribution is skewed, and
-/// the estimate scatters more.
+/// Returns the largest ratio of the estimated to the expected variance of a mean that counts as
+/// chance. The estimate is made from the differences between `parts` parts, and exceeds this ratio
+/// by chance once in a thousand times: the ratio is a quantile of the χ² distribution (Wilson and
+/// Hilferty 1931). `variance` is the relative variance of one part that chance explains. A part is
+/// distributed like a sum of 1/`variance` exponentially distributed numbers; if these are few, the
+/// distribution is skewed and the estimate scatters more.
 pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     let parts = parts as f64;
     let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;
@@ -408,8 +410,8 @@ pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
 }
 
 /// Returns the factor by which the standard error of a mean of `parts` parts is multiplied, so that
-/// two thirds of all cases lie within it: a quantile of Student's distribution. The factor is
-/// nearly 1 for many parts.
+/// about two thirds of all cases lie within it. It is a quantile of Student's distribution, and
+/// nearly 1 if there are many parts.
 pub(super) fn student_factor(parts: usize) -> f64 {
     let freedom = parts as f64 - 1.0;
     1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)
@@ -425,12 +427,13 @@ mod tests {
 
     #[test]
     fn factors_are_quantiles_of_their_distributions() {
-        // Quantiles of Student's distribution with 1, 3, 7 and 63 degrees of freedom, within which
-        // 68.27 % of all cases lie.
+        // The expected values are quantiles of Student's distribution with 1, 3, 7 and 63 degrees
+        // of freedom, within which 68.27 % of all cases lie.
         for (parts, expected) in [(2, 1.837), (4, 1.197), (8, 1.077), (64, 1.008)] {
             assert!(is_near(student_factor(parts), expected, 0.01), "{parts}");
         }
-        // Quantiles of χ² for a probability of 99.9 %, divided by the degrees of freedom.
+        // The expected values are quantiles of χ² for a probability of 99.9 %, divided by the
+        // degrees of freedom.
         for (parts, expected) in [(2, 10.83), (4, 16.27 / 3.0), (65, 104.7 / 64.0)] {
             assert!(
                 is_near(chance_factor(parts, 0.0), expected, 0.04),

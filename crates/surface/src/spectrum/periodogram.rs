@@ -1,4 +1,4 @@
-//! Periodograms of profiles: the power of each wave.
+//! Periodograms of profiles, which give the power of each wave of a profile.
 
 use super::weights::EqualWeights;
 use crate::error::SurfaceError;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Number of bins per decade of wave numbers, for display.
+/// Number of bins per decade of wave numbers in spectra that are shown to the user.
 const BINS_PER_DECADE: f64 = 10.0;
 
 /// Direction of the waves of a measured spectrum. Each direction has its own spectral density in
@@ -44,30 +44,30 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Returns the squared gradient of the wave, up to a constant factor.
+    /// Returns the contribution of the wave to the squared gradient, up to a constant factor.
     pub fn squared_gradient(&self) -> f64 {
         self.wave_number * self.wave_number * self.power
     }
 }
 
-/// Returns the squared gradient of several waves, up to a constant factor.
+/// Returns the contribution of several waves to the squared gradient, up to a constant factor.
 pub(super) fn squared_gradient(waves: &[Wave]) -> f64 {
     waves.iter().map(Wave::squared_gradient).sum()
 }
 
-/// Power spectrum of profiles with equal numbers and distances of points, summed over the profiles.
+/// Power spectra of profiles with equal numbers and distances of points, added up over the
+/// profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ProfilePower {
     pub points: usize,
     /// Distance between points in m.
     pub spacing: f64,
     pub windowed: bool,
-    /// Number of summed profiles.
+    /// Number of profiles whose spectra were added up.
     pub profiles: u64,
     /// Wave number of wave 1 in rad/m.
     pub step: f64,
-    /// The waves 1, 2, … below half the number of points, with their powers summed over the
-    /// profiles.
+    /// The waves 1, 2, … below half the number of points. Their powers are sums over the profiles.
     pub waves: Vec<Wave>,
 }
 
@@ -88,7 +88,8 @@ impl ProfilePower {
         }
     }
 
-    /// Adds the power spectra of the rows of one surface, multiplied by the factors `weights`.
+    /// Adds the power spectra of the rows of one surface, after multiplication by the factors
+    /// `weights`.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -131,7 +132,7 @@ pub fn line_spectrum(
     windowed: bool,
 ) -> Result<Vec<Bin>, SurfaceError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
-    // The mean of windowed heights would leak into the first waves.
+    // The mean height is subtracted: under a window function it would add power to the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     let differences = heights.iter().map(|height| height - mean);
     power.add(std::iter::once(differences), &EqualWeights::none())?;
@@ -143,7 +144,7 @@ pub fn line_spectrum(
     Ok(bins(waves))
 }
 
-/// Calls `each` with the Fourier coefficients of each row. A row has `points` heights.
+/// Calls `each` with the Fourier coefficients of each row. Each row has `points` heights.
 pub(super) fn transform_rows(
     rows: impl Iterator<Item = impl Iterator<Item = f64>>,
     points: usize,
@@ -166,7 +167,7 @@ pub(super) fn transform_rows(
     Ok(())
 }
 
-/// Returns a Hann window with a mean square of 1, or ones for a periodic profile.
+/// Returns a Hann window with a mean square of 1, or ones if the profile is periodic.
 pub(super) fn window(points: usize, windowed: bool) -> Vec<f64> {
     if !windowed {
         return vec![1.0; points];
@@ -177,10 +178,10 @@ pub(super) fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Averages powers in 10 bins per decade of the wave number. Each given bin is one wave, or the
-/// mean of several waves with the same wave number.
+/// Averages powers in 10 bins per decade of the wave number. Each element of `waves` is one wave,
+/// or the mean of several waves with the same wave number.
 pub(super) fn bins(waves: impl IntoIterator<Item = Bin>) -> Vec<Bin> {
-    // Sums over the waves of each bin. The key is the number of the bin on the logarithmic axis.
+    // Sums over the waves in each bin, by the number of the bin on the logarithmic axis.
     let mut sums: BTreeMap<i64, Bin> = BTreeMap::new();
     for wave in waves {
         let number = (BINS_PER_DECADE * wave.wave_number.log10()).floor() as i64;

@@ -1,4 +1,4 @@
-//! Results that follow from the points of the surfaces, without a spectrum.
+//! Results that are computed from the points of the surfaces without their spectra.
 
 use super::identities::departures;
 use super::interlaced;
@@ -6,29 +6,31 @@ use super::isotropic::IsotropicSpectrum;
 use super::levelled::LevelledSurface;
 use super::statistics::{Sums, reliability_cutoff};
 
-/// Relative difference within which lengths of two scans, or their distances between points, count
-/// as equal.
+/// Relative difference up to which the lengths of two scans, or the distances between their points,
+/// count as equal.
 pub(super) const SAME: f64 = 1e-6;
 
 #[derive(Default)]
 pub(super) struct PointResults {
     pub sums: Sums,
-    /// Sums over the longest scans. Only they have the long waves that give the rms height of the
-    /// equivalent line.
+    /// Sums over the longest scans. Only these scans have the long waves that determine the rms
+    /// height of the equivalent line.
     pub longest: LargestSums,
-    /// Sums over the scans with the finest points. Only they have the short waves that give the rms
-    /// gradient of the equivalent line.
+    /// Sums over the scans with the smallest distance between points. Only these scans have the
+    /// short waves that determine the rms gradient of the equivalent line.
     pub finest: LargestSums,
     /// Rms height of each surface in m.
     pub rms_heights: Vec<f64>,
     /// Largest reliability cut-off of all surfaces in m.
     pub reliability_cutoff: Option<f64>,
-    /// Largest displacement in m of odd rows against even rows of a map; `None` if no map has one.
+    /// Largest displacement in m of odd rows against even rows of a map; `None` if no map has such
+    /// a displacement.
     pub displaced: Option<f64>,
 }
 
 impl PointResults {
-    /// Adds the points of a surface that was measured with a tip of this radius in m, if known.
+    /// Adds the points of a surface. `tip_radius` is the radius in m of the tip that measured it,
+    /// if known.
     pub fn add(&mut self, surface: &LevelledSurface, tip_radius: Option<f64>) {
         let heights = &surface.heights;
         let columns = surface.columns;
@@ -50,8 +52,8 @@ impl PointResults {
         }
     }
 
-    /// Compares the spectrum with the rms gradient of the points, and if `has_height` is true with
-    /// their rms height. Differences are added to the errors of the spectrum.
+    /// Compares the spectrum with the rms gradient of the points and, if `has_height` is true, with
+    /// their rms height. The differences are added to the errors of the spectrum.
     pub fn check_identities(&self, isotropic: &mut IsotropicSpectrum, has_height: bool) {
         let height = self.longest.sums.statistics().rms_height;
         let height = has_height.then_some(height);
@@ -63,7 +65,8 @@ impl PointResults {
     }
 }
 
-/// Sums over the surfaces of the largest size. Sizes that differ by [`SAME`] count as equal.
+/// Sums over the surfaces with the largest size. Sizes with a relative difference of at most
+/// [`SAME`] count as equal.
 #[derive(Default)]
 pub(super) struct LargestSums {
     pub size: f64,

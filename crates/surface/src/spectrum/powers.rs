@@ -1,5 +1,5 @@
-//! Power spectra of all surfaces together: the observations for the fits, and the averaged spectra
-//! for figures.
+//! Power spectra of all surfaces together. They give the observations for the fits, and averaged
+//! spectra for figures.
 
 use super::levelled::LevelledSurface;
 use super::map_power::MapPower;
@@ -14,31 +14,31 @@ use crate::error::SurfaceError;
 use crate::topography::surface::Topography;
 use std::f64::consts::PI;
 
-/// Smallest ratio of length to width of a map from which on its longest waves are taken from the
-/// profiles along its longer side alone.
+/// Smallest ratio of length to width of a map with which its longest waves are taken only from the
+/// profiles along its longer side.
 const NARROW: f64 = 2.0;
 
-/// Power spectra of all surfaces. Profiles with equal numbers and distances of points are summed.
+/// Power spectra of all surfaces. The spectra of profiles with equal numbers and distances of
+/// points are added up.
 #[derive(Default)]
 pub(super) struct Powers {
     pub profiles: Vec<ProfilePower>,
     pub maps: Vec<MapPower>,
     strips: Vec<Strip>,
-    /// Power spectra along the rows and along the columns of maps, for display.
+    /// Power spectra along the rows (first) and along the columns (second) of maps, for figures.
     axes: [Vec<ProfilePower>; 2],
 }
 
-/// Power spectrum along a long and narrow map.
+/// Power spectrum of the profiles along a long and narrow map.
 struct Strip {
     power: ProfilePower,
-    /// Wave number in rad/m below which this spectrum replaces the spectrum of the map.
+    /// Wave number in rad/m below which this spectrum is used instead of the spectrum of the map.
     end: f64,
 }
 
 impl Powers {
     /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are changed
-    /// by about as much as interpolation may have falsified them, see
-    /// [`Topography::copied_heights`].
+    /// by about as much as interpolation may have changed them, see [`Topography::copied_heights`].
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -53,7 +53,7 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface, multiplied by these factors.
+    /// Adds the power spectra of a surface, after multiplication by the factors `weights`.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,
@@ -92,8 +92,8 @@ impl Powers {
         }
         for strip in &self.strips {
             for mut observation in observation::of_profiles(&strip.power, strip.end) {
-                // Such waves are longer than the map is wide, so all its rows have nearly the same
-                // waves and count as one profile.
+                // These waves are longer than the width of the map. All rows then have nearly the
+                // same waves, and count as one profile.
                 observation.waves /= strip.power.profiles as f64;
                 observations.push(observation);
             }
@@ -104,9 +104,9 @@ impl Powers {
         observations
     }
 
-    /// Returns the range of wave numbers from wave 1 of the longest surface to the last wave of the
-    /// surface with the finest points. For profiles the range ends half a wave later. `count`
-    /// returns how many waves of a spectrum are used.
+    /// Returns the range of wave numbers from wave 1 of the longest surface to the last used wave
+    /// of the surface with the smallest distance between points. For profiles, the range ends half
+    /// a wave later. `count` returns how many waves of a spectrum are used.
     pub fn range(&self, count: impl Fn(&[Wave]) -> usize) -> WaveRange {
         let mut first = f64::INFINITY;
         let mut last = 0.0_f64;
@@ -161,8 +161,8 @@ fn columns(surface: &LevelledSurface) -> impl Iterator<Item = impl Iterator<Item
     })
 }
 
-/// Returns the axis of a long and narrow map along which the longest waves are taken from its rows
-/// or columns alone: 0 for the rows, 1 for the columns.
+/// Returns the axis along which a map is long and narrow: 0 for the rows, 1 for the columns. The
+/// longest waves are taken only from profiles along this axis. Returns `None` for other maps.
 fn long_axis(surface: &LevelledSurface, map: &MapPower) -> Option<usize> {
     if !surface.windowed {
         return None;
@@ -184,8 +184,9 @@ fn new_power(surface: &LevelledSurface, axis: usize) -> ProfilePower {
     ProfilePower::new(points[axis], surface.distances[axis], surface.windowed)
 }
 
-/// Returns the power spectrum in `powers` of profiles with the same number and spacing of points as
-/// the profiles along an axis of the surface. If there is none yet, an empty one is added.
+/// Returns the power spectrum in `powers` to which the profiles along an axis of the surface
+/// belong, because their number and spacing of points are the same. If there is none yet, an empty
+/// spectrum is added.
 fn group<'a>(
     powers: &'a mut Vec<ProfilePower>,
     surface: &LevelledSurface,
@@ -220,7 +221,7 @@ fn mean_bins<'a>(powers: impl Iterator<Item = &'a ProfilePower>) -> Vec<Bin> {
     bins(waves)
 }
 
-/// Returns q C2D/π of maps in bins of the wave number q.
+/// Returns the mean of q C2D/π over maps, in bins of the wave number q.
 fn radial_bins(maps: &[MapPower]) -> Vec<Bin> {
     let waves = maps.iter().flat_map(|map| &map.waves).map(|wave| Bin {
         wave_number: wave.wave_number,

@@ -2,8 +2,8 @@
 
 use asperity_data::Cholesky;
 
-/// Decrease of the objective in one step below which the search ends. The decrease is relative to
-/// the objective, or to 1 if the objective is smaller.
+/// The search ends if one step decreases the objective by less than this share of the objective, or
+/// by less than this number if the objective is below 1.
 const SMALL_DECREASE: f64 = 1e-9;
 
 /// Largest number of times that a step is halved.
@@ -17,12 +17,12 @@ pub(super) trait Objective {
 
     fn linearise(&self, parameters: &Self::Parameters) -> Linearised;
 
-    /// Returns the parameters after a step that is multiplied by `share`.
+    /// Returns the parameters after `share` times the step.
     fn moved(&self, parameters: &Self::Parameters, step: &[f64], share: f64) -> Self::Parameters;
 }
 
-/// Gradient of an objective, and its information matrix. Only the lower triangle of the matrix is
-/// set, row by row.
+/// Gradient of an objective, and its information matrix. The matrix is stored row by row, and only
+/// its lower triangle is set.
 pub(super) struct Linearised {
     pub gradient: Vec<f64>,
     pub information: Vec<f64>,
@@ -37,22 +37,22 @@ impl Linearised {
         }
     }
 
-    /// Factorises the information matrix. `None` if it is not positive definite.
+    /// Factorises the information matrix. Returns `None` if the matrix is not positive definite.
     pub fn factor(self) -> Option<Cholesky> {
         Cholesky::new(self.information, self.gradient.len())
     }
 }
 
-/// Smallest value of an objective that was found, and its parameters.
+/// Smallest value of an objective that a search has found, and the parameters with this value.
 #[derive(Clone, Copy)]
 pub(super) struct Minimum<P> {
     pub parameters: P,
     pub value: f64,
 }
 
-/// Minimises an objective from initial parameters. Each step is the solution of the linearised
-/// equations, and is halved until the objective decreases. `None` if an information matrix is not
-/// positive definite.
+/// Minimises an objective, beginning with the parameters `start`. Each step solves the linearised
+/// equations, and is halved until the objective decreases. Returns `None` if an information matrix
+/// is not positive definite.
 pub(super) fn descend<O: Objective>(
     objective: &O,
     start: O::Parameters,
@@ -79,7 +79,8 @@ pub(super) fn descend<O: Objective>(
     least.value.is_finite().then_some(least)
 }
 
-/// Returns the parameters after the largest of the halved steps that lowers the objective.
+/// Tries a step, half of it, a quarter of it and so on. Returns the parameters after the first step
+/// that lowers the objective.
 fn first_lower<O: Objective>(
     objective: &O,
     least: &Minimum<O::Parameters>,

@@ -1,10 +1,10 @@
 //! Self-affine fits for several assumptions on the waves that the points do not resolve.
 //!
-//! Waves that the points do not resolve falsify the measured spectrum. Their powers are added to
-//! the powers of longer waves (aliases), and each power of a profile contains a part of shorter
-//! waves of the surface. The assumption on these waves changes the Hurst exponent by up to 0.2. So
-//! the fit uses the assumption of largest likelihood, and the change between likely assumptions is
-//! part of the error.
+//! Waves that the points do not resolve change the measured spectrum: their powers are added to the
+//! powers of longer waves (aliases), and each power of a profile contains a part of shorter waves
+//! of the surface. What is assumed about these waves changes the Hurst exponent by up to 0.2. The
+//! fit therefore uses the assumption with the largest likelihood, and the change between likely
+//! assumptions is part of the error.
 
 use super::isotropic_fit::fit_isotropic;
 use super::likelihood::Model;
@@ -12,22 +12,23 @@ use super::nodes::{End, WaveRange};
 use super::observation::{Kind, Observation};
 use super::self_affine_fit::{PowerLaw, SelfAffineFit, find_power_law};
 
-/// Assumed ratios of the last wave number of the surface to the last resolved wave number. Each
-/// ratio is tried.
+/// Assumed ratios of the last wave number of the surface to the last resolved wave number. All of
+/// them are tried.
 const CONTINUED: [f64; 3] = [1.5, 3.0, 10.0];
 
-/// Assumed ratio of the last wave number of the surface to the last wave number that a filter of
-/// the instrument leaves, for a filter before the sampling.
+/// Assumed ratio of the last wave number of the surface to the last wave number that passes a
+/// filter of the instrument, if the instrument filters before it samples.
 const FILTERED: f64 = 30.0;
 
-/// Ratio of the last resolved wave number to the last wave number of a fit over a shorter range.
+/// Ratio of the last resolved wave number to the last wave number of a fit to fewer waves.
 const OCTAVE: f64 = 2.0;
 
-/// Assumption on the waves beyond the last resolved wave.
+/// Assumption on the waves of the surface beyond the last resolved wave.
 #[derive(Clone, Copy)]
 struct Assumption {
     end: End,
-    /// True if an instrument removes these waves from each profile before it samples heights.
+    /// True if the instrument is assumed to remove these waves from each profile before it samples
+    /// heights.
     is_filtered: bool,
 }
 
@@ -38,9 +39,8 @@ struct Candidate {
     law: PowerLaw,
 }
 
-/// Fits a self-affine spectrum to observations over a range of wave numbers, for the assumption of
-/// largest likelihood. `None` if no fit converges or
-/// no exponent between 0 and 1 fits.
+/// Fits a self-affine spectrum to observations over a range of wave numbers, with the assumption of
+/// largest likelihood. Returns `None` if no fit converges or if no exponent between 0 and 1 fits.
 pub(super) fn fit_for_ends(
     observations: &[Observation],
     range: WaveRange,
@@ -74,7 +74,7 @@ pub(super) fn fit_for_ends(
     Some(fit)
 }
 
-/// Lists the assumptions on the waves that are not resolved.
+/// Returns the assumptions on the unresolved waves that are tried.
 fn assumptions(
     observations: &[Observation],
     range: WaveRange,
@@ -100,7 +100,7 @@ fn assumptions(
             is_filtered: false,
         });
     }
-    // Only profiles need this assumption: without aliases, the power of a wave of a map contains no
+    // Only profiles need this assumption. Without aliases, the power of a wave of a map contains no
     // part of shorter waves.
     if has_cut {
         assumptions.push(Assumption {
@@ -112,8 +112,8 @@ fn assumptions(
 }
 
 impl Assumption {
-    /// Returns the observations. If the instrument filters, they are changed so that their expected
-    /// means have no aliases.
+    /// Returns the observations. If the instrument is assumed to filter, the observations are
+    /// changed so that their expected means contain no aliases.
     fn observed(&self, observations: &[Observation]) -> Vec<Observation> {
         let mut observed = observations.to_vec();
         if !self.is_filtered {
@@ -130,8 +130,8 @@ impl Assumption {
 }
 
 /// Returns the rms change of the Hurst exponent between the assumptions, weighted by their
-/// likelihood. `scale` is the ratio of the observed scatter of the powers to that expected by
-/// chance. The larger the scatter, the less the likelihoods distinguish the assumptions.
+/// likelihoods. `scale` is the ratio of the observed scatter of the powers to the scatter expected
+/// by chance. With a larger scatter the likelihoods distinguish the assumptions less.
 fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 {
     let mut weights = 0.0;
     let mut squares = 0.0;
@@ -145,11 +145,11 @@ fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 
     (by_likelihood + change_between_ends(candidates, best).powi(2)).sqrt()
 }
 
-/// Returns the standard deviation of the Hurst exponent that results because the last wave number
-/// of the surface may lie between two wave numbers that are tried. The exponent is assumed to be
-/// uniformly distributed between its values for the best assumption and for the likeliest other
-/// assumption without a filter. The result is zero if the best assumption is that the surface ends
-/// at the last resolved wave, or that the instrument filters.
+/// Returns the standard deviation of the Hurst exponent that results from the finite number of wave
+/// numbers that are tried as the last wave number of the surface. The exponent is assumed to be
+/// uniformly distributed between its values for the best assumption and for the next likely
+/// assumption without a filter. The result is zero if, by the best assumption, the surface ends at
+/// the last resolved wave or the instrument filters.
 fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
     if best.assumption.is_filtered || best.assumption.end == End::Ends {
         return 0.0;
@@ -164,9 +164,9 @@ fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
     }
 }
 
-/// Returns by how much the Hurst exponent changes without the last octave of waves, in excess of
-/// the change that the smaller number of waves explains. `error` is the standard error over the
-/// whole range.
+/// Returns by how much the Hurst exponent changes if the last octave of waves is left out, as far
+/// as the smaller number of waves does not explain the change. `error` is the standard error of the
+/// fit over the whole range.
 fn change_by_range(
     observations: &[Observation],
     range: WaveRange,

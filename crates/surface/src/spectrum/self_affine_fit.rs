@@ -1,5 +1,5 @@
 //! The self-affine spectrum of largest likelihood: C2D is constant below a roll-off wave number and
-//! ∝ q^(−2−2H) above.
+//! proportional to q^(−2−2H) above it.
 
 use super::isotropic::{IsotropicSpectrum, cut};
 use super::likelihood::Model;
@@ -7,33 +7,33 @@ use super::moments::ValueWithError;
 use super::scoring::{Linearised, Minimum, Objective, descend};
 use std::f64::consts::LN_10;
 
-/// Gain of the log-likelihood from which on a roll-off is added to the fit. A superfluous parameter
-/// reaches this gain by chance once in a hundred times.
+/// Smallest gain of the log-likelihood with which a roll-off is added to the fit. By chance, an
+/// unnecessary parameter reaches this gain once in a hundred times.
 const LEAST_GAIN: f64 = 3.3;
 
-/// Number of initial roll-off wave numbers per decade.
+/// Number of roll-off wave numbers per decade from which the search starts.
 const STARTS_PER_DECADE: f64 = 4.0;
 
-/// Number of steps from each initial wave number.
+/// Number of steps of the search from each of these wave numbers.
 const FEW_STEPS: usize = 6;
 
-/// Largest number of further steps from the best result of the initial wave numbers.
+/// Largest number of further steps from the best result of these searches.
 const MOST_STEPS: usize = 60;
 
-/// Smallest and largest Hurst exponent of the search.
+/// Smallest and largest Hurst exponent that the search allows.
 const HURST: [f64; 2] = [-0.5, 1.5];
 
-/// Hurst exponent from which the search begins.
+/// Hurst exponent from which the search starts.
 const INITIAL_HURST: f64 = 0.7;
 
 /// Largest share of the range of ln q that may lie below the roll-off. The remaining third is
-/// needed to determine the exponent.
+/// needed to determine the Hurst exponent.
 const LARGEST_ROLL_OFF: f64 = 0.67;
 
-/// Number of the parameters with a roll-off: level, exponent and roll-off.
+/// Number of parameters of a fit with a roll-off: level, exponent and roll-off.
 const WITH_ROLL_OFF: usize = 3;
 
-/// Number of the parameters without a roll-off: level and exponent.
+/// Number of parameters of a fit without a roll-off: level and exponent.
 const WITHOUT_ROLL_OFF: usize = 2;
 
 /// Self-affine spectrum fitted to the powers of measured waves.
@@ -69,7 +69,7 @@ impl SelfAffineFit {
 #[derive(Clone, Copy)]
 pub(super) struct PowerLaw {
     parameters: Parameters,
-    /// Number of free parameters.
+    /// Number of parameters that were fitted.
     free: usize,
     /// Negative logarithm of the likelihood.
     pub misfit: f64,
@@ -77,8 +77,8 @@ pub(super) struct PowerLaw {
     hurst_with_roll_off: f64,
 }
 
-/// Finds the self-affine spectrum of largest likelihood for the observations of a model. `None` if
-/// the search does not converge.
+/// Finds the self-affine spectrum of largest likelihood for the observations of a model. Returns
+/// `None` if the search does not converge.
 pub(super) fn find_power_law(model: &Model<'_>) -> Option<PowerLaw> {
     let model = model.condensed();
     let search = Search::new(&model);
@@ -106,20 +106,20 @@ impl PowerLaw {
     }
 
     /// Returns the factor, at least 1, by which the standard errors are multiplied because the
-    /// surface may not be self-affine. The factor follows from the misfit to the observations of
-    /// the model, compared with the misfit of `isotropic`, the fit with nodes to the same
+    /// surface may not be self-affine. The factor compares the misfit of this spectrum to the
+    /// observations of the model with the misfit of `isotropic`, the fit with nodes to the same
     /// observations.
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
-        // For a self-affine surface, twice the difference of the misfits has a mean equal to the
-        // number of parameters that the isotropic spectrum has in addition.
+        // For a self-affine surface, twice the difference of the misfits equals in the mean the
+        // number of additional parameters of the isotropic spectrum.
         let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
         let excess = 2.0 * (self.misfit - misfit_of_nodes);
         let further = isotropic.values.len() - self.free;
         (excess / further as f64).max(1.0).sqrt()
     }
 
-    /// Returns the fit with its standard errors, multiplied by `scale`. `None` if no exponent
-    /// between 0 and 1 fits.
+    /// Returns the fit with its standard errors, which are multiplied by `scale`. Returns `None` if
+    /// no exponent between 0 and 1 fits.
     pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
         let parameters = self.parameters;
         let model = model.condensed();
@@ -138,8 +138,8 @@ impl PowerLaw {
         Some(SelfAffineFit {
             hurst: ValueWithError {
                 value: parameters.hurst,
-                // A roll-off may exist although the data cannot distinguish it from chance, so the
-                // change of the exponent by a roll-off is part of the error.
+                // A roll-off may exist although the observations do not show it clearly. The change
+                // of the exponent due to a roll-off is therefore part of the error.
                 error: error(1).hypot(self.hurst_with_roll_off - parameters.hurst),
             },
             roll_off,
@@ -148,7 +148,7 @@ impl PowerLaw {
     }
 }
 
-/// Returns the exponential of a value with a standard error.
+/// Returns e to the power of a value, with the standard error that follows from `error`.
 fn exponential(value: f64, error: f64) -> ValueWithError {
     ValueWithError {
         value: value.exp(),
@@ -177,7 +177,7 @@ impl Parameters {
         2.0 + 2.0 * self.hurst
     }
 
-    /// Returns the parameters from which a search for this roll-off begins.
+    /// Returns the parameters from which a search with this initial roll-off starts.
     fn initial(model: &Model<'_>, roll_off: f64) -> Parameters {
         let mut parameters = Parameters {
             level: 0.0,
@@ -207,7 +207,7 @@ fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<
     })
 }
 
-/// Searches for the parameters over a range of roll-off wave numbers.
+/// Search for the parameters of the spectrum, with a limited range of roll-off wave numbers.
 struct Search<'a> {
     model: &'a Model<'a>,
     /// Smallest and largest ln q of a roll-off.
@@ -229,8 +229,8 @@ impl<'a> Search<'a> {
         descend(&self.likelihood(WITHOUT_ROLL_OFF), start, MOST_STEPS)
     }
 
-    /// Searches from several roll-off wave numbers with few steps each, and then continues from the
-    /// best result with more steps.
+    /// Searches with a roll-off: first a few steps from each of several roll-off wave numbers, then
+    /// more steps from the best result.
     fn with_roll_off(&self) -> Option<Minimum<Parameters>> {
         let [low, high] = self.roll_off;
         let starts = (STARTS_PER_DECADE * (high - low) / LN_10).ceil().max(1.0);
@@ -248,7 +248,7 @@ impl<'a> Search<'a> {
         descend(&likelihood, best?.parameters, MOST_STEPS)
     }
 
-    /// Searches from one roll-off wave number: first for the level and the exponent alone, then for
+    /// Searches from one roll-off wave number: first only for the level and the exponent, then for
     /// all three parameters.
     fn near(&self, roll_off: f64) -> Option<Minimum<Parameters>> {
         let start = Parameters::initial(self.model, roll_off);
@@ -311,7 +311,7 @@ impl Objective for SelfAffineLikelihood<'_> {
     }
 
     fn moved(&self, parameters: &Parameters, step: &[f64], share: f64) -> Parameters {
-        // The list of steps is shorter if the roll-off is not free.
+        // `step` has no element for the roll-off if the roll-off is not fitted.
         let limited = |index: usize, most: f64| match step.get(index) {
             Some(step) => (share * step).clamp(-most, most),
             None => 0.0,

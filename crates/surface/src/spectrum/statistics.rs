@@ -1,5 +1,5 @@
-//! Moments of the heights and gradients of measured points, and the shortest wavelength that a tip
-//! resolves.
+//! Moments of the heights and gradients of measured points, and the shortest wavelength that the
+//! tip of an instrument resolves.
 
 use super::levelled::LevelledSurface;
 use serde::Serialize;
@@ -26,7 +26,7 @@ pub struct PointStatistics {
     pub kurtosis: f64,
 }
 
-/// Sum of squared slopes.
+/// Sum of squared slopes, and their number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct SlopeSum {
     squares: f64,
@@ -57,8 +57,8 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the measured points of a surface, with their heights relative to the mean of these
-    /// points. Slopes between two points count if both are measured.
+    /// Adds the measured points of a surface. Their heights are taken relative to the mean of these
+    /// points. A slope between two points counts if both points were measured.
     pub fn add(&mut self, surface: &LevelledSurface) {
         let columns = surface.columns;
         let [along, between] = surface.distances;
@@ -115,8 +115,8 @@ impl Sums {
     }
 }
 
-/// Share of the curvature of the tip, 1/R, above which measured curvatures are artefacts of the tip
-/// (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
+/// Share of the curvature of the tip, 1/R. Measured curvatures above this share count as artefacts
+/// of the tip (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
 /// Finds the reliability cut-off in m. Shorter waves may be artefacts of the tip. The cut-off is
@@ -124,7 +124,7 @@ const SAFETY: f64 = 0.5;
 /// sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in m.
 ///
 /// Returns `None` if the condition is already fulfilled at s = 1. If no s fulfils the condition, no
-/// wave is reliable, and the cut-off is half the length of a row.
+/// wave is reliable, and half the length of a row is returned.
 pub(crate) fn reliability_cutoff(
     heights: &[f64],
     columns: usize,
@@ -136,9 +136,9 @@ pub(crate) fn reliability_cutoff(
     if is_reliable(1) {
         return None;
     }
-    // The scale s is increased by a fifth, at least by one, until it is reliable. The smallest
-    // reliable scale is then found by bisection between the last unreliable and the first reliable
-    // scale.
+    // The scale s is increased by a fifth, but at least by one, until the curvature is reliable.
+    // Bisection between the last unreliable and the first reliable scale then gives the smallest
+    // reliable scale.
     let most = (columns - 1) / 4;
     let mut unreliable = 1;
     let mut reliable = None;
@@ -164,8 +164,8 @@ pub(crate) fn reliability_cutoff(
     Some(2.0 * reliable as f64 * spacing)
 }
 
-/// Returns the smallest curvature in 1/m of all rows, over stencils of three points that are
-/// `scale` points apart.
+/// Returns the smallest curvature in 1/m in all rows. It is computed from three points, of which
+/// neighbouring ones are `scale` points apart.
 fn smallest_curvature(heights: &[f64], columns: usize, scale: usize, spacing: f64) -> f64 {
     let mut smallest = f64::INFINITY;
     for row in heights.chunks_exact(columns) {
@@ -200,15 +200,16 @@ mod tests {
         let map = surface(&[1.0, 2.0, 4.0, 1.0, 5.0, 5.0], [0.5, 2.0]);
         sums.add(&map);
         let found = sums.statistics();
-        // The mean is 3, and the differences from the mean are −2, −1, 1, −2, 2 and 2.
+        // The mean height is 3, and the deviations from it are −2, −1, 1, −2, 2 and 2.
         assert!((found.rms_height - 3.0_f64.sqrt()).abs() < 1e-15);
         assert!((found.skewness - 0.0).abs() < 1e-15);
         assert!((found.kurtosis - (66.0 / 6.0) / 9.0).abs() < 1e-15);
-        // The slopes along the rows are 2, 4, 8 and 0, and those between the rows 0, 1.5 and 0.5.
+        // The slopes along the rows are 2, 4, 8 and 0. The slopes between the rows are 0, 1.5 and
+        // 0.5.
         assert!((found.rms_slope.powi(2) - 84.0 / 4.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (21.0 + 2.5 / 3.0)).abs() < 1e-13);
-        // Without the point in the middle of the second row the mean is 2.6, and the differences
-        // from the mean are −1.6, −0.6, 1.4, −1.6 and 2.4.
+        // Without the point in the middle of the second row, the mean height is 2.6. The deviations
+        // from it are −1.6, −0.6, 1.4, −1.6 and 2.4.
         let mut measured = Sums::default();
         measured.add(&LevelledSurface {
             measured: vec![true, true, true, true, false, true],
@@ -217,7 +218,7 @@ mod tests {
         let found = measured.statistics();
         assert_eq!(found.points, 5);
         assert!((found.rms_height.powi(2) - 13.2 / 5.0).abs() < 1e-14);
-        // The slopes along the first row are 2 and 4, and those between the rows 0 and 0.5.
+        // The slopes along the first row are 2 and 4. The slopes between the rows are 0 and 0.5.
         assert!((found.rms_slope.powi(2) - 20.0 / 2.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (10.0 + 0.25 / 2.0)).abs() < 1e-13);
         sums.add(&surface(&[7.0, 7.0, 7.0], [1.0; 2]));
@@ -245,8 +246,8 @@ mod tests {
     fn a_spike_is_unreliable_below_a_length() {
         let mut heights = vec![0.0; 1001];
         heights[500] = 1.0;
-        // At the scale s the curvature at the spike is −2/(sΔx)². It is above −1/(2R) from sΔx =
-        // 2√R on.
+        // At the scale s the curvature at the spike is −2/(sΔx)². It exceeds −1/(2R) if sΔx is
+        // larger than 2√R.
         let cutoff = reliability_cutoff(&heights, 1001, 0.1, 1.0);
         assert!((cutoff.unwrap() - 4.0).abs() < 1e-12, "{cutoff:?}");
     }

@@ -1,10 +1,11 @@
-//! Factors of measured powers that give all parts of a surface the same weight.
+//! Factors by which measured powers are multiplied so that all parts of a surface have the same
+//! weight.
 
 /// Factors by which the powers of a surface are multiplied, one for each octave of wave numbers.
 pub(super) struct EqualWeights {
     /// Wave number in rad/m at which the first octave begins.
     pub first: f64,
-    /// Logarithms of the factors.
+    /// Logarithm of the factor of each octave.
     pub logarithms: Vec<f64>,
 }
 
@@ -17,8 +18,8 @@ impl EqualWeights {
         }
     }
 
-    /// Returns the factor for a wave with this wave number in rad/m. The factor is interpolated
-    /// between the middles of the octaves.
+    /// Returns the factor for a wave with this wave number in rad/m, interpolated between the
+    /// factors at the middles of the octaves.
     pub fn factor(&self, wave_number: f64) -> f64 {
         let Some(last) = self.logarithms.len().checked_sub(1) else {
             return 1.0;

@@ -1,4 +1,4 @@
-//! ZIP archives in memory. The decompressed size of all their files together is limited.
+//! ZIP archives in memory. The total size of their files after decompression is limited.
 
 use super::bytes::most_expanded;
 use crate::error::{Place, SurfaceError, refused};
@@ -13,27 +13,28 @@ pub(super) const ZIP: &[u8] = b"PK\x03\x04";
 
 pub(super) struct Archive<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
-    /// Index in the archive of each file, by its [`plain_name`].
+    /// Index in the archive of each file, found by its name in the spelling of [`plain_name`].
     places: HashMap<String, usize>,
-    /// Folder of the index file; names of other files are relative to it.
+    /// Folder that contains the index file. Names of other files are relative to this folder.
     folder: String,
-    /// Number of bytes that further files of unknown size may have after decompression.
+    /// Number of bytes that may still be decompressed from files whose size is not known in
+    /// advance.
     most: usize,
 }
 
-/// A file of an archive that may be its index. The smallest value in the derived order is
-/// preferred.
+/// A file of an archive that may be its index file. Of several such files the smallest in the
+/// derived order is preferred: first the one in the fewest folders.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct IndexFile {
-    /// Number of folders in which the file lies.
+    /// Number of nested folders that contain the file.
     depth: usize,
     /// Index of the name of the file in the list of possible names.
     name: usize,
     folder: String,
 }
 
-/// Returns the name of a file in an archive in one spelling: with slashes between folders and
-/// without `.`.
+/// Returns the name of a file in an archive in a uniform spelling: with slashes between folders and
+/// without parts that are `.`.
 fn plain_name(name: &str) -> String {
     let mut parts: Vec<&str> = name.split(['/', '\\']).collect();
     parts.retain(|part| !matches!(*part, "" | "."));
@@ -63,9 +64,9 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Returns the name in `names` that the index of the archive has. The index is the file with
-    /// such a name that lies in the fewest folders. From then on, names of other files are relative
-    /// to its folder.
+    /// Returns the name, out of `names`, of the index file of the archive. Of several files with
+    /// such a name, the one in the fewest folders is the index file. Afterwards, names of other
+    /// files are relative to its folder.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();
@@ -107,16 +108,16 @@ impl<'a> Archive<'a> {
         self.places.keys().map(String::as_str)
     }
 
-    /// Returns the content of a file whose size is unknown. Returns an error if it has more than
-    /// `most` bytes.
+    /// Returns the content of a file whose size is not known in advance. Returns an error if the
+    /// content has more than `most` bytes.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;
         self.most -= content.len();
         Ok(content)
     }
 
-    /// Returns the content of a file that has at most `most` bytes according to a header. Returns
-    /// an error if it has more.
+    /// Returns the content of a file that should have at most `most` bytes according to a header.
+    /// Returns an error if the content is longer.
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let path = plain_name(&format!("{}/{name}", self.folder));
         let Some(place) = self.places.get(&path) else {

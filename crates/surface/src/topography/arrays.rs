@@ -102,7 +102,7 @@ impl Topography {
     }
 }
 
-/// Returns an error for heights that are not whole rows of `columns` points.
+/// Returns an error if the heights do not form whole rows of `columns` points.
 fn check_rows(heights: &[f64], columns: usize) -> Result<(), SurfaceError> {
     if columns > 0 && heights.len().is_multiple_of(columns) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Bounded reading of binary files: numbers, texts, and limits of their sizes.
+//! Reading of binary files: numbers and texts, and limits of the sizes of files.
 
 use super::resolve::MOST_POINTS;
 use crate::error::{Place, SurfaceError, refused};
@@ -9,15 +9,15 @@ use std::borrow::Cow;
 /// Largest size of a file in bytes.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// Largest number of decompressed bytes for each byte of the file, if no header states the
-/// decompressed size. The limit is generous, because numbers as text expand only by factors of
+/// Largest number of decompressed bytes for each byte of a file, if no header states the
+/// decompressed size. The limit is generous: numbers written as text expand only by factors of
 /// three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
-/// Number of decompressed bytes that are allowed in addition, for small files.
+/// Number of decompressed bytes that are allowed in any case, so that small files may expand more.
 const LEAST_EXPANDED: usize = 1 << 20;
 
-/// Returns the largest allowed number of bytes after decompression of `bytes` bytes.
+/// Returns the largest number of bytes to which `bytes` compressed bytes may be decompressed.
 pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes
         .saturating_mul(MOST_EXPANSION)
@@ -32,8 +32,9 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns the decompressed size in bytes of compressed points. A header states their number
-/// `points`, and each point has `size` bytes. Returns an error for a size above the limits.
+/// Returns the size in bytes of compressed points after decompression. `points` is the number of
+/// points that a header states, and each point has `size` bytes. Returns an error if the size is
+/// above the limits.
 pub(super) fn unpacked_size(
     points: usize,
     size: usize,
@@ -76,7 +77,8 @@ macro_rules! numbers {
                 }
             }
 
-            /// Returns the number that the bytes encode. There have to be [`Self::size`] bytes.
+            /// Returns the number that is encoded in `bytes`. There must be exactly [`Self::size`]
+            /// bytes.
             fn value(self, bytes: &[u8], order: Order) -> f64 {
                 match self {
                     $(Number::$name => {
@@ -112,12 +114,12 @@ fn half(bits: u16) -> f64 {
     if bits >> 15 == 0 { size } else { -size }
 }
 
-/// Part of a binary file, read in sequence.
+/// Part of a binary file whose bytes are read one after another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bytes<'a> {
-    /// Bytes of the file up to the end of the part.
+    /// Bytes of the file from its beginning to the end of the part.
     bytes: &'a [u8],
-    /// Offset in the file of the next byte.
+    /// Offset of the next byte to be read, counted from the beginning of the file.
     offset: usize,
     pub order: Order,
 }
@@ -158,8 +160,8 @@ impl<'a> Bytes<'a> {
         Ok(taken)
     }
 
-    /// Returns the next `count` bytes as a part of the file. Places in this part are offsets in the
-    /// whole file.
+    /// Returns the next `count` bytes as a part of the file. Places in this part are still counted
+    /// from the beginning of the file.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let offset = self.offset;
         self.take(count)?;
@@ -183,7 +185,7 @@ impl<'a> Bytes<'a> {
         Ok(array)
     }
 
-    /// Returns the next number as a size, an offset or a code; 0 for a negative one.
+    /// Returns the next number as a size, an offset or a code; 0 if the number is negative.
     pub fn size(&mut self, kind: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(kind)? as usize)
     }
@@ -196,7 +198,7 @@ impl<'a> Bytes<'a> {
         Ok(gathered(count, numbers)?)
     }
 
-    /// Returns the bytes up to the next zero byte, and skips the zero byte.
+    /// Returns the bytes before the next zero byte, and skips the zero byte.
     pub fn text(&mut self) -> Result<&'a [u8], SurfaceError> {
         let left = &self.bytes[self.offset..];
         let Some(end) = left.iter().position(|byte| *byte == 0) else {

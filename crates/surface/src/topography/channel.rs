@@ -1,14 +1,14 @@
-//! Choice of one of the channels of a file by its number or its name.
+//! Choice of one channel of a file by its number or its name.
 
 use super::options::ReadOptions;
 use crate::error::{ChosenBy, Place, SurfaceError, refused};
 use asperity_data::{Remedy, shown};
 
-/// Largest number of channels that a message lists.
+/// Largest number of channels that an error message lists.
 const MOST_LISTED: usize = 8;
 
-/// Words in the names of channels of heights in files of scanning probe microscopes. Other channels
-/// in a unit of length are deflections and amplitudes.
+/// Words in the names of channels with heights, in files of scanning probe microscopes. These words
+/// are needed because other channels with a unit of length contain deflections or amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
 /// Returns true for the name of a channel of heights in a file of a scanning probe microscope.
@@ -17,7 +17,7 @@ pub(super) fn names_heights(name: &str) -> bool {
     HEIGHTS.iter().any(|word| name.contains(word))
 }
 
-/// The channel that the options ask for.
+/// The channel that the user wants, according to the options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.
@@ -27,8 +27,8 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns the channel that the options ask for. Returns an error if they have both a number
-    /// and a name.
+    /// Returns the channel that the options request. Returns an error if the options have both a
+    /// number and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),
@@ -42,19 +42,19 @@ impl<'a> Wanted<'a> {
     }
 }
 
-/// Properties by which a channel is chosen, and which messages list.
+/// Properties of a channel. A channel is chosen by these properties, and error messages list them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Label {
-    /// Number in the file.
+    /// Number of the channel in the file.
     pub number: u32,
-    /// Name in the file; empty if it has none.
+    /// Name of the channel in the file; empty if the channel has no name.
     pub name: String,
     /// Direction of the scan, such as `retrace`, if the name does not contain it.
     pub direction: Option<String>,
-    /// Unit of the values. The text is empty if the file states that the values have no unit.
-    /// `None` if the unit is unknown.
+    /// Unit of the values. `None` means that the unit is unknown; an empty text means that the file
+    /// states that the values have no unit.
     pub unit: Option<String>,
-    /// Number of the first line with numbers of the channel, in a text.
+    /// In a text file, the number of the first line with numbers of the channel.
     pub line: Option<usize>,
     /// True for a channel of heights. Such a channel is read if the options name no channel.
     pub has_heights: bool,
@@ -95,8 +95,8 @@ impl Label {
     }
 }
 
-/// Returns the index of the channel that is wanted. If several channels have the wanted name, only
-/// a channel of heights among them is meant. `kind` is the word for a channel in messages.
+/// Returns the index of the wanted channel. If several channels have the wanted name, the only
+/// channel of heights among them is chosen. `kind` is the word for a channel in error messages.
 pub(super) fn chosen(
     labels: &[Label],
     kind: &str,
@@ -144,7 +144,7 @@ pub(super) fn chosen(
     })
 }
 
-/// Returns descriptions of the first channels for a message.
+/// Returns descriptions of the first channels for an error message.
 pub(super) fn listed(labels: &[Label]) -> Vec<String> {
     let first = labels.iter().take(MOST_LISTED);
     let mut listed: Vec<String> = first.map(Label::description).collect();
@@ -183,7 +183,8 @@ mod tests {
             (Wanted::Number(3), 2),
             (Wanted::Name("phase"), 2),
             (Wanted::Name(" Height Retrace"), 1),
-            // Two channels have this direction, and only one of them is a channel of heights.
+            // Two channels have this direction, but only the second of them is a channel of
+            // heights.
             (Wanted::Name("Retrace"), 1),
         ] {
             assert_eq!(found(&labels, wanted), Ok(expected), "{wanted:?}");

@@ -1,5 +1,5 @@
-//! Containers of contact.engineering: archives with an index, in JSON or YAML, that lists surfaces
-//! and their measurements.
+//! Containers of contact.engineering. A container is an archive with an index file in JSON or YAML,
+//! which lists surfaces and their measurements.
 
 use super::options::ReadOptions;
 use super::reading::Reading;
@@ -9,13 +9,13 @@ use crate::error::{ChosenBy, Place, SurfaceError, refused};
 use asperity_data::{Note, Remedy, shown};
 use serde::Deserialize;
 
-/// Names of the index, in JSON and in YAML.
+/// Names of the index file: in JSON and in YAML.
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
-/// Largest size of an index in bytes.
+/// Largest allowed size of an index file in bytes.
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
 
-/// Largest number of measurements in a container.
+/// Largest allowed number of measurements in a container.
 const MOST_MEASUREMENTS: usize = 10_000;
 
 #[derive(Deserialize)]
@@ -30,13 +30,14 @@ struct Surface {
     topographies: Vec<Measurement>,
 }
 
-/// A measurement of a surface: its file in the archive, and numbers that the file may omit.
+/// A measurement of a surface, as the index file describes it: the name of its data file in the
+/// archive, and numbers that the data file may omit.
 #[derive(Deserialize)]
 pub(super) struct Measurement {
     #[serde(default)]
     pub name: String,
     datafile: Files,
-    /// Lengths of the map along and between rows, in the unit of the measurement.
+    /// Lengths of the map along the rows and across the rows, in the unit of the measurement.
     #[serde(default)]
     size: Vec<f64>,
     unit: Option<String>,
@@ -65,8 +66,8 @@ struct Radius {
     unit: String,
 }
 
-/// Name of the file as measured, and name of the file with the same heights after scaling and
-/// removal of a polynomial.
+/// Names of two files: the file as it was measured, and a file with the same heights after scaling
+/// and removal of a polynomial.
 #[derive(Deserialize)]
 struct Files {
     original: Option<String>,
@@ -83,8 +84,9 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface called `name`, or the measurement called `name`. If no
-/// name is given, returns the measurements of the only surface.
+/// Returns all measurements of the surface called `name`, or the single measurement called `name`.
+/// If no name is given, the container must have only one surface, and all its measurements are
+/// returned.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -100,7 +102,7 @@ pub(super) fn measurements(
     Err(refused(Place::File, found, allowed))
 }
 
-/// Parses the index.
+/// Parses the index file and returns its surfaces.
 fn surfaces(index: &str, content: &[u8]) -> Result<Vec<Surface>, SurfaceError> {
     let parsed: Result<Index, String> = if index == INDICES[0] {
         serde_json::from_slice(content).map_err(|error| error.to_string())
@@ -117,8 +119,8 @@ fn surfaces(index: &str, content: &[u8]) -> Result<Vec<Surface>, SurfaceError> {
     }
 }
 
-/// Returns the measurements of the surface called `name`, or else the measurement called `name`. If
-/// no name is given, returns the measurements of the only surface.
+/// Returns all measurements of the surface called `name` or, if there is no such surface, the
+/// measurement called `name`. If no name is given, returns the measurements of the only surface.
 fn chosen(
     mut surfaces: Vec<Surface>,
     name: Option<&str>,
@@ -154,7 +156,7 @@ fn chosen(
 
 impl Measurement {
     /// Returns the name of the file with the scaled heights, whose format is always NetCDF. If
-    /// there is no such file, returns the name of the measured file.
+    /// there is no such file, returns the name of the file as it was measured.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {
@@ -167,7 +169,7 @@ impl Measurement {
         Place::Part(format!("topography {}", self.name))
     }
 
-    /// Returns a message about the radius of the tip that the index states.
+    /// Returns a message about the radius of the tip that the index file states.
     pub fn tip_radius(&self) -> Option<Note> {
         let parameters = self.instrument.as_ref()?.parameters.as_ref()?;
         let radius = parameters.tip_radius.as_ref()?;
@@ -177,13 +179,13 @@ impl Measurement {
         Some(Note::new(text).with(Remedy::TipRadius(format!("{value}{unit}"))))
     }
 
-    /// Returns true if the file holds the heights as measured, before scaling.
+    /// Returns true if the file contains the heights as they were measured, before scaling.
     fn is_original(&self) -> bool {
         self.datafile.squeezed.is_none()
     }
 
-    /// Returns the polynomial that has to be removed from the heights by the index of the
-    /// container; `None` if the index names only the mean, which is the default of such containers.
+    /// Returns the polynomial that the index file requests to be removed from the heights. Returns
+    /// `None` if it requests only the removal of the mean, which is the default of such containers.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,
@@ -192,7 +194,8 @@ impl Measurement {
         }
     }
 
-    /// Returns the options for reading the file of the measurement.
+    /// Returns `options` completed by what the index file states, for reading the file of the
+    /// measurement.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, self.place())?;
@@ -208,16 +211,16 @@ impl Measurement {
         Ok(ReadOptions {
             convention: stated.or(options.convention),
             channel,
-            // The name has already chosen the surface or the measurement, and does not name a
-            // channel in its file.
+            // The name in the options is that of the surface or the measurement, and not that of a
+            // channel in the file.
             surface_name: None,
             interpolate: options.interpolate || is_filled,
             ..options.clone()
         })
     }
 
-    /// Fills in the distances and the scale of heights from the index, if the file of the
-    /// measurement omits them.
+    /// Adds the distances between points and the scale of the heights from the index file, if the
+    /// file of the measurement omits them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()
@@ -228,7 +231,7 @@ impl Measurement {
             reading.spacing = Some([width / reading.columns as f64, height / rows as f64]);
         }
         match self.height_scale {
-            // Heights with a unit in the file are already scaled.
+            // If the heights have a unit in their file, they are already scaled.
             Some(scale) if self.is_original() && reading.units.heights.is_none() => {
                 reading.scaled(|_| false, scale)
             }
@@ -291,7 +294,7 @@ mod tests {
             ("map", 4, Ok([1e-9; 2]))
         );
         assert!((map.heights[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
-        // The heights of the file with scaled heights are not scaled again.
+        // The heights in the file with scaled heights are not scaled a second time.
         assert_eq!((&*profile.name, profile.heights[1]), ("profile", 3e-6));
         assert_eq!(
             (profile.detrend, profile.periodic),
@@ -350,7 +353,7 @@ mod tests {
                 )
             ]
         );
-        // A distance that an option can supply is asked for.
+        // If a distance is missing that an option can supply, the error message requests it.
         assert!(
             read(b"1 2 3 4\n5 6 7 9\n", spm)
                 .unwrap_err()
@@ -431,7 +434,8 @@ mod tests {
             error.starts_with("2 measurements of a surface; allowed: one"),
             "{error}"
         );
-        // Nested aliases of YAML must not expand to a large index.
+        // Nested aliases of YAML could expand a small index file to a very large one, which is
+        // refused.
         let level = |i: u32| {
             format!(
                 "a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n",

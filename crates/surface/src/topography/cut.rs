@@ -1,4 +1,4 @@
-//! A row or a column of a map that is read as a profile.
+//! A row or a column of a map, read as a profile.
 
 use super::surface::{Cropped, Layout, Topography};
 use crate::error::{Place, SurfaceError, refused};
@@ -13,24 +13,25 @@ pub enum Cut {
     Column(u64),
 }
 
-/// The points of a row or of a column among the points of a map.
+/// The points of a row or of a column, given by their indices among the points of the map.
 struct CutLine {
     /// Index, among the points of the map, of the first point of the line.
     first: usize,
-    /// Difference of the indices of neighbouring points.
+    /// Difference between the indices of neighbouring points.
     step: usize,
     points: usize,
-    /// Axis of the line: 0 for a row, 1 for a column.
+    /// Axis along which the line lies: 0 for a row, 1 for a column.
     axis: usize,
 }
 
 impl CutLine {
-    /// Finds the points of a cut. Returns an error if the map has no such row or column.
+    /// Finds the points of a row or a column. Returns an error if the map has no such row or
+    /// column.
     fn new(map: &Topography, cut: Cut) -> Result<Self, SurfaceError> {
         let columns = map.columns;
         let rows = map.rows();
-        // Rows and columns have the numbers that they have in the file, where the cropped ones
-        // count too.
+        // The number of a row or a column is that in the file, so it also counts rows or columns
+        // that were cropped.
         let [columns_before, rows_before] = map.cropped.before;
         Ok(match cut {
             Cut::Row(number) => CutLine {
@@ -48,8 +49,8 @@ impl CutLine {
         })
     }
 
-    /// Returns the number of a point on the line, from 0, from its index in the map; `None` for a
-    /// point that is not on the line.
+    /// Returns the number, counted from 0, of a point along the line. `index` is its index in the
+    /// map. Returns `None` if the point is not on the line.
     fn number_of(&self, index: usize) -> Option<usize> {
         let offset = index.checked_sub(self.first)?;
         let number = offset / self.step;
@@ -58,9 +59,9 @@ impl CutLine {
     }
 }
 
-/// Returns the index, from 0, of a row or column among the `count` that remain after cropping.
-/// `number` is its number in the file, from 1, and `before` is the number of rows or columns that
-/// were left out before the first remaining one.
+/// Returns the index, counted from 0, of a row or column among the `count` that remain after
+/// cropping. `number` is its number in the file, counted from 1. `before` is the number of rows or
+/// columns that were cropped before the first remaining one.
 fn remaining_index(
     name: &str,
     number: u64,

@@ -1,5 +1,5 @@
-//! Recognition of formats that are not read, by their first bytes or by the files in an archive. A
-//! message can then name the format, and say how to convert the file.
+//! Recognition of formats that cannot be read, by their first bytes or by the files in an archive.
+//! The error message can then name the format and say how to convert the file.
 
 use crate::error::{Place, SurfaceError, refused};
 
@@ -15,14 +15,14 @@ const MESH: &str =
     "the heights on an even grid as X3P, SUR, GWY or text, from the program of the instrument";
 const KEYENCE: &str = "the same as VK4, or the heights as CSV, from the program of the microscope";
 
-/// A format that is not read.
+/// A format that the program recognises but cannot read.
 struct Foreign {
     name: &'static str,
-    /// What can be read instead, for the message.
+    /// Part of the error message that says what can be read instead.
     allowed: &'static str,
 }
 
-/// A format that is known by its first bytes.
+/// A format that is recognised by its first bytes.
 struct KnownStart {
     start: &'static [u8],
     format: Foreign,
@@ -80,7 +80,7 @@ const KNOWN_STARTS: [KnownStart; 30] = [
     starting(b"%PDF", "a document (PDF)", PICTURE),
 ];
 
-/// A format that is an archive, known by the end of the name of one of its files.
+/// A format that is an archive. It is recognised by the end of the name of one of its files.
 struct KnownArchive {
     file_end: &'static str,
     format: Foreign,
@@ -105,7 +105,7 @@ const KNOWN_ARCHIVES: [KnownArchive; 5] = [
     archive_with("header.properties", "an archive of JPK", CURVE),
 ];
 
-/// A format that is known by more of its content than the first bytes.
+/// A format that is recognised by more than its first bytes.
 struct KnownContent {
     has: fn(&[u8]) -> bool,
     format: Foreign,
@@ -132,7 +132,7 @@ const KNOWN_CONTENTS: [KnownContent; 7] = [
     containing(is_nms, "NMS of NanoFocus", GWYDDION),
 ];
 
-/// Returns an error with the name of the format if the content has a known format that is not read.
+/// Returns an error that names the format if the content has a known format that cannot be read.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     for known in &KNOWN_STARTS {
         if bytes.starts_with(known.start) {
@@ -147,15 +147,16 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     Ok(())
 }
 
-/// Returns true for an image of the program WSxM in binary numbers. The test is needed because its
-/// texts, which are read, have the same first words.
+/// Returns true for a binary image of the program WSxM. Its first words alone do not suffice,
+/// because the text files of WSxM, which can be read, begin with the same words.
 fn is_wsxm_image(bytes: &[u8]) -> bool {
     let second_line = bytes.split(|byte| *byte == b'\n').nth(1);
     let has_image = second_line.is_some_and(|line| line.starts_with(b"SxM Image file"));
     bytes.starts_with(b"WSxM file") && (has_image || bytes.contains(&0))
 }
 
-/// Returns true for PLU of Sensofar: a file that begins with a date of 24 letters and a zero byte.
+/// Returns true for the format PLU of Sensofar. Such a file begins with a date of 24 letters and a
+/// zero byte.
 fn is_plu(bytes: &[u8]) -> bool {
     match bytes.get(..25) {
         Some(head) => head[24] == 0 && head[13] == b':' && head[16] == b':',
@@ -163,21 +164,22 @@ fn is_plu(bytes: &[u8]) -> bool {
     }
 }
 
-/// Returns true for SM4 of RHK: a file with the name of the format in letters of two bytes, after
-/// the size of the header.
+/// Returns true for the format SM4 of RHK. Such a file has, after the size of the header, the name
+/// of the format in letters of two bytes.
 fn is_sm4(bytes: &[u8]) -> bool {
     let name = bytes.get(2..).unwrap_or_default();
     name.starts_with(b"S\0T\0i\0M\0a\0g\0e\0 \0")
 }
 
-/// Returns true for a file of Createc: one of its first words, and binary numbers.
+/// Returns true for a file of Createc: it begins with one of three words and contains binary
+/// numbers.
 fn is_createc(bytes: &[u8]) -> bool {
     let starts: [&[u8]; 3] = [b"[Parameter]", b"[Paramet32]", b"[Paramco32]"];
     starts.iter().any(|start| bytes.starts_with(start)) && bytes.contains(&0)
 }
 
-/// Returns true for a mesh of triangles (STL), as text or as binary numbers. The binary form has a
-/// header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
+/// Returns true for a mesh of triangles (format STL), as text or in binary form. The binary form
+/// has a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
 fn is_mesh(bytes: &[u8]) -> bool {
     const HEADER: usize = 80;
     const TRIANGLE: usize = 50;
@@ -192,8 +194,8 @@ fn is_mesh(bytes: &[u8]) -> bool {
     count > 0 && bytes.len() == size
 }
 
-/// Returns true for ASD: a version below 3, and the two letters of a channel at the place where
-/// this version has them.
+/// Returns true for the format ASD: a version number below 3, and the two letters of a channel at
+/// the offset that belongs to this version.
 fn is_asd(bytes: &[u8]) -> bool {
     const CHANNELS: [[u8; 2]; 4] = [*b"TP", *b"PT", *b"ER", *b"PH"];
     let letters = match (little_endian(bytes, 0), bytes.get(..28)) {
@@ -204,8 +206,8 @@ fn is_asd(bytes: &[u8]) -> bool {
     CHANNELS.contains(&letters)
 }
 
-/// Returns true for NMS: a header of known size whose numbers of columns and rows fit the size of
-/// the file.
+/// Returns true for the format NMS: a header of fixed size whose numbers of columns and rows agree
+/// with the size of the file.
 fn is_nms(bytes: &[u8]) -> bool {
     const HEADER: usize = 3_468;
     const COUNTS: usize = 1_368;
@@ -219,7 +221,7 @@ fn is_nms(bytes: &[u8]) -> bool {
     points > 0 && bytes.len() == points.saturating_mul(2).saturating_add(HEADER)
 }
 
-/// Returns the little-endian number in the four bytes at this offset.
+/// Returns the number that is encoded in the four bytes at this offset, the lowest byte first.
 fn little_endian(bytes: &[u8], offset: usize) -> Option<usize> {
     let bytes = bytes.get(offset..offset + 4)?;
     Some(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize)
@@ -233,7 +235,7 @@ fn unread(format: &Foreign) -> SurfaceError {
     }
 }
 
-/// Returns the error for an archive with files of these names, none of which is an index.
+/// Returns the error for an archive that contains files with these names but no index file.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     indices: [&str; 3],

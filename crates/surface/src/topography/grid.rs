@@ -1,31 +1,31 @@
-//! Maps from lists of points in any order.
+//! Maps that are made from lists of points in any order.
 
 use super::positions::{UNEVEN, first_uneven};
 use super::printed::{Digits, Grid, GridPoint, printed_grid};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 
-/// Largest distance between positions on the same line of a grid, as a share of the largest
-/// distance between neighbouring positions.
+/// Largest distance between two positions that count as the same line of a grid, as a share of the
+/// largest distance between neighbouring positions.
 const SAME_LINE: f64 = 0.05;
 
-/// Largest ratio of the number of all lines of a grid to the number of lines that have points.
+/// Largest ratio of the number of lines of a grid to the number of its lines that have points.
 const MOST_LINES: f64 = 1.25;
 
-/// Two lines are neighbours, without a missing line between them, if their distance is smaller than
-/// this factor times the smallest distance of lines.
+/// Two lines count as neighbours, with no missing line between them, if their distance is smaller
+/// than this factor times the smallest distance between lines.
 const SMALL_GAP: f64 = 1.5;
 
-/// Largest ratio of the number of cells of a grid to the number of points, so that at most half of
-/// the points may be missing.
+/// Largest ratio of the number of cells of a grid to the number of points. At most half of the
+/// points may then be missing.
 const MOST_CELLS: usize = 2;
 
 /// Evenly spaced lines of a grid along one axis.
 #[derive(Clone, Copy)]
 struct Axis {
     first: f64,
-    /// Distance between lines, negative if the first points are in descending order; 0 for a single
-    /// line.
+    /// Distance between neighbouring lines. It is negative if the first points are in descending
+    /// order, and 0 if there is only one line.
     distance: f64,
     count: usize,
 }
@@ -33,12 +33,12 @@ struct Axis {
 /// Result of the search for the lines of a grid.
 enum AxisSearch {
     Found(Axis),
-    /// A position that lies off the even grid.
+    /// The positions do not form an even grid. The value is a position that lies off the grid.
     Uneven(f64),
 }
 
 impl Axis {
-    /// Finds the lines through the positions, some of which may be missing.
+    /// Finds the evenly spaced lines through the positions. Some lines may be missing.
     fn search(positions: &[f64], digits: Digits) -> Result<AxisSearch, SurfaceError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);
@@ -53,8 +53,8 @@ impl Axis {
                 count: 1,
             }));
         }
-        // The first attempt assumes that no line is missing, and the second that some lines are
-        // missing.
+        // First it is assumed that no line is missing. If this fails, the lines are numbered by
+        // their distances, so that lines may be missing.
         let found = Axis::through(&numbered(&lines), digits)
             .or_else(|| Axis::through(&numbered_by_distance(&lines), digits));
         let Some(mut axis) = found else {
@@ -72,7 +72,7 @@ impl Axis {
         Ok(AxisSearch::Found(axis))
     }
 
-    /// Returns the even grid through numbered lines; `None` if they are uneven, or if too many
+    /// Returns the even grid through numbered lines; `None` if the lines are uneven or if too many
     /// lines are missing.
     fn through(lines: &[GridPoint], digits: Digits) -> Option<Axis> {
         let first = lines.first()?.position;
@@ -96,22 +96,22 @@ impl Axis {
         })
     }
 
-    /// Returns the number of the line through a position; `None` if it lies off the grid.
+    /// Returns the number of the line through a position; `None` if the position lies off the grid.
     fn line(self, position: f64, digits: Digits) -> Option<usize> {
         if self.count == 1 {
             return Some(0);
         }
         let number = ((position - self.first) / self.distance).round();
         let off = (position - self.first - number * self.distance).abs();
-        // The rounding of the printed position and the displacement of the point from its line may
-        // add up.
+        // The rounding of the printed position and the real displacement of the point from its line
+        // may add up to this distance.
         let most = 2.0 * UNEVEN * self.distance.abs() + digits.half(position);
         let is_on_grid = off <= most && number >= 0.0 && (number as usize) < self.count;
         is_on_grid.then_some(number as usize)
     }
 }
 
-/// Returns the positions of the lines through sorted positions.
+/// Returns the positions of the lines of a grid from the sorted positions of its points.
 fn lines(sorted: &[f64]) -> Result<Vec<f64>, SurfaceError> {
     let widest = sorted
         .windows(2)
@@ -123,7 +123,7 @@ fn lines(sorted: &[f64]) -> Result<Vec<f64>, SurfaceError> {
     Ok(gathered(sorted.len(), lines)?)
 }
 
-/// Numbers lines one after the other, for a grid without missing lines.
+/// Numbers the lines one after another. This is right if the grid has no missing lines.
 fn numbered(lines: &[f64]) -> Vec<GridPoint> {
     let points = (0..lines.len()).map(|index| GridPoint {
         number: index as f64,
@@ -132,8 +132,8 @@ fn numbered(lines: &[f64]) -> Vec<GridPoint> {
     points.collect()
 }
 
-/// Numbers lines by their distance from the first line, for a grid with missing lines. The unit of
-/// distance is the mean of the small distances.
+/// Numbers the lines by their distance from the first line, so that numbers of missing lines are
+/// skipped. The unit of distance is the mean of the small distances between lines.
 fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
     let gaps = || lines.windows(2).map(|pair| pair[1] - pair[0]);
     let least = gaps().fold(f64::INFINITY, f64::min);
@@ -160,7 +160,7 @@ fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
 pub(super) struct Map {
     pub heights: Vec<f64>,
     pub columns: usize,
-    /// Distances along and between rows, where they are known.
+    /// Distances between points along the rows and between rows; `None` if they are not known.
     pub distances: Option<[f64; 2]>,
 }
 
@@ -171,12 +171,13 @@ pub(super) struct PointList<'a, P> {
     pub heights: &'a [f64],
     /// Numbers of digits with which x and y are printed.
     pub digits: [Digits; 2],
-    /// Function that returns the place in the file of a point from its index.
+    /// Function that returns the place in the file of the point with this index.
     pub place: P,
 }
 
 impl<P: Fn(usize) -> Place> PointList<'_, P> {
-    /// Creates a map from the points. A point of the grid that is not in the list is missing.
+    /// Creates a map from the points. A point of the grid that the list does not contain becomes a
+    /// missing point.
     pub fn map(&self) -> Result<Map, SurfaceError> {
         let points = self.heights.len();
         if points < 2 {
@@ -246,8 +247,8 @@ impl<P: Fn(usize) -> Place> PointList<'_, P> {
     }
 }
 
-/// Returns the distances along and between rows. A single row or column has the distance of the
-/// other axis.
+/// Returns the distances along and between rows. If there is a single row or column, the unknown
+/// distance is set equal to the other one.
 fn distances(along: Axis, between: Axis) -> [f64; 2] {
     let along = along.distance.abs();
     let between = between.distance.abs();

@@ -12,8 +12,8 @@ pub(super) const SIGNATURE: &[u8] = b"Gwyddion Simple Field 1.0\n";
 
 const REQUIRED: &str = "XRes and YRes";
 
-/// Reads the header up to a zero byte, and then XRes × YRes numbers, which begin at the next
-/// multiple of four bytes.
+/// Reads the header up to a zero byte, and the XRes × YRes heights after it. The heights begin at
+/// the next multiple of four bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let Some(end) = bytes.iter().position(|byte| *byte == 0) else {
         let found = "a header without an end";

@@ -1,5 +1,5 @@
-//! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are
-//! read.
+//! The format GWY of the program Gwyddion. A file contains nested objects with named components, of
+//! which only data fields are read.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::channel::{self, Label, Wanted};
@@ -11,9 +11,9 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the channel that is wanted. If neither a number nor a name is
-/// given, reads the only channel in a unit of length. If there is no such channel, reads the only
-/// channel without a unit.
+/// Reads the data field `/N/data` of the wanted channel. If neither a number nor a name is wanted,
+/// reads the only channel in a unit of length or, if there is none, the only channel without a
+/// unit.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut channels = channels(bytes)?;
     let has_length = channels.iter().any(Channel::is_length);
@@ -62,20 +62,20 @@ fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, SurfaceError> {
     Ok(channels)
 }
 
-/// Title of the channel with this number.
+/// Title of the channel with the number `number`.
 struct Title<'a> {
     number: u32,
     text: Cow<'a, str>,
 }
 
-/// Returns the number N from the name of a component `/N/data` or `/N/data/title`. `end` is the
-/// part of the name after N.
+/// Returns the number N of a channel from the name of a component, `/N/data` or `/N/data/title`.
+/// `end` is the part of this name after N.
 fn channel_number(name: &str, end: &str) -> Option<u32> {
     let name = name.strip_prefix('/')?;
     name.strip_suffix(end)?.parse().ok()
 }
 
-/// Value of a component; types that are not needed are skipped.
+/// Value of a component of an object. Values of types that are not needed are skipped.
 enum Value<'a> {
     Object(Bytes<'a>),
     Number(f64),
@@ -84,7 +84,7 @@ enum Value<'a> {
     Other,
 }
 
-/// Returns the content of the next object, and skips its name and its size.
+/// Returns the content of the next object. Its name and its size are skipped.
 fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, SurfaceError> {
     bytes.text()?;
     let size = bytes.size(Number::U32)?;
@@ -96,7 +96,7 @@ struct Component<'a> {
     value: Value<'a>,
 }
 
-/// Returns the next component of an object; `None` at its end.
+/// Returns the next component of an object; `None` at the end of the object.
 fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<Component<'a>>, SurfaceError> {
     if content.left() == 0 {
         return Ok(None);
@@ -139,7 +139,7 @@ fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<Component<'a>>, Surfa
     Ok(Some(Component { name, value }))
 }
 
-/// Skips `count` values of this size in bytes.
+/// Skips `count` values, each of which has `size` bytes.
 fn skipped<'a>(
     content: &mut Bytes<'_>,
     count: usize,
@@ -151,7 +151,7 @@ fn skipped<'a>(
 
 struct Channel<'a> {
     number: u32,
-    /// Name of the channel; empty if it has none.
+    /// Name of the channel; empty if the channel has no name.
     title: Cow<'a, str>,
     field: Field<'a>,
 }
@@ -190,7 +190,8 @@ impl Channel<'_> {
         Unit::is_name(&self.field.unit_z)
     }
 
-    /// Describes the channel. `has_length` is true if any channel of the file is a length.
+    /// Returns the label of the channel. `has_length` is true if any channel of the file has a unit
+    /// of length.
     fn label(&self, has_length: bool) -> Label {
         let unit = &self.field.unit_z;
         Label {
@@ -262,7 +263,7 @@ mod tests {
         .concat()
     }
 
-    /// Returns a file with channels of 2 × 2 heights in these units.
+    /// Returns a file that has, for each of these units, a channel of 2 × 2 heights.
     fn file(units: &[&str]) -> Vec<u8> {
         let channel = |(number, unit): (usize, &&str)| {
             let unit_of = |unit: &str| {
@@ -295,8 +296,8 @@ mod tests {
     fn channels_have_titles_and_units_of_older_programs() {
         let title = component("/1/data/title", b's', b"Retrace\0");
         let titled = |bytes: Vec<u8>| {
-            // The content of the container begins after the signature, the name and the size of the
-            // container.
+            // The content of the container begins after the signature and after the name and the
+            // size of the container.
             let start = SIGNATURE.len() + "GwyContainer".len() + 1 + 4;
             let content = [&bytes[start..], &title].concat();
             [SIGNATURE, &object("GwyContainer", &content)].concat()
@@ -309,7 +310,7 @@ mod tests {
         );
         let named = read(&both, Wanted::Name("retrace")).unwrap();
         assert_eq!(named, read(&both, Wanted::Number(1)).unwrap());
-        // The unit may have µ in Windows-1252.
+        // The letter µ in the unit may be encoded in Windows-1252.
         let mut latin = file(&["\u{7f}m"]);
         let place = latin.iter().position(|byte| *byte == 0x7f).unwrap();
         latin[place] = 0xb5;

@@ -1,5 +1,6 @@
-//! Surfaces in binary waves of Igor: a profile in one dimension, a map in two, and the layers of a
-//! map in three, as microscopes of Asylum Research write them. Rows begin at the bottom.
+//! Surfaces in binary waves, which are the array files of the program Igor, as microscopes of
+//! Asylum Research write them. A wave with one dimension is a profile, with two a map, and with
+//! three several maps (layers). The lowest row of a map comes first.
 
 use super::channel::{self, Label, Wanted};
 use super::igor::IgorWave;
@@ -10,14 +11,14 @@ use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 
-/// Largest number of layers.
+/// Largest allowed number of layers in a wave.
 const MOST_LAYERS: usize = 256;
 
-/// Names of the columns of force curves.
+/// Names of the columns of a wave that is a force curve and not a surface.
 const OF_CURVES: [&str; 2] = ["Defl", "ZSnsr"];
 
-/// Reads the layer that is wanted. Numbers of layers count from 0. If neither a number nor a name
-/// is given, reads the only layer of heights.
+/// Reads the wanted layer of a wave. Layers are numbered from 0. If neither a number nor a name is
+/// wanted, reads the only layer of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [x, y, layers, higher] = &wave.dimensions;
@@ -47,7 +48,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     let mut heights = wave.numbers(index.saturating_mul(points), points)?;
     reverse_rows(&mut heights, x.count);
     let spacing = Spacing::of(&wave)?;
-    // The wave states a single unit for all layers, and means the layers of heights.
+    // A wave states one unit for all its layers. It is the unit of the layers of heights only.
     let unit = match labels[index].has_heights {
         true => Unit::stated(&wave.unit, Place::Part("unit of the wave".to_owned()))?,
         false => None,
@@ -65,8 +66,8 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     ))
 }
 
-/// Returns true for a force curve, whose columns have the names that the instruments of Asylum
-/// Research give them.
+/// Returns true if the wave is a force curve. Instruments of Asylum Research give the columns of
+/// force curves these names.
 fn is_curve(wave: &IgorWave<'_>) -> bool {
     let labels = &wave.dimensions[1].labels;
     OF_CURVES
@@ -74,8 +75,8 @@ fn is_curve(wave: &IgorWave<'_>) -> bool {
         .any(|name| labels.iter().any(|label| label == name))
 }
 
-/// Describes a layer. A single layer, and layers without names, are heights. Other layers are
-/// heights if their names say so.
+/// Returns the label of a layer. A single layer and a layer without a name contain heights. Any
+/// other layer contains heights if its name says so.
 fn label(wave: &IgorWave<'_>, layer: usize, number: u32) -> Label {
     let layers = &wave.dimensions[2];
     let name = layers.labels.get(layer).cloned().unwrap_or_default();
@@ -88,15 +89,16 @@ fn label(wave: &IgorWave<'_>, layer: usize, number: u32) -> Label {
     }
 }
 
-/// Distances of the points of a map and their units.
+/// Distances between the points of a map, and the units of these distances.
 struct Spacing {
     distances: Option<[f64; 2]>,
     units: StatedUnits,
 }
 
 impl Spacing {
-    /// Returns the distances that the dimensions state. If the dimensions have no unit, they only
-    /// count their elements, and the distances follow from the size of the scan in the note, in m.
+    /// Returns the distances that the dimensions of the wave state. If the dimensions have no unit,
+    /// they only count elements; the distances then follow from the size of the scan in m, which
+    /// the note states.
     fn of(wave: &IgorWave<'_>) -> Result<Self, SurfaceError> {
         let [x, y, ..] = &wave.dimensions;
         let place = |name: &str| Place::Part(format!("unit of dimension {name}"));
@@ -139,8 +141,8 @@ pub(super) mod tests {
 
     const LAYERS: [&str; 3] = ["HeightTrace", "HeightRetrace", "PhaseTrace"];
 
-    /// Returns a map of 3 × 2 points with layers. The numbers of layer n are 10 n + 1 to 10 n + 6,
-    /// times 1e-9.
+    /// Returns a map of 3 × 2 points with several layers. The heights in layer n are 10 n + 1 to 10
+    /// n + 6, times 1e-9.
     pub fn map<'a>(order: Order, labels: &'a [&'a str]) -> Written<'a> {
         let mut numbers = Vec::new();
         for layer in 0..labels.len() {
@@ -176,7 +178,7 @@ pub(super) mod tests {
             assert_eq!((found.format, found.columns), ("IBW", 3));
             assert_eq!(found.spacing, Some([2e-6, 1e-6]));
             assert_eq!(found.units, StatedUnits::METRES);
-            // The second row of the file is the upper row of the map.
+            // The second row in the file is the upper row of the map.
             let expected = [14, 15, 16, 11, 12, 13].map(|n: i16| f64::from(1e-9 * f32::from(n)));
             assert_eq!(found.heights, expected);
         }
@@ -187,7 +189,8 @@ pub(super) mod tests {
             ),
             "{error}"
         );
-        // The phase does not have the unit of the wave.
+        // The unit that the wave states applies to the heights, and not to the layer with the
+        // phase.
         let phase = found(&map(Order::Little, &LAYERS), Wanted::Number(2)).unwrap();
         assert_eq!(phase.units.heights, None);
         let one = found(&map(Order::Little, &["UserIn0"]), Wanted::Heights).unwrap();
@@ -204,7 +207,8 @@ pub(super) mod tests {
             units.map(|unit| unit.map(Unit::name)),
             [Some("µm"), Some("nm")]
         );
-        // Without a unit, the dimensions only count their elements.
+        // If the dimensions have no unit, they only count elements, and the note gives the
+        // distances.
         wave.units = [""; 4];
         wave.steps = [1.0; 4];
         let by_note = found(&wave, Wanted::Heights).unwrap();

@@ -1,34 +1,35 @@
-//! Binary waves of Igor Pro: a header, numbers in up to four dimensions, a note, and names of the
-//! elements of each dimension. Neighbouring numbers in the file are neighbours in the first
-//! dimension.
+//! Binary waves, the array files of the program Igor Pro. A file has a header, an array of numbers
+//! in up to four dimensions, a note, and names of the elements of each dimension. Numbers that are
+//! neighbours in the file are neighbours in the first dimension of the array.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
 
-/// Largest number of dimensions of a wave.
+/// Largest number of dimensions of a wave (the array in the file).
 const DIMENSIONS: usize = 4;
 
-/// Size in bytes of the name of an element.
+/// Size in bytes of the name of an element of a dimension.
 const LABEL_SIZE: usize = 32;
 
-/// Number of bytes between the numbers and the note in files before version 5. The check sum of
-/// such a file also includes the same number of bytes after the headers.
+/// Number of padding bytes between the array and the note, in files before version 5. The check sum
+/// of such a file covers the headers and as many bytes after them.
 const PADDING: usize = 16;
 
-/// Flags of the type of the numbers.
+/// Flags in the code that states the type of the numbers.
 mod flag {
     pub const COMPLEX: usize = 0x01;
     pub const UNSIGNED: usize = 0x40;
 }
 
-/// A version of the format.
+/// A version of the file format.
 struct Version {
     number: u16,
-    /// Size in bytes of the header of the file.
+    /// Size in bytes of the header of the file, with which the file begins.
     file_header: usize,
-    /// Size in bytes of the header of the wave, which follows the header of the file.
+    /// Size in bytes of the header of the wave. This header follows the header of the file.
     wave_header: usize,
-    /// Offset of the size of the note; `None` in a file without a note.
+    /// Offset in bytes of the number that states the size of the note; `None` if this version has
+    /// no note.
     note_size: Option<usize>,
 }
 
@@ -54,8 +55,8 @@ const fn version(
     }
 }
 
-/// Offsets in bytes in the headers of version 5. The offsets whose names contain `SIZE` count from
-/// the header of the file, and all others from the header of the wave.
+/// Offsets in bytes of fields in the headers of version 5. An offset whose name contains `SIZE` is
+/// counted from the header of the file, any other offset from the header of the wave.
 mod field {
     pub const POINTS: usize = 12;
     pub const TYPE: usize = 16;
@@ -69,7 +70,7 @@ mod field {
     pub const SIZES_OF_LABELS: usize = 36;
 }
 
-/// Offsets in bytes in the header of a wave before version 5.
+/// Offsets in bytes of fields in the header of the wave, in versions before 5.
 mod old_field {
     pub const UNIT: usize = 34;
     pub const UNIT_OF_X: usize = 38;
@@ -77,43 +78,46 @@ mod old_field {
     pub const STEP: usize = 48;
 }
 
-/// Number of bytes of a unit in a header.
+/// Number of bytes of a unit in the header of a wave.
 const UNIT_LENGTH: usize = 4;
 
-/// A dimension of a wave.
+/// One dimension of a wave, which is an array.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaveDimension {
     /// Number of elements; 0 for a dimension that the wave does not have.
     pub count: usize,
     /// Distance between neighbouring elements.
     pub step: f64,
-    /// Unit of the distance; empty if none is stated.
+    /// Unit of [`Self::step`]; empty if the file states no unit.
     pub unit: String,
-    /// Names of the elements; empty if they have none.
+    /// Names of the elements; empty if the elements have no names.
     pub labels: Vec<String>,
 }
 
-/// A binary wave of Igor: dimensions, units and note, with its numbers still encoded as bytes.
+/// A binary wave (array) of Igor: its dimensions, its unit and its note. The numbers of the array
+/// remain encoded as bytes until they are requested.
 #[derive(Debug)]
 pub struct IgorWave<'a> {
-    /// Dimensions; neighbouring numbers in the file are neighbours in the first dimension.
+    /// Dimensions of the array. Numbers that are neighbours in the file are neighbours in the first
+    /// dimension.
     pub dimensions: [WaveDimension; DIMENSIONS],
-    /// Unit of the numbers; empty if none is stated.
+    /// Unit of the numbers; empty if the file states no unit.
     pub unit: String,
-    /// Text that programs attach to the wave, with lines `key: value`.
+    /// Note: text that programs attach to the wave, with lines `key: value`.
     pub note: String,
     kind: Number,
     numbers: Bytes<'a>,
 }
 
-/// Layout of the headers of a file.
+/// Version and order of bytes of a file, which determine the layout of its headers.
 struct Layout {
     version: &'static Version,
     order: Order,
 }
 
 impl Layout {
-    /// Returns the layout by the version in the first two bytes; `None` for a file that is no wave.
+    /// Returns the layout that follows from the version in the first two bytes; `None` if the file
+    /// is not a wave.
     fn of(bytes: &[u8]) -> Option<Self> {
         let first = [*bytes.first()?, *bytes.get(1)?];
         for version in &VERSIONS {
@@ -130,8 +134,8 @@ impl Layout {
         None
     }
 
-    /// Returns the sum of both headers as integers of 16 bits, which is 0 in an intact file. Before
-    /// version 5 the sum includes the [`PADDING`] bytes after the headers.
+    /// Returns the sum of the headers of file and wave, as integers of 16 bits. This sum is 0 in an
+    /// intact file. Before version 5 the [`PADDING`] bytes after the headers are added too.
     fn check_sum(&self, bytes: &[u8]) -> u16 {
         let size = self.version.file_header + self.version.wave_header;
         let counted = if self.is_old() { size + PADDING } else { size };
@@ -152,12 +156,13 @@ impl Layout {
     }
 }
 
-/// Returns true for a file that begins with the headers of a wave, whose check sum is right.
+/// Returns true if a file begins with the headers of a wave and the check sum of these headers is
+/// right.
 pub fn is_igor_wave(bytes: &[u8]) -> bool {
     Layout::of(bytes).is_some_and(|layout| layout.check_sum(bytes) == 0)
 }
 
-/// Returns an error for a file that seems to be a wave of version 5, but has a wrong check sum.
+/// Returns an error if a file seems to be a wave of version 5 but its check sum is wrong.
 pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
     match Layout::of(bytes) {
         Some(layout) if !layout.is_old() && layout.check_sum(bytes) != 0 => {
@@ -169,10 +174,10 @@ pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
 }
 
 impl<'a> IgorWave<'a> {
-    /// Parses a file.
+    /// Parses the content of a file.
     ///
     /// # Errors
-    /// Returns [`SurfaceError`] if the file is no wave, is cut off, or has numbers that are no real
+    /// Returns [`SurfaceError`] if the file is not a wave, is cut off, or does not contain real
     /// numbers.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SurfaceError> {
         let Some(layout) = Layout::of(bytes) else {
@@ -186,7 +191,7 @@ impl<'a> IgorWave<'a> {
         }
     }
 
-    /// Parses a file before version 5, which has one dimension.
+    /// Parses a file of a version before 5, whose array has one dimension.
     fn parse_old(bytes: &'a [u8], layout: &Layout) -> Result<Self, SurfaceError> {
         let start = layout.version.file_header;
         let at = |offset: usize| Bytes::from(bytes, layout.order, start + offset);
@@ -224,8 +229,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Parses a file of version 5. The numbers are followed by the formula, the note, long units,
-    /// and the names of the elements, whose sizes are in the header of the file.
+    /// Parses a file of version 5. After the array follow the formula, the note, long units, and
+    /// the names of the elements. The header of the file states the sizes of these parts.
     fn parse_new(bytes: &'a [u8], layout: &Layout) -> Result<Self, SurfaceError> {
         let start = layout.version.file_header;
         let in_file = |offset: usize| Bytes::from(bytes, layout.order, offset);
@@ -262,7 +267,7 @@ impl<'a> IgorWave<'a> {
         }
         for dimension in &mut dimensions {
             let size = sizes_of_labels.size(Number::U32)?;
-            // The first label is the name of the dimension itself.
+            // The first label is the name of the dimension itself, and is skipped.
             let labels = rest.take(size)?.chunks_exact(LABEL_SIZE).skip(1);
             dimension.labels = labels.map(text).collect();
         }
@@ -275,17 +280,17 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns `count` numbers from this index on.
+    /// Returns `count` numbers of the array, beginning with the index `first`.
     ///
     /// # Errors
-    /// Returns [`SurfaceError`] if the wave has fewer numbers.
+    /// Returns [`SurfaceError`] if the array has too few numbers.
     pub fn numbers(&self, first: usize, count: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut numbers = self.numbers;
         numbers.take(first.saturating_mul(self.kind.size()))?;
         numbers.numbers(count, self.kind)
     }
 
-    /// Returns the value of the first line of the note with this key.
+    /// Returns the value in the first line of the note that has this key.
     pub fn entry(&self, key: &str) -> Option<&str> {
         self.note.split(['\r', '\n']).find_map(|line| {
             let (name, value) = line.split_once(':')?;
@@ -293,14 +298,15 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns the number of a line of the note.
+    /// Returns the number in the first line of the note that has this key; `None` if the value is
+    /// not a finite number.
     pub fn number(&self, key: &str) -> Option<f64> {
         let number: f64 = self.entry(key)?.parse().ok()?;
         number.is_finite().then_some(number)
     }
 }
 
-/// Returns the type of the numbers.
+/// Reads the code of the type of the numbers, and returns this type.
 fn number_type(mut bytes: Bytes<'_>) -> Result<Number, SurfaceError> {
     let place = bytes.place();
     let code = bytes.size(Number::U16)?;
@@ -330,8 +336,8 @@ fn number_type(mut bytes: Bytes<'_>) -> Result<Number, SurfaceError> {
     Ok(kind)
 }
 
-/// Returns an error unless the product of the counts of the dimensions, up to the first count of 0,
-/// is the number of points.
+/// Returns an error unless the number of points equals the product of the counts of the dimensions,
+/// up to the first count of 0.
 fn check_points(
     points: usize,
     counts: &[f64; DIMENSIONS],
@@ -350,7 +356,7 @@ fn check_points(
     Ok(())
 }
 
-/// Returns a text up to its first zero byte.
+/// Returns the text before the first zero byte.
 fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0);
     decoded(&bytes[..end.unwrap_or(bytes.len())]).into_owned()
@@ -366,7 +372,7 @@ fn replace_if_stated(unit: &mut String, long: &[u8]) {
 pub(super) mod tests {
     use super::*;
 
-    /// Content of a wave of version 5 that a test writes.
+    /// Content of a wave of version 5, from which a test writes a file.
     #[derive(Default)]
     pub struct Written<'a> {
         pub counts: [u32; DIMENSIONS],
@@ -398,7 +404,7 @@ pub(super) mod tests {
             self.bytes[offset..offset + text.len()].copy_from_slice(text);
         }
 
-        /// Sets the check sum so that the sum of all integers of the headers is 0.
+        /// Sets the check sum of the headers so that the sum of all their integers is 0.
         fn sum(&mut self, offset: usize) {
             let layout = Layout::of(&self.bytes).unwrap();
             let sum = layout.check_sum(&self.bytes);
@@ -452,7 +458,7 @@ pub(super) mod tests {
         .concat()
     }
 
-    /// Returns a file of version 2 with these numbers, a distance of 2 and a note.
+    /// Returns a file of version 2 with these numbers, a note, and a distance of 2 between points.
     pub fn old_file(numbers: &[f64], order: Order) -> Vec<u8> {
         let mut header = Header {
             bytes: vec![0; 126],

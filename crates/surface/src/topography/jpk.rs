@@ -1,6 +1,6 @@
-//! Images of JPK: TIFF with tags of the grid, of the channels and of the calibrations of the
-//! channels, which the format calls slots. The first row in the file is the lowest row, unless the
-//! grid is reflected.
+//! Images of JPK. They are TIFF files with tags for the grid, for the channels, and for the
+//! calibrations of the channels, which the format calls slots. The first row in the file is the
+//! lowest row of the map, unless the grid is reflected.
 
 use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
@@ -11,21 +11,20 @@ use super::unit::Unit;
 use crate::error::{SurfaceError, refused};
 use asperity_data::shown;
 
-/// Largest number of slots of a channel.
+/// Largest number of slots (calibrations) of a channel.
 const MOST_SLOTS: usize = 64;
 
-/// Difference between the number of a tag of one slot and the number of the same tag of the next
-/// slot.
+/// The number of a tag grows by this difference from one slot to the next.
 const SLOT: u16 = 0x30;
 
-/// Tags of the grid, in the first directory.
+/// Numbers of the tags of the grid, which are in the first directory of the file.
 mod grid {
     pub const WIDTH: u16 = 0x8042;
     pub const HEIGHT: u16 = 0x8043;
     pub const IS_REFLECTED: u16 = 0x8045;
 }
 
-/// Tags of a channel. The tags of slots are those of the first slot.
+/// Numbers of the tags of a channel. For slots, these are the numbers in the first slot.
 mod tag {
     pub const PHOTOMETRIC: u16 = 262;
     pub const NAME: u16 = 0x8050;
@@ -40,11 +39,11 @@ mod tag {
     pub const OFFSET: u16 = 0x80a5;
 }
 
-/// Largest photometric code of an image without colours. An image with colours is the thumbnail.
+/// Largest photometric code of an image without colours. An image with colours is only a thumbnail.
 const GREY: f64 = 1.0;
 
-/// Returns true for the directories of a file of JPK. The first directory of such a file states the
-/// size of the grid.
+/// Returns true if the directories are those of a file of JPK, in which the first directory states
+/// the size of the grid.
 pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
     let has = |directory: &Directory<'_>, tag: u16| matches!(directory.number(tag), Ok(Some(_)));
     directories
@@ -52,8 +51,8 @@ pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
         .is_some_and(|first| has(first, grid::WIDTH) && has(first, grid::HEIGHT))
 }
 
-/// Reads the channel that is wanted. Numbers of channels count from 0, without the thumbnail. A
-/// channel is one of heights if its unit is a length and its name says that it has heights.
+/// Reads the wanted channel. Channels are numbered from 0, without the thumbnail. A channel
+/// contains heights if its unit is a length and its name says that it contains heights.
 pub(super) fn read(
     directories: &[Directory<'_>],
     wanted: Wanted<'_>,
@@ -72,7 +71,7 @@ pub(super) fn read(
         }
     }
     let index = channel::chosen(&labels, "channel", wanted)?;
-    // The first directory exists, because [`is_jpk`] has found the tags of the grid in it.
+    // The first directory exists, because [`is_jpk`] has already found the tags of the grid in it.
     let grid = &directories[0];
     channels[index].reading(grid)
 }
@@ -84,11 +83,12 @@ struct Channel<'a> {
     slot: Slot,
 }
 
-/// The slot that the instrument shows by default.
+/// The slot (calibration) of a channel that the instrument shows by default.
 #[derive(Default)]
 struct Slot {
     unit: String,
-    /// Kind of the conversion of numbers to values, such as linear; empty if there is none.
+    /// Kind of the conversion from stored numbers to values, such as linear; empty if there is no
+    /// conversion.
     scaling: String,
     multiplier: Option<f64>,
     offset: f64,
@@ -146,7 +146,7 @@ impl<'a> Channel<'a> {
         }
     }
 
-    /// Returns the heights. `grid` is the directory that states the grid.
+    /// Returns the heights of the channel. `grid` is the directory with the tags of the grid.
     fn reading(&self, grid: &Directory<'_>) -> Result<Reading, SurfaceError> {
         let slot = &self.slot;
         let place = || self.directory.place();
@@ -233,7 +233,7 @@ pub(super) mod tests {
             assert_eq!((found.format, found.columns), ("JPK", 3));
             assert_eq!(found.spacing, Some([2e-6, 1e-6]));
             let expected = |number: i32| f64::from(number + 1) * -2e-10 + 3e-6;
-            // The last row of the file is the upper row of the map.
+            // The last row in the file is the upper row of the map.
             let upper_first = [40, 50, 60, 1, -2, 3].map(expected);
             assert_eq!(found.heights, upper_first);
             let reflected = tiff_maker::read(&file(order, bits, true), Wanted::Number(1)).unwrap();

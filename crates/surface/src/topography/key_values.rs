@@ -3,7 +3,7 @@
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 
-/// Entries of a header. Keys are case-insensitive.
+/// Entries of a header. Upper and lower case of the keys does not matter.
 #[derive(Default)]
 pub(super) struct KeyValues {
     entries: Vec<Entry>,
@@ -16,14 +16,15 @@ struct Entry {
     line: usize,
 }
 
-/// The value of a key, and its place in the file.
+/// The value of a key in a header, and its place in the file.
 pub(super) struct Value<'a> {
     pub text: &'a str,
     pub place: Place,
 }
 
 impl KeyValues {
-    /// Reads one line of the header. `allowed` says in an error what lines are allowed.
+    /// Reads one line of the header. `allowed` is the part of the error message that says which
+    /// lines are allowed.
     pub fn take(
         &mut self,
         line_number: usize,
@@ -61,8 +62,8 @@ impl KeyValues {
         }
     }
 
-    /// Returns the positive integer of a key. The error for a missing key lists all `required`
-    /// keys.
+    /// Returns the positive integer that a key has as its value. If the key is missing, the error
+    /// lists all `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
         let Some(value) = self.value(key) else {
             return Err(missing(key, required));
@@ -81,7 +82,7 @@ fn wrong(key: &str, value: Value<'_>, allowed: &str) -> SurfaceError {
     refused(value.place, found, allowed)
 }
 
-/// Returns the error of a missing key. It lists all `required` keys.
+/// Returns the error for a missing key. It lists all `required` keys.
 pub(super) fn missing(key: &str, required: &str) -> SurfaceError {
     refused(Place::File, format!("no {key} in the header"), required)
 }

@@ -1,23 +1,24 @@
-//! Warning of heights with few digits or bits, whose steps look like roughness.
+//! Warning about heights that are stored with few digits or bits. The steps between such heights
+//! look like roughness.
 
 use asperity_data::format_quantity;
 use std::collections::HashSet;
 
-/// Largest number of different heights (levels) that are counted. With more levels, the rounding of
-/// the heights is negligible.
+/// Largest number of different heights (levels) that are counted. If there are more levels, the
+/// rounding of the heights is negligible.
 const MOST_LEVELS: usize = 256;
 
-/// Smallest ratio of points to levels for which a message is possible. With fewer points, each may
-/// have a height of its own by chance.
+/// Smallest number of points per level with which a warning is possible. If there are fewer points,
+/// each point may have a level of its own by chance.
 const LEAST_POINTS: usize = 4;
 
-/// Share of the mean square difference between neighbours that results from rounding to levels,
-/// from which on a message is returned.
+/// Smallest share of the mean square difference between neighbours that must result from rounding
+/// to levels, for a warning to be returned.
 const LARGE: f64 = 0.1;
 
-/// Returns a message if the heights (m), in rows of `columns` points, have few levels; else `None`.
-/// Rounding to multiples of a step s adds an error with the mean square s²/12 to each height, and
-/// s²/6 to the squared difference of two neighbours.
+/// Returns a warning if the heights (in m, in rows of `columns` points) have few levels, otherwise
+/// `None`. Rounding to multiples of a step s adds an error with the mean square s²/12 to each
+/// height, and therefore s²/6 to the mean square difference of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     let levels = few_levels(heights)?;
     let step = levels
@@ -42,7 +43,7 @@ pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
 fn few_levels(heights: &[f64]) -> Option<Vec<f64>> {
     let mut found = HashSet::new();
     for height in heights.iter().filter(|height| height.is_finite()) {
-        // The sum turns −0 into 0, so that both are the same level.
+        // Adding 0 turns −0 into 0, so that these two count as the same level.
         found.insert((height + 0.0).to_bits());
         if found.len() > MOST_LEVELS {
             return None;
@@ -53,8 +54,8 @@ fn few_levels(heights: &[f64]) -> Option<Vec<f64>> {
     Some(levels)
 }
 
-/// Returns the mean square difference of neighbouring measured heights in rows; NaN if no measured
-/// heights are neighbours.
+/// Returns the mean square difference between neighbouring measured heights of a row; NaN if no two
+/// measured heights are neighbours.
 fn mean_square_difference(heights: &[f64], columns: usize) -> f64 {
     let mut sum = 0.0;
     let mut count = 0_u32;

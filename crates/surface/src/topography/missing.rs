@@ -4,7 +4,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{OutOfMemory, between, gathered};
 use std::ops::Range;
 
-/// Smallest share of points that must be measured for the others to be interpolated.
+/// Smallest share of the points that must be measured. With fewer measured points, nothing is
+/// interpolated.
 const LEAST_MEASURED: f64 = 0.5;
 
 /// Number of times that the missing points are replaced by the means of their neighbours, at each
@@ -21,8 +22,8 @@ fn missing_places(heights: &[f64]) -> Result<Vec<usize>, OutOfMemory> {
     gathered(count(heights), places)
 }
 
-/// Returns the ranges of columns and rows from the first to the last with a measured point; empty
-/// if no point is measured.
+/// Returns the range of columns and the range of rows from the first to the last one with a
+/// measured point. The ranges are empty if no point is measured.
 pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
     let mut across = 0..0;
     let mut down = 0..0;
@@ -49,10 +50,10 @@ fn extend(range: &mut Range<usize>, place: usize) {
 /// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one
 /// row. Returns the indices of the interpolated heights.
 ///
-/// In a profile a missing height lies on the straight line between the nearest measured points on
-/// both sides, or equals the nearest one at an end. In a map it is nearly the mean of its
-/// neighbours, so that the interpolated surface has the shape of a soap film attached to the
-/// measured points: see [`fill`].
+/// In a profile, a missing height lies on the straight line between the nearest measured points on
+/// both sides; at an end it equals the nearest measured height. In a map, a missing height is
+/// nearly the mean of its neighbours. The interpolated surface then has the shape of a soap film
+/// attached to the measured points: see [`fill`].
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, SurfaceError> {
     let share = 1.0 - count(heights) as f64 / heights.len() as f64;
     if share < LEAST_MEASURED {
@@ -92,11 +93,11 @@ fn fill_profile(heights: &mut [f64]) {
     }
 }
 
-/// Fills the missing points at these indices from all sides. The initial heights come from a map of
-/// half the resolution, the means of blocks of 2 × 2 points, whose missing points are filled in the
-/// same way. Each missing height is then replaced [`PASSES`] times by the mean of its neighbours.
-/// The result nearly solves Laplace's equation in the gaps, with zero slope across the borders of
-/// the map.
+/// Fills the missing points with these indices. First a map of half the resolution is made from the
+/// means of blocks of 2 × 2 points, and its missing points are filled in the same way. This map
+/// gives the initial heights. Then each missing height is replaced [`PASSES`] times by the mean of
+/// its neighbours. The result nearly solves Laplace's equation in the gaps, with zero slope across
+/// the borders of the map.
 fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), OutOfMemory> {
     if places.is_empty() {
         return Ok(());
@@ -119,8 +120,8 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     Ok(())
 }
 
-/// Returns the means of the measured points in blocks of 2 × 2 points. A block without a measured
-/// point is missing.
+/// Returns the means of the measured points in blocks of 2 × 2 points. The mean of a block without
+/// a measured point is a missing point.
 fn halved(heights: &[f64], columns: usize) -> Result<Vec<f64>, OutOfMemory> {
     let rows = heights.len() / columns;
     let half_columns = columns.div_ceil(2);
@@ -168,7 +169,7 @@ fn mean_of_neighbours(heights: &[f64], columns: usize, index: usize) -> f64 {
     mean.value()
 }
 
-/// Mean of a few heights; NaN without a height.
+/// Mean of a few heights; NaN if there is no height.
 #[derive(Default)]
 struct Mean {
     sum: f64,
@@ -211,14 +212,14 @@ mod tests {
 
     #[test]
     fn wide_gaps_are_filled_from_all_sides() {
-        // A plane solves Laplace's equation, except near the borders of the map, where the
-        // interpolated surface has no slope.
+        // A plane solves Laplace's equation. The interpolated surface differs from it only near the
+        // borders of the map, where it has zero slope.
         let columns = 60;
         let plane = |index: usize| (index % columns) as f64 + 2.0 * (index / columns) as f64;
         let place = |index: usize| (index % columns, index / columns);
         let is_hole = |index: usize| {
             let (x, y) = place(index);
-            // The holes are a rectangle, and a row and a column without any measured point.
+            // The holes are a rectangle, a whole column and a whole row.
             (20..40).contains(&x) && (15..35).contains(&y) || x == 50 || y == 10
         };
         let mut heights: Vec<f64> = (0..columns * 50)
@@ -232,7 +233,7 @@ mod tests {
         );
         let off = |index: usize| (heights[index] - plane(index)).abs();
         let largest = (0..heights.len()).map(off).fold(0.0, f64::max);
-        // The plane rises by 140 from corner to corner.
+        // The plane rises by 140 from one corner to the opposite corner.
         assert!(largest < 1.0, "{largest}");
     }
 

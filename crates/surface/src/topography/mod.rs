@@ -1,10 +1,11 @@
 //! Measured surfaces: readers of the files of instruments and programs, which return heights in m.
 //!
 //! [`read`](crate::read) recognises the format of a file by its content, and not by its name. Units
-//! are never guessed: if a file states none, [`ReadOptions`](crate::ReadOptions) has to state one.
-//! Every error names the place in the file and what is allowed there. A file of n bytes after
-//! decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes
-//! for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
+//! are never guessed: if a file states no unit, [`ReadOptions`](crate::ReadOptions) has to state
+//! it. Every error names the place in the file and what is allowed there. A file of n bytes after
+//! decompression takes at most 1 MiB + 64 n bytes of memory. Decompression stops at 1 MiB + 32
+//! bytes for each byte of the file or, if a header states the number of heights, at this number,
+//! but at most at 1 GiB.
 
 mod archive;
 mod arrays;

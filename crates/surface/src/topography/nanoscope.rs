@@ -1,5 +1,5 @@
-//! The format of Nanoscope (Digital Instruments, Veeco, Bruker): a header of text in sections, then
-//! the integer heights of each channel, from the lowest row up.
+//! The format of Nanoscope (Digital Instruments, Veeco, Bruker). A file has a header of text in
+//! sections, followed by the heights of each channel as integers, the lowest row first.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::channel::{self, Label, Wanted};
@@ -19,21 +19,21 @@ pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
 /// Last words of the header.
 const END: &[u8] = b"File list end";
 
-/// Limit of the length of a header in bytes.
+/// Largest allowed length of a header in bytes.
 const LONGEST_HEADER: usize = 1 << 18;
 
 const MOST_CHANNELS: usize = 256;
 
-/// Range of the heights of files without a unit of heights, in m: this constant times the number in
-/// `Z magnify image`.
+/// Conversion for files without a unit of heights: the range of the heights in m is this constant
+/// times the number in `Z magnify image`.
 const PER_MAGNIFICATION: f64 = 1.0e-7;
 
-/// Relative difference between the distance of points along the rows and the distance of rows, from
-/// which on a message states both distances.
+/// Relative difference between the distance along the rows and the distance between rows. If the
+/// difference is larger, a message states both distances.
 const DIFFERENT: f64 = 0.01;
 
-/// Reads the channel that is wanted. Numbers of channels count from 0. If neither a number nor a
-/// name is given, reads the only channel of heights.
+/// Reads the wanted channel. Channels are numbered from 0. If neither a number nor a name is
+/// wanted, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();
@@ -68,7 +68,7 @@ fn header(bytes: &[u8]) -> Result<Cow<'_, str>, SurfaceError> {
     }
 }
 
-/// Returns true for the section of a channel of an image.
+/// Returns true if a section of the header describes a channel.
 fn is_image(section: &str) -> bool {
     let name = section.lines().next().unwrap_or_default();
     let name = name.trim().to_ascii_lowercase();
@@ -77,8 +77,8 @@ fn is_image(section: &str) -> bool {
         && entry(section, "Data offset").is_some()
 }
 
-/// Returns the value of the first line `\key: value` of a section. Before the key may be `@` and
-/// the number of a group, as in `@2:Z scale`.
+/// Returns the value of the first line `\key: value` of a section. The key may follow `@` and the
+/// number of a group, as in `@2:Z scale`.
 fn entry<'a>(section: &'a str, key: &str) -> Option<&'a str> {
     section.lines().find_map(|line| {
         let line = line.trim().strip_prefix('\\')?;
@@ -99,8 +99,8 @@ fn without_group(line: &str) -> &str {
     }
 }
 
-/// Returns the name of the channel of a section: the text in quotation marks, or in brackets, of
-/// `S [ZSensor] "Height Sensor"`.
+/// Returns the name of the channel that a section describes. In `S [ZSensor] "Height Sensor"` it is
+/// the text in quotation marks or, if there is none, the text in brackets.
 fn title(image: &str) -> &str {
     let name = entry(image, "Image data").unwrap_or_default();
     let quoted = name.split('"').nth(1).filter(|name| !name.is_empty());
@@ -108,10 +108,10 @@ fn title(image: &str) -> &str {
     quoted.or(in_brackets).unwrap_or(name)
 }
 
-/// A value with a unit, as in `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
+/// A number with a unit in the header, as in `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
 #[derive(Default)]
 struct Value<'a> {
-    /// Name of the scale that converts the value.
+    /// Name of the sensitivity that converts the number to a length, here `Sens. Zsens`.
     scale: Option<&'a str>,
     number: f64,
     unit: &'a str,
@@ -141,17 +141,18 @@ impl<'a> Value<'a> {
     }
 }
 
-/// Returns the text between brackets at the beginning of a text, and the text after them.
+/// Returns the text between two brackets at the beginning of `text`, and the text after the
+/// brackets.
 fn enclosed(text: &str, open: char, close: char) -> Option<(&str, &str)> {
     text.strip_prefix(open)?.split_once(close)
 }
 
-/// Returns the unit of length of this name, in which µ may be written as `~`.
+/// Returns the unit of length with this name, in which µ may be written as `~`.
 fn length_unit(text: &str) -> Option<Unit> {
     text.replace('~', "µ").parse().ok()
 }
 
-/// Returns the unit of an electric signal in V.
+/// Returns the value of an electric unit in V; `None` for another unit.
 fn in_volts(unit: &str) -> Option<f64> {
     match unit {
         "V" => Some(1.0),
@@ -160,7 +161,8 @@ fn in_volts(unit: &str) -> Option<f64> {
     }
 }
 
-/// Range of the heights of a channel, from the smallest to the largest integer.
+/// Range of the heights of a channel: the difference between the heights of the largest and the
+/// smallest integer.
 struct HeightRange {
     unit: Unit,
     range: f64,
@@ -176,13 +178,13 @@ struct ScanSize {
 struct Image<'a> {
     number: u32,
     section: &'a str,
-    /// Sections of the whole header, some of which have the scales of channels.
+    /// All sections of the header, because scales of channels are in other sections.
     sections: &'a [&'a str],
 }
 
 impl Image<'_> {
-    /// Describes the channel. It counts as a channel of heights if its numbers are lengths and its
-    /// name says that they are heights.
+    /// Returns the label of the channel. It counts as a channel of heights if its numbers are
+    /// lengths and its name says that it contains heights.
     fn label(&self) -> Label {
         let name = title(self.section);
         Label {
@@ -194,7 +196,7 @@ impl Image<'_> {
         }
     }
 
-    /// Returns the range of the heights; `None` if the numbers of the channel are no lengths.
+    /// Returns the range of the heights; `None` if the numbers of the channel are not lengths.
     fn height_range(&self) -> Option<HeightRange> {
         let scale = entry(self.section, "Z scale").and_then(Value::parse);
         let scale = scale.unwrap_or_default();
@@ -213,7 +215,7 @@ impl Image<'_> {
         };
         let mut sections = self.sections.iter();
         let sensitivity = sections.find_map(|section| Value::parse(entry(section, name)?))?;
-        // The sensitivity has a unit such as nm/V.
+        // The unit of the sensitivity is a ratio, such as nm/V.
         let (unit_of_height, unit_of_signal) = sensitivity.unit.split_once('/')?;
         let range = scale.number * sensitivity.number;
         Some(HeightRange {
@@ -222,8 +224,8 @@ impl Image<'_> {
         })
     }
 
-    /// Reads the heights of the channel, and reverses the order of the rows, because the file
-    /// begins with the lowest row.
+    /// Reads the heights of the channel. The order of the rows is reversed, because the file begins
+    /// with the lowest row.
     fn reading(&self, bytes: &[u8]) -> Result<Reading, SurfaceError> {
         let columns = self.count("Samps/line")?;
         let rows = self.count("Number of lines")?;
@@ -242,7 +244,8 @@ impl Image<'_> {
         let size = self.scan_size()?;
         let along = size.width / columns as f64;
         let between = size.height / rows as f64;
-        // A scan of a single place, and a scan whose settings are lost, state a size of 0.
+        // The stated size is 0 for a scan of a single place, and for a scan whose settings are
+        // lost.
         let has_size = along > 0.0 && between > 0.0;
         let steps = 2.0_f64.powi(8 * number.size() as i32);
         let units = StatedUnits::new(Some(size.unit), Some(heights.unit));
@@ -265,9 +268,9 @@ impl Image<'_> {
         Ok(reading)
     }
 
-    /// Returns the type of the integers, for `points` points in `length` bytes.
+    /// Returns the type of the integers if `points` points take `length` bytes.
     fn number_type(&self, points: usize, length: usize) -> Result<Number, SurfaceError> {
-        // Some versions state 2 bytes and store 4.
+        // Some versions state that an integer has 2 bytes but store it in 4 bytes.
         let size_by_length = [2, 4]
             .into_iter()
             .find(|size| points.saturating_mul(*size) == length);
@@ -291,7 +294,7 @@ impl Image<'_> {
             let allowed = "width and height with a unit of length";
             return Err(self.wrong("Scan size", allowed));
         };
-        // If the file states one size, or the same size twice, the height follows from the aspect
+        // If the file states only the width, or the width twice, the height follows from the aspect
         // ratio.
         if size.height == size.width || size.height == 0.0 {
             size.height = size.width / self.aspect_ratio().unwrap_or(1.0);
@@ -305,7 +308,8 @@ impl Image<'_> {
         (ratio > 0.0).then_some(ratio)
     }
 
-    /// Returns the number of a key. Returns an error unless the number is a positive integer.
+    /// Returns the number in the line with this key. Returns an error unless it is a positive
+    /// integer.
     fn count(&self, key: &str) -> Result<usize, SurfaceError> {
         let word = entry(self.section, key).and_then(|text| text.split_ascii_whitespace().next());
         match word.and_then(|word| word.parse().ok()) {
@@ -323,7 +327,7 @@ impl Image<'_> {
 }
 
 impl ScanSize {
-    /// Reads one or two numbers and a unit.
+    /// Parses one or two lengths with a unit, such as `500 250 nm`.
     fn parse(text: &str) -> Option<Self> {
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let (width, height, unit) = match words[..] {
@@ -348,8 +352,8 @@ mod tests {
     use super::super::options::ReadOptions;
     use super::*;
 
-    /// Returns a file with the entries of a scan and of its images. Each image has the integers of
-    /// two rows of three points.
+    /// Returns a file whose header has the lines `scan` and, for each image, its lines. Each image
+    /// has the integers of two rows of three points.
     fn file(scan: &str, images: &[&str], numbers: &[u8]) -> Vec<u8> {
         let mut header = format!("\\*File list\r\n\\Version: 0x07200000\r\n{scan}");
         for (index, image) in images.iter().enumerate() {
@@ -394,7 +398,8 @@ mod tests {
 
     #[test]
     fn heights_and_sizes_follow_from_the_scales_of_any_version() {
-        // Heights in nm: 12.5 nm/V × 6.5536 V / 2¹⁶; the last row is the lowest.
+        // Heights in nm: a number times 12.5 nm/V × 6.5536 V / 2¹⁶. The last row in the file is the
+        // upper row of the map.
         let steps = |step: f64| {
             [-4.0, 5.0, 6.0, 1.0, 2.0, 3.0]
                 .map(|number: f64| (number * step * 1e6).round() / 1e6)
@@ -462,7 +467,7 @@ mod tests {
         let plain = file(SCAN, &[HEIGHT], &short());
         let head = plain.strip_prefix(SIGNATURE).unwrap();
         let mut in_liquid = [SIGNATURE_OF_ELECTROCHEMISTRY, head].concat();
-        // Three bytes are removed, so that the offset of the heights remains the same.
+        // Three bytes are removed elsewhere in the header, so that the heights keep their offset.
         in_liquid.drain(1_000..1_003);
         assert_eq!(heights(&in_liquid), heights(&plain));
 

@@ -1,5 +1,5 @@
-//! NetCDF in its classic format (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography
-//! write it: a variable `heights` over positions `x`, and for a map also `y`.
+//! The classic format of NetCDF (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography
+//! write it. A file has a variable `heights` over the positions `x` and, for a map, also `y`.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::positions::first_uneven;
@@ -9,24 +9,24 @@ use super::transpose::transposed;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 
-/// First bytes of a file, which the number of the version follows.
+/// First bytes of a file. The number of the version follows after them.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
-/// Number that precedes the list of dimensions.
+/// Number in front of the list of dimensions in the header.
 const DIMENSIONS: usize = 10;
 
-/// Number that precedes the list of variables.
+/// Number in front of the list of variables in the header.
 const VARIABLES: usize = 11;
 
-/// Number that precedes a list of attributes.
+/// Number in front of a list of attributes in the header.
 const ATTRIBUTES: usize = 12;
 
-/// Code of the type of characters; all other types are numbers.
+/// Code of the type character. All other types are numbers.
 const CHARACTERS: usize = 2;
 
 struct Variable<'a> {
     name: &'a [u8],
-    /// Indices of the dimensions of the variable, the fastest varying last.
+    /// Indices of the dimensions of the variable. The values vary fastest along the last one.
     dimensions: Vec<usize>,
     conversion: Conversion<'a>,
     number: Number,
@@ -34,15 +34,15 @@ struct Variable<'a> {
     begin: usize,
 }
 
-/// What the attributes of a variable state about its values.
+/// Properties of the values of a variable, which its attributes state.
 struct Conversion<'a> {
-    /// Text of the unit; empty if the variable has none.
+    /// Text of the unit; empty if the attributes state no unit.
     unit: &'a [u8],
-    /// Values that mark missing points; NaN where the file states none.
+    /// Values that mark missing points; NaN if the file states no such value.
     missing: [f64; 2],
     scale: f64,
     offset: f64,
-    /// True for positions of a periodic surface.
+    /// True if the values are positions on a periodic surface.
     is_periodic: bool,
 }
 
@@ -60,7 +60,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         return Err(refused(Place::File, "no variable `heights`", allowed));
     };
     let values = dataset.unmasked(heights)?;
-    // Each variable has a unit of its own or none.
+    // Each variable may have its own unit, or none.
     let height_unit = heights.unit()?;
     let mut reading = match heights.dimensions[..] {
         [dimension] => profile(&dataset, dimension, values, height_unit),
@@ -123,7 +123,7 @@ fn map(
         let spacing = both(fast_distance, slow_distance);
         return Ok(Reading::even("NetCDF", values, fast_count, spacing, units));
     }
-    // The slow dimension is x, so the matrix is transposed to give rows along x.
+    // Here x is the slow dimension, so the matrix is transposed to get rows along x.
     let turned = transposed(&values, fast_count)?;
     let columns = dataset.length(slow)?;
     let units = StatedUnits {
@@ -135,7 +135,7 @@ fn map(
     Ok(Reading::even("NetCDF", turned, columns, spacing, units))
 }
 
-/// Returns both distances, if both are known.
+/// Returns the two distances, or `None` unless both are known.
 fn both(along: Option<f64>, between: Option<f64>) -> Option<[f64; 2]> {
     Some([along?, between?])
 }
@@ -153,7 +153,7 @@ impl<'a> Dataset<'a> {
                 return Err(refused(place, found, "1 or 2, the classic format"));
             }
         };
-        // Skips the number of records.
+        // The number of records in the header is not needed.
         header.take(4)?;
         let dimensions = list(&mut header, DIMENSIONS, |header| {
             name(header)?;
@@ -172,8 +172,8 @@ impl<'a> Dataset<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    /// Returns the variable with the positions along a dimension. The variable is called `x` or
-    /// `y`; the name of the dimension does not matter.
+    /// Returns the variable that has the positions along a dimension. This variable is called `x`
+    /// or `y`, whatever the name of the dimension is.
     fn positions_over(&self, dimension: usize) -> Option<&Variable<'a>> {
         self.variables.iter().find(|variable| {
             [&b"x"[..], b"y"].contains(&variable.name) && variable.dimensions == [dimension]
@@ -189,14 +189,14 @@ impl<'a> Dataset<'a> {
     }
 
     /// Returns true if an attribute of the positions along a dimension states that the surface is
-    /// periodic. The program SurfaceTopography writes this attribute only for x, and means both
-    /// axes.
+    /// periodic. The program SurfaceTopography writes this attribute only for x, but it applies to
+    /// both axes.
     fn is_periodic(&self, dimension: usize) -> bool {
         self.positions_over(dimension)
             .is_some_and(|positions| positions.conversion.is_periodic)
     }
 
-    /// Returns the distance of the positions along a dimension.
+    /// Returns the distance between neighbouring positions along a dimension.
     fn distance_over(&self, dimension: usize) -> Result<Option<f64>, SurfaceError> {
         match self.positions_over(dimension) {
             Some(positions) => even_distance(&self.values(positions)?).map(Some),
@@ -219,7 +219,7 @@ impl<'a> Dataset<'a> {
         }
     }
 
-    /// Returns the values of a variable, with NaN for missing points.
+    /// Returns the values of a variable, in which missing points are NaN.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, SurfaceError> {
         let mut count = 1_usize;
         for dimension in &variable.dimensions {
@@ -239,8 +239,7 @@ impl<'a> Dataset<'a> {
         Ok(values)
     }
 
-    /// Returns the heights, with NaN for missing points and for points that a variable `mask`
-    /// excludes.
+    /// Returns the heights. Missing points, and points that the variable `mask` excludes, are NaN.
     fn unmasked(&self, heights: &Variable) -> Result<Vec<f64>, SurfaceError> {
         let mut values = self.values(heights)?;
         let Some(mask) = self.variable(b"mask") else {
@@ -265,7 +264,7 @@ impl Variable<'_> {
     }
 }
 
-/// Reads a list. A list consists of the number `mark` that precedes it, the number of its entries,
+/// Reads a list from the header. A list consists of the number `mark`, the number of its entries,
 /// and the entries.
 fn list<'a, T>(
     header: &mut Bytes<'a>,
@@ -291,7 +290,7 @@ fn list<'a, T>(
     Ok(entries)
 }
 
-/// Returns `count` bytes, and skips the bytes that fill them up to a multiple of four.
+/// Returns `count` bytes, and skips the padding bytes up to the next multiple of four.
 fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], SurfaceError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
@@ -303,7 +302,7 @@ fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], SurfaceError> {
     padded(header, length)
 }
 
-/// Reads a type code; `None` for characters.
+/// Reads the code of a type; `None` stands for characters.
 fn number_type(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
     let place = header.place();
     match header.size(Number::U32)? {
@@ -319,7 +318,7 @@ fn number_type(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
 
 struct Attribute<'a> {
     name: &'a [u8],
-    /// Type of the content; `None` for characters.
+    /// Type of the values of the attribute; `None` for characters.
     number: Option<Number>,
     content: &'a [u8],
 }
@@ -375,9 +374,9 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
         dimensions.push(header.size(Number::U32)?);
     }
     let conversion = Conversion::new(list(header, ATTRIBUTES, attribute)?);
-    // The values of a text variable are never read, so its type does not matter.
+    // A variable of text is never read, so a wrong type for it does no harm.
     let number = number_type(header)?.unwrap_or(Number::U8);
-    // Skips the size of the values in bytes, which also follows from the dimensions.
+    // The size of the values in bytes is skipped, because it also follows from the dimensions.
     header.take(4)?;
     let begin = header.size(offsets)?;
     Ok(Variable {

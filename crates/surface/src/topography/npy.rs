@@ -1,9 +1,9 @@
 //! NumPy arrays: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile. An array of n × 2 numbers, or of n pairs of fields, holds
-//! the columns x and z of a profile. Any other array with two axes is a map, row by row. The header
-//! is parsed here, because the parser of the crate npyz takes seconds for 20 nested brackets, and
-//! twice as long for each further one.
+//! An array of n heights is a profile. An array of n × 2 numbers, or of n elements with two fields,
+//! contains the columns x and z of a profile. Any other array with two axes is a map, stored row by
+//! row. The header is parsed in this module, because the parser of the crate npyz takes seconds for
+//! 20 nested brackets, and twice as long for each further bracket.
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
@@ -14,7 +14,7 @@ use asperity_data::{SIGNATURE, emptied, shown};
 
 const FORMAT: &str = "NumPy array";
 
-/// Place of the header for messages: its offset in a file of version 1.
+/// Place of the header in error messages: its offset in bytes in a file of version 1.
 const HEADER: Place = Place::Byte(10);
 
 /// Reads a profile or a map from an array, see the documentation of this module.
@@ -46,14 +46,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Creates a surface without units and distances.
+/// Creates a surface whose units and distances are not known.
 fn even(heights: Vec<f64>, columns: usize) -> Reading {
     Reading::even(FORMAT, heights, columns, None, StatedUnits::default())
 }
 
-/// Parses a NumPy array with at least two columns. Returns the names of the columns, and the
-/// numbers of each column. In a structured array the fields are the columns. In an array with two
-/// axes the number of columns is the length of the shorter axis.
+/// Parses a NumPy array with at least two columns. Returns the names and the numbers of the
+/// columns. The columns of a structured array are its fields. In an array with two axes, the
+/// shorter axis counts the columns.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
@@ -70,7 +70,7 @@ struct Field {
 }
 
 struct Header {
-    /// Fields of each element; an array of plain numbers has a single field.
+    /// Fields of each element. An element that is a plain number has a single field.
     fields: Vec<Field>,
     order: Order,
     is_column_major: bool,
@@ -78,7 +78,7 @@ struct Header {
 }
 
 impl Header {
-    /// Reads the header of a file, and returns it with the bytes after it.
+    /// Reads the header of a file. Returns the header and the bytes after it.
     fn read(bytes: &[u8]) -> Result<(Self, Bytes<'_>), SurfaceError> {
         let mut data = Bytes::new(bytes, Order::Little);
         data.take(SIGNATURE.len())?;
@@ -96,7 +96,7 @@ impl Header {
         Ok((header, data))
     }
 
-    /// Returns true for elements with two fields, and for an array of n × 2 numbers.
+    /// Returns true for an array whose elements have two fields, and for an array of n × 2 numbers.
     fn is_profile(&self) -> bool {
         self.fields.len() == 2 || matches!(self.shape[..], [2..=usize::MAX, 2])
     }
@@ -109,7 +109,7 @@ impl Header {
         points
     }
 
-    /// Returns the columns of the array: its fields, or the shorter of its two axes.
+    /// Returns the columns of the array: its fields, or the lines along the longer of its two axes.
     fn columns(&self, data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
         match (&self.fields[..], &self.shape[..]) {
             ([field], &[rows, columns]) => self.columns_of_axes(data, field, rows, columns),
@@ -118,8 +118,8 @@ impl Header {
         }
     }
 
-    /// Returns the columns of an array with two axes. The shorter axis counts the columns, so an
-    /// array of two long rows has two columns.
+    /// Returns the columns of an array with two axes. The shorter axis counts the columns. An array
+    /// of two long rows, for example, has two columns.
     fn columns_of_axes(
         &self,
         mut data: Bytes<'_>,
@@ -128,7 +128,7 @@ impl Header {
         columns: usize,
     ) -> Result<Vec<Vec<f64>>, SurfaceError> {
         let values = data.numbers(self.points(), field.number)?;
-        // Steps of the index in `values` from row to row and from column to column.
+        // Steps of the index in `values` to the next row and to the next column.
         let mut row_step = columns;
         let mut column_step = 1;
         if self.is_column_major {
@@ -174,8 +174,8 @@ impl Header {
     }
 }
 
-/// Text of a header, `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, with its
-/// entries in any order.
+/// Text of a header, such as `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`. The
+/// entries may have any order.
 struct HeaderText<'a> {
     text: &'a str,
 }
@@ -197,13 +197,13 @@ impl<'a> HeaderText<'a> {
         Ok(Header {
             fields,
             order,
-            // An array with fields has a single axis, so the order of axes means nothing.
+            // An array with fields has a single axis, so the order of its axes has no meaning.
             is_column_major: is_column_major && !has_fields,
             shape,
         })
     }
 
-    /// Returns the text after a key.
+    /// Returns the text that follows a key of the header.
     fn entry(&self, key: &str) -> Result<&'a str, SurfaceError> {
         let Some((_, rest)) = self.text.split_once(&format!("'{key}'")) else {
             return Err(self.wrong(&format!("no {key}")));
@@ -214,7 +214,7 @@ impl<'a> HeaderText<'a> {
         }
     }
 
-    /// Reads the fields of an element, and the order of the bytes, which has to be the same for all
+    /// Returns the fields of an element, and the order of the bytes, which must be the same for all
     /// fields.
     fn fields(&self, descr: &str, has_fields: bool) -> Result<(Vec<Field>, Order), SurfaceError> {
         let types = if has_fields {
@@ -271,7 +271,7 @@ impl<'a> HeaderText<'a> {
     }
 }
 
-/// Returns the text between the quotation marks at the beginning of a text.
+/// Returns the text in the quotation marks with which `text` begins.
 fn quoted(text: &str) -> Option<&str> {
     text.strip_prefix('\'')?
         .split_once('\'')
@@ -336,7 +336,7 @@ mod tests {
 
     #[test]
     fn numbers_have_any_order_of_bytes_and_fields_of_points_are_positions_and_heights() {
-        // The bytes are 1.0 and −2.0 as numbers of 16 bits.
+        // These bytes are 1.0 and −2.0 as half-precision numbers of 16 bits.
         for (descr, bytes) in [("'>f2'", [0x3c, 0, 0xc0, 0]), ("'<f2'", [0, 0x3c, 0, 0xc0])] {
             assert_eq!(
                 read(&array(descr, false, "(2,)", &bytes)).unwrap().heights,

@@ -1,4 +1,5 @@
-//! Recognition of the format of a file by its first bytes, and the choice of the reader.
+//! Recognition of the format of a file by its first bytes, and choice of the reader for this
+//! format.
 
 use super::archive::{Archive, ZIP};
 use super::bytes::{MOST_BYTES, MOST_EXPANSION, most_expanded};
@@ -20,16 +21,17 @@ use std::path::Path;
 /// First bytes of a file that is compressed by gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// A binary format that is known by its first bytes.
+/// A binary format that is recognised by its first bytes.
 struct BinaryFormat {
     signature: &'static [u8],
     reader: Reader,
 }
 
 enum Reader {
-    /// Reader of a format whose files hold a single surface without a name.
+    /// Reader of a format in which a file has a single surface without a name.
     Single(fn(&[u8]) -> Result<Reading, SurfaceError>),
-    /// Reader of a format whose files hold several channels, of which one is chosen.
+    /// Reader of a format in which a file may have several channels. The second argument chooses a
+    /// channel.
     Channels(fn(&[u8], Wanted<'_>) -> Result<Reading, SurfaceError>),
 }
 
@@ -61,8 +63,8 @@ const fn with_channels(
     BinaryFormat { signature, reader }
 }
 
-/// Binary formats with their first bytes. Any other file is SDF, a wave of Igor, an archive or
-/// text.
+/// Binary formats with their first bytes. Any other file is read as SDF, a binary wave of Igor, an
+/// archive or a text.
 const BINARY_FORMATS: [BinaryFormat; 15] = [
     single(asperity_data::SIGNATURE, npy::read),
     single(gsf::SIGNATURE, gsf::read),
@@ -128,8 +130,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
     Err(refused(Place::File, found, "one").with(Remedy::SurfaceName))
 }
 
-/// Reads a surface from the content of a file. If the file is a container, all measurements of a
-/// surface in it are read.
+/// Reads a surface from the content of a file. If the file is a container with several measurements
+/// of the surface, all of them are read.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     if bytes.starts_with(ZIP) {
         return parse_archive(bytes, options);
@@ -138,7 +140,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     Ok(vec![surface])
 }
 
-/// Reads a surface from an archive: a container, or X3P.
+/// Reads a surface from an archive, which is a container of contact.engineering or X3P.
 fn parse_archive(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
@@ -157,7 +159,7 @@ fn parse_archive(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
 }
 
 /// Reads the measurements of a surface in a container. A measurement that cannot be read is left
-/// out with a warning. It is an error if no measurement can be read.
+/// out with a warning. Returns an error if no measurement can be read.
 fn parse_measurements(
     mut archive: Archive<'_>,
     measurements: Vec<Measurement>,
@@ -179,8 +181,8 @@ fn parse_measurements(
                 continue;
             }
         };
-        // A missing unit, distance or height is an error, and not a reason to leave the measurement
-        // out, because an option can supply it.
+        // If a unit, a distance or heights are missing, an error is returned and the measurement is
+        // not left out, because the user can supply them by an option.
         let mut surface = reading.resolve_part(&options).map_err(within)?;
         surface.warnings.extend(measurement.tip_radius());
         surface.detrend = measurement.detrend();
@@ -198,7 +200,7 @@ fn parse_measurements(
     Ok(surfaces)
 }
 
-/// Reads the numbers of a file with one surface.
+/// Reads the heights and distances of a file with one surface.
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError> {
     let content = unpacked(bytes)?;
     if content.starts_with(ZIP) {
@@ -278,8 +280,8 @@ mod tests {
         }
     }
 
-    /// Returns a file of the seeds for fuzzing, with the first occurrence of the bytes `from`
-    /// replaced by `to`.
+    /// Returns the file `name` of the seeds for fuzzing, in which the first occurrence of the bytes
+    /// `from` is replaced by `to`.
     fn file(name: &str, from: &[u8], to: &[u8]) -> Vec<u8> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../fuzz/seeds/surface")
@@ -292,7 +294,7 @@ mod tests {
         [&content[..at], to, &content[at + from.len()..]].concat()
     }
 
-    /// Returns the options with which a seed without units or distances can be read.
+    /// Returns the options with which the seed `name` can be read if it lacks units or distances.
     fn bare(name: &str) -> ReadOptions {
         let has_no_unit = name.ends_with(".npy") || name == "no-data.xyz";
         let unit = has_no_unit.then_some(Unit::METRE);
@@ -328,10 +330,10 @@ mod tests {
         let read = |name: &str, from: &[u8], to: &[u8], options: &ReadOptions| {
             parse(&file(name, from, to), options).unwrap()
         };
-        // µm may be written in an MS-DOS code page.
+        // The letter µ may be encoded in a code page of MS-DOS.
         let micrometres = read("plain.sur", b"um", b"\xe6m", &bare(""));
         assert_eq!(micrometres, read("plain.sur", b"", b"", &bare("")));
-        // The order of the dimensions is exchanged, so that rows along x become rows along y.
+        // If the order of the dimensions is exchanged, rows along x become rows along y.
         let (along_x, along_y) = (
             &b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..],
             &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..],
@@ -357,7 +359,7 @@ mod tests {
         let periodic = stated(1);
         assert!(!read("map.nc", &plain, &plain, &bare("")).periodic);
         assert!(read("map.nc", &plain, &periodic, &bare("")).periodic);
-        // Each axis of a map, and its heights, have a unit of their own.
+        // The axes of a map and its heights may each have a unit of their own.
         let before =
             b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
         let (metre, nanometre) = (
@@ -469,7 +471,8 @@ mod tests {
             writeln!(errors, "{name}, {}: {error}", to.escape_ascii()).unwrap();
         }
         insta::assert_snapshot!(errors);
-        // A file that is cut off is refused with the offset at which bytes are missing.
+        // A file that is cut off is refused. The error states the offset at which bytes are
+        // missing.
         for name in ["map.gwy", "map.nc", "compressed.sur", "binary.sdf"] {
             let whole = file(name, b"", b"");
             for end in 13..whole.len() {
@@ -545,7 +548,7 @@ mod tests {
         let path = folder.path().join("profile");
         let error = read(folder.path(), &metres()).unwrap_err().to_string();
         assert!(error.contains("this is a folder"), "{error}");
-        // The file is sparse, so it takes no room on the disk.
+        // The file is sparse, so that it takes no space on the disk.
         std::fs::File::create(&path)
             .unwrap()
             .set_len(MOST_BYTES as u64 + 1)
@@ -651,7 +654,7 @@ mod tests {
             (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..])
         );
         assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
-        // Rows, columns and points keep the numbers that they have in the file.
+        // The row and the column are chosen by their numbers in the file.
         let (row, column) = (
             read(map, Some(Cut::Row(3))).unwrap(),
             read(map, Some(Cut::Column(2))).unwrap(),

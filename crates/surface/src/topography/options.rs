@@ -7,13 +7,15 @@ use super::unit::Unit;
 /// read, and corrections of the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Unit of positions and heights if the file states none.
+    /// Unit of positions and heights if the file states no unit.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states none for them; `None` means the unit in `unit`.
+    /// Unit of the heights if the file states no unit for them. `None` means that [`Self::unit`] is
+    /// used.
     pub height_unit: Option<Unit>,
-    /// Unit of positions and heights that is assumed if the file states none and `unit` is `None`.
+    /// Unit of positions and heights that is assumed if the file states no unit and [`Self::unit`]
+    /// is `None`.
     pub convention: Option<Unit>,
-    /// Distance between neighbouring points in m if the file states none.
+    /// Distance between neighbouring points in m if the file states no distance.
     pub spacing: Option<f64>,
     /// True if missing heights are interpolated from their neighbours. Otherwise a missing height
     /// is an error.

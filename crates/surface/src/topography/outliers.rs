@@ -1,31 +1,31 @@
-//! Corrections of heights by medians. Outliers are removed: heights far from the heights around
-//! them, such as spikes of an instrument and grains of dust. Rows are levelled.
+//! Corrections of heights by medians. Outliers, which are heights far from the heights around them,
+//! are removed; examples are spikes of an instrument and grains of dust. Rows are levelled.
 
 use asperity_data::{OutOfMemory, gathered, median};
 
-/// Number of points on either side, along each axis, with whose heights the height of a point is
-/// compared.
+/// Largest number of points on either side of a point, along each axis, whose heights are compared
+/// with the height of this point.
 const REACH: usize = 2;
 
-/// Smallest distance of an outlier from the median of the heights around it, divided by the
-/// standard deviation of such distances.
+/// Smallest distance of an outlier from the median of the heights around it, in units of the
+/// standard deviation of all such distances.
 const FAR: f64 = 4.0;
 
-/// Ratio of the standard deviation to the median absolute deviation, for the normal distribution.
+/// Ratio of the standard deviation of a normal distribution to its median absolute deviation.
 const PER_MEDIAN_DEVIATION: f64 = 1.482_602_218_505_602;
 
-/// Marks outliers in rows of `columns` points as missing (NaN), by the identifier of Hampel, and
-/// returns their number. A height is an outlier if its distance from the median of the heights
-/// around it exceeds [`FAR`] standard deviations. The standard deviation follows from the median of
-/// all these distances. A tilt of the surface does not change the result, also not at borders,
-/// where one side has fewer points.
+/// Marks outliers as missing (NaN) by the identifier of Hampel, and returns their number. `columns`
+/// is the number of points in a row. A height is an outlier if its distance from the median of the
+/// heights around it exceeds [`FAR`] standard deviations, which follow from the median of all these
+/// distances. A tilt of the surface does not change the result, not even at borders, where a point
+/// has fewer neighbours on one side.
 pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let distances = LevelledMap::new(heights, columns)?.distances()?;
     let known = || distances.iter().filter(|distance| distance.is_finite());
     let mut sizes = gathered(known().count(), known().map(|distance| distance.abs()))?;
     let most = FAR * PER_MEDIAN_DEVIATION * median(&mut sizes).unwrap_or(0.0);
-    // If most distances are zero, as for heights with few digits, the standard deviation of the
-    // distances is unknown.
+    // Heights with few digits may give distances that are mostly zero. The standard deviation of
+    // the distances is then unknown.
     if most <= 0.0 {
         return Ok(0);
     }
@@ -39,7 +39,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     Ok(count)
 }
 
-/// Heights in rows, and the tilt of the surface.
+/// Heights in rows, with the tilt of the surface.
 struct LevelledMap<'a> {
     heights: &'a [f64],
     columns: usize,
@@ -80,15 +80,15 @@ impl<'a> LevelledMap<'a> {
             self.collect_around(index, &mut around);
             match median(&mut around) {
                 Some(median) => self.level(index) - median,
-                // A corner has no points on both sides, so nothing is compared with it.
+                // A corner has no neighbours on opposite sides, so its height is not compared.
                 None => 0.0,
             }
         });
         gathered(self.heights.len(), distances)
     }
 
-    /// Collects the levelled heights around a point. Along each axis it takes equal numbers of
-    /// points on both sides, so that a remaining tilt does not change the median.
+    /// Collects the heights around a point, without the tilt. Along each axis equal numbers of
+    /// points are taken on both sides, so that a remaining tilt does not change the median.
     fn collect_around(&self, index: usize, around: &mut Vec<f64>) {
         let row = index / self.columns;
         let column = index % self.columns;
@@ -107,13 +107,13 @@ impl<'a> LevelledMap<'a> {
     }
 }
 
-/// Returns the number of points on either side of a place, out of `count` places, with which the
-/// place is compared.
+/// Returns the number of points that are compared on either side of a place, along a line of
+/// `count` points.
 fn reach(place: usize, count: usize) -> usize {
     REACH.min(place).min(count - 1 - place)
 }
 
-/// Returns the median difference of heights this many points apart.
+/// Returns the median difference between heights that are `step` points apart.
 fn median_difference(heights: &[f64], step: usize) -> Result<f64, OutOfMemory> {
     let differences = heights
         .iter()

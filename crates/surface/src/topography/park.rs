@@ -1,5 +1,5 @@
-//! Images of Park Systems: TIFF whose own tags hold a header and the heights, row by row from the
-//! lowest one.
+//! Images of Park Systems. They are TIFF files with tags of this maker, which hold a header and the
+//! heights, the lowest row first.
 
 use super::bytes::{Bytes, Number};
 use super::channel::{self, Label, Wanted};
@@ -10,11 +10,11 @@ use super::transpose::reverse_rows;
 use super::unit::Unit;
 use crate::error::{SurfaceError, refused};
 
-/// Number that marks a file of Park.
+/// Value of [`tag::MARK`] in files of Park Systems, by which these files are recognised.
 const MARK: f64 = 235_082_497.0;
 
-/// Version from which on the header states the type of the heights. In earlier versions the heights
-/// are integers of 16 bits.
+/// First version whose header states the type of the heights. In earlier versions the heights are
+/// integers of 16 bits.
 const WITH_TYPE: f64 = 16_777_218.0;
 
 /// Unit of the size of the scan.
@@ -28,7 +28,7 @@ mod tag {
     pub const HEADER: u16 = 50_435;
 }
 
-/// Offsets in bytes of the fields of the header.
+/// Offsets in bytes of the fields in the header.
 mod field {
     pub const NAME: usize = 4;
     pub const COLUMNS: usize = 100;
@@ -38,12 +38,12 @@ mod field {
     pub const TYPE: usize = 348;
 }
 
-/// Number of letters of the name of the channel. Each letter has two bytes.
+/// Number of letters, of two bytes each, of the name of the channel.
 const NAME_LETTERS: usize = 32;
-/// Number of letters of the unit. Each letter has two bytes.
+/// Number of letters, of two bytes each, of the unit.
 const UNIT_LETTERS: usize = 8;
 
-/// Returns true for the directories of a file of Park.
+/// Returns true if the directories are those of a file of Park Systems.
 pub(super) fn is_park(directories: &[Directory<'_>]) -> bool {
     directories
         .first()
@@ -110,18 +110,18 @@ pub(super) fn read(
     ))
 }
 
-/// Header of a scan.
+/// What the header states about the scan.
 struct Header {
     name: String,
     columns: usize,
     rows: usize,
-    /// Width and height in µm.
+    /// Width and height of the scan in µm.
     size: [f64; 2],
     gain: f64,
     scale: f64,
     offset: f64,
     unit: String,
-    /// Code of the type of the heights; `None` if the header is too short to have it.
+    /// Code of the type of the heights; `None` if the header is too short to contain it.
     kind: Option<f64>,
 }
 
@@ -146,7 +146,7 @@ impl Header {
             rows: counts.size(Number::U32)?,
             size: at(field::SIZE)?.array(Number::F64)?,
             gain,
-            // A scale of 0 means that the file states no scale.
+            // The value 0 means that the file states no scale.
             scale: if scale == 0.0 { 1.0 } else { scale },
             offset,
             unit: text(at(field::UNIT)?, UNIT_LETTERS)?,
@@ -173,7 +173,7 @@ impl Header {
         }
     }
 
-    /// Returns the distances along and between rows in µm, unless the size is 0.
+    /// Returns the distances between points along and between rows in µm; `None` if the size is 0.
     fn spacing(&self) -> Option<[f64; 2]> {
         let [width, height] = self.size;
         let has_size = width > 0.0 && height > 0.0;
@@ -181,7 +181,7 @@ impl Header {
     }
 }
 
-/// Returns a text of at most `letters` letters of two bytes each, up to the first zero.
+/// Returns a text of at most `letters` letters, of two bytes each, up to the first zero.
 fn text(mut bytes: Bytes<'_>, letters: usize) -> Result<String, SurfaceError> {
     let letters = bytes.numbers(letters, Number::U16)?;
     let letters = letters.iter().map(|letter| *letter as u16);
@@ -200,9 +200,9 @@ pub(super) mod tests {
         order: Order::Little,
     };
 
-    /// Returns a file of 3 × 2 heights on 6 µm × 2 µm. The heights are integers of 16 bits (`kind`
-    /// 0), integers of 32 bits (1) or real numbers (2). The length of the header is that of the
-    /// version.
+    /// Returns a file of 3 × 2 heights on an area of 6 µm × 2 µm. `kind` is the type of the
+    /// heights: integers of 16 bits (0), integers of 32 bits (1) or real numbers (2). The length of
+    /// the header depends on the version.
     pub fn file(version: u32, kind: u32, unit: &str) -> Vec<u8> {
         let mut header = vec![0; if version == 16_777_217 { 356 } else { 580 }];
         let mut put = |offset: usize, bytes: &[u8]| {
@@ -246,7 +246,7 @@ pub(super) mod tests {
 
     #[test]
     fn heights_follow_from_gain_scale_and_offset() {
-        // The last row of the file is the upper row of the map.
+        // The last row in the file is the upper row of the map.
         let upper_first = [40.0, 50.0, 60.0, 1.0, -2.0, 3.0];
         let expected = upper_first.map(|number| 0.5 * (number * 0.25 + 10.0));
         for (version, kind) in [

@@ -2,12 +2,12 @@
 
 use asperity_data::between;
 
-/// Largest allowed magnitude of a position and a height in m, and of a slope between neighbouring
-/// points. With larger values, lengths and mean squares could overflow.
+/// Largest allowed magnitude of a position or a height in m, and of a slope between neighbouring
+/// points. Larger values could make lengths and mean squares overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
-/// Largest displacement of a point from its place on an even grid that counts as rounding, as a
-/// share of the spacing.
+/// Largest displacement of a point from its place on an even grid that still counts as rounding, as
+/// a share of the spacing.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
 /// Returns the index of the first position that does not lie on the even grid with the first
@@ -26,9 +26,9 @@ pub(super) fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between
-/// at least two points. At a point the result is exactly the height of the point. Beyond the first
-/// and the last point it is the height of this point.
+/// Returns the heights, minus `level` in m, at ascending places in m. They follow by linear
+/// interpolation between at least two points. At a point the result is exactly the height of the
+/// point, and beyond the first or the last point it is the height of this point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],

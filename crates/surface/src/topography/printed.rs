@@ -4,22 +4,23 @@ use super::positions::first_uneven;
 use crate::error::SurfaceError;
 use asperity_data::gathered;
 
-/// Smallest number of positions that are moved onto an even grid. Fewer positions may be uneven by
-/// intention.
+/// Smallest number of positions that are moved onto an even grid. Fewer positions may be uneven on
+/// purpose.
 const LEAST_PRINTED: usize = 32;
 
-/// Largest relative difference between the distance of points and the last printed digit at which
-/// the positions are left unchanged, because a missing point then looks like a rounded distance.
+/// Largest relative difference between the spacing of the points and the last printed digit with
+/// which the positions are left unchanged. A missing point would then look like a rounded distance.
 const LIKE_DIGIT: f64 = 0.1;
 
-/// Largest number of times that the search for an even grid narrows the range of distances.
+/// Largest number of steps in which the search for an even grid narrows the range of possible
+/// spacings.
 const MOST_CUTS: usize = 64;
 
-/// Largest magnitude of the exponent of a printed number that is taken into account.
+/// Largest magnitude of the exponent of a printed number that is taken into account for its digits.
 const LARGEST_EXPONENT: i32 = 400;
 
-/// Digits with which the numbers of a column are printed: the largest numbers of decimals and of
-/// significant digits.
+/// Digits with which the numbers of a column are printed: the largest number of decimals, and the
+/// largest number of significant digits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Digits {
     decimals: i32,
@@ -41,7 +42,7 @@ impl Digits {
         }
     }
 
-    /// Takes the digits of a printed number into account.
+    /// Updates the digits with those of a printed number.
     pub fn take(&mut self, cell: &str) {
         let mut decimals = 0;
         let mut significant = 0;
@@ -52,7 +53,8 @@ impl Digits {
                     decimals += i32::from(is_after_mark);
                     significant += i32::from(byte != b'0' || significant > 0);
                 }
-                // The last point or comma is the decimal mark. Others before it separate thousands.
+                // The last point or comma in a number is the decimal mark. Any earlier ones
+                // separate thousands.
                 b'.' | b',' => {
                     is_after_mark = true;
                     decimals = 0;
@@ -83,31 +85,31 @@ impl Digits {
     }
 }
 
-/// A point of a grid: its number along the axis, and its printed position.
+/// A point of a grid: its number along the axis, counted from 0, and its printed position.
 #[derive(Clone, Copy)]
 pub(super) struct GridPoint {
     pub number: f64,
     pub position: f64,
 }
 
-/// First position and distance of an even grid.
+/// First position and spacing of an even grid.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     pub first: f64,
     pub distance: f64,
 }
 
-/// A bound for the first position of a grid with a given distance between points.
+/// A bound (lower or upper) for the first position of a grid with a given spacing.
 struct Bound {
     first: f64,
-    /// Number of the point from which the bound follows.
+    /// Number of the point that gives the bound.
     number: f64,
-    /// Bound for the exact position of this point.
+    /// Smallest or largest exact position that this point can have, from its printed digits.
     position: f64,
 }
 
 impl Bound {
-    /// Creates a bound that follows from no point.
+    /// Creates a bound that no point has given yet.
     fn unknown(first: f64) -> Self {
         Bound {
             first,
@@ -117,7 +119,7 @@ impl Bound {
     }
 }
 
-/// The range of first positions with which a grid of a given distance agrees with all points.
+/// Smallest and largest first position with which a grid of a given spacing agrees with all points.
 struct Bounds {
     lower: Bound,
     upper: Bound,
@@ -155,8 +157,8 @@ impl Bounds {
     }
 }
 
-/// Returns an even grid that agrees with all positions to within half a printed digit. The points
-/// are in the order of their numbers.
+/// Returns an even grid that agrees with the positions of all points to within half a printed
+/// digit; `None` if there is no such grid. The points are in the order of their numbers.
 pub(super) fn printed_grid(points: &[GridPoint], digits: Digits) -> Option<Grid> {
     let [first, .., last] = points else {
         return None;
@@ -184,8 +186,8 @@ pub(super) fn printed_grid(points: &[GridPoint], digits: Digits) -> Option<Grid>
                 distance,
             });
         }
-        // The two points that give the bounds agree only with distances that are larger, or only
-        // with distances that are smaller, than the distance that was tried.
+        // The tried distance is too small or too large for the two points that give the bounds.
+        // These two points give a new limit for it.
         let bound = (lower.position - upper.position) / (lower.number - upper.number);
         if lower.number > upper.number {
             low = low.max(bound);
@@ -289,7 +291,7 @@ mod tests {
                     .all(|(one, other)| (one - other).abs() <= half)
             );
         }
-        // Positions remain unchanged if they are really uneven or few.
+        // Positions remain unchanged if there are few of them or if they are really uneven.
         let (before, digits) = printed(&|i| f64::from(i) + f64::from(i * i % 7) * 0.03, 2);
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();

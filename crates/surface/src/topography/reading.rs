@@ -1,24 +1,25 @@
-//! Numbers of a file before conversion to m.
+//! The contents of a file with a surface before its numbers are converted to m.
 
 use super::stated_units::StatedUnits;
 use crate::error::Place;
 use asperity_data::Note;
 
-/// Numbers of a file before conversion, in the units of the file.
+/// Heights and positions of a file in the units of the file, with what else the file states.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub format: &'static str,
-    /// Heights row by row; a missing point is not finite.
+    /// Heights row by row. The height of a missing point is NaN or infinite.
     pub heights: Vec<f64>,
     /// Number of points in a row; for a profile, the number of all points.
     pub columns: usize,
-    /// Positions of a profile, ascending; `None` for evenly spaced points.
+    /// Ascending positions of the points of a profile; `None` if the points are evenly spaced.
     pub positions: Option<Vec<f64>>,
-    /// Distances of evenly spaced points along and between rows, if the file states them.
+    /// Distances between evenly spaced points, along and between rows; `None` if the file states
+    /// none.
     pub spacing: Option<[f64; 2]>,
     pub units: StatedUnits,
-    /// Place of the first missing point, if the reader knows more of it than the number of the
-    /// point, such as its line.
+    /// Place of the first missing point, such as its line. `None` if the reader knows no more than
+    /// the number of the point.
     pub first_missing: Option<Place>,
     /// True if the file states that the surface is periodic at its borders.
     pub periodic: bool,
@@ -59,8 +60,8 @@ impl Reading {
         reading
     }
 
-    /// Creates a profile from positions and heights in the order of the file. If the positions
-    /// descend, the order is reversed.
+    /// Creates a profile from positions and heights. If the positions descend, the order of the
+    /// points is reversed.
     pub fn profile(
         format: &'static str,
         mut positions: Vec<f64>,

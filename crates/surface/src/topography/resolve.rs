@@ -1,5 +1,5 @@
-//! Conversion of the numbers of a file to a surface: units, distances between points, missing
-//! points, and the part of the file that is read.
+//! Conversion of the contents of a file to a surface in m. It determines units and distances
+//! between points, treats missing points, and selects the part of the map that is read.
 
 use super::cut::Cut;
 use super::options::ReadOptions;
@@ -12,12 +12,12 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{Note, Remedy};
 use std::ops::Range;
 
-/// Largest number of points of a surface: 2 GiB of heights.
+/// Largest number of points of a surface, which take 2 GiB of memory as heights.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
 impl Reading {
-    /// Converts heights and positions to m. Returns the surface, or the row or column that the
-    /// options choose.
+    /// Converts heights and positions to m. Returns the whole surface or, if the options choose a
+    /// row or column, this row or column as a profile.
     pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let mut surface = self.resolve(options)?;
         if let Some(cut) = options.cut {
@@ -30,8 +30,8 @@ impl Reading {
         }
     }
 
-    /// Converts heights and positions to m, corrects the heights as the options demand, and returns
-    /// the whole surface.
+    /// Converts heights and positions to m, corrects the heights as the options request, and
+    /// returns the whole surface.
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         check_points(self.heights.len())?;
         let units = Units::new(self.units, self.positions.is_some(), options);
@@ -84,14 +84,14 @@ impl Reading {
         Ok(surface)
     }
 
-    /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of
-    /// a profile.
+    /// Removes rows and columns without a measured point at the borders of a map, or missing points
+    /// at the ends of a profile. Returns how many were removed.
     fn crop(&mut self) -> Cropped {
         let columns = self.columns;
         let rows = self.heights.len() / columns;
         let [across, down] = missing::measured_part(&self.heights, columns);
         let is_whole = across.len() * down.len() == self.heights.len();
-        // A map with at least two rows and two columns must keep two of each.
+        // A map must not become a profile, so at least two rows and two columns must remain.
         let is_too_narrow = |part: &Range<usize>, count: usize| part.len() < count.min(2);
         if is_whole || is_too_narrow(&across, columns) || is_too_narrow(&down, rows) {
             return Cropped::default();
@@ -108,8 +108,7 @@ impl Reading {
             positions.drain(..across.start);
         }
         self.columns = across.len();
-        // The first missing point may be one of those that are left out, so its place is no longer
-        // valid.
+        // The first missing point may have been removed, so its place is no longer valid.
         self.first_missing = None;
         Cropped {
             before: [across.start, down.start],
@@ -117,8 +116,8 @@ impl Reading {
         }
     }
 
-    /// Returns true if points are missing. Returns an error if missing points are in the part that
-    /// is read, and the options do not interpolate them.
+    /// Returns true if points are missing. Returns an error if a missing point is in the part that
+    /// is read and the options do not request interpolation.
     fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, SurfaceError> {
         let points = self.heights.len();
         let missing = missing::count(&self.heights);
@@ -139,8 +138,8 @@ impl Reading {
         })
     }
 
-    /// Returns true for a point of the row or the column that the options choose; for all points if
-    /// they choose none.
+    /// Returns true if a point is read: if it is in the row or the column that the options choose,
+    /// or if the options choose none.
     fn is_read(&self, index: usize, cropped: &Cropped, cut: Option<Cut>) -> bool {
         let [columns_before, rows_before] = cropped.before;
         let column = index % self.columns + columns_before + 1;
@@ -152,7 +151,7 @@ impl Reading {
         }
     }
 
-    /// Returns the positions of the points in m.
+    /// Returns the positions of the points in m, or their distances if they are evenly spaced.
     fn layout(&mut self, units: &Units<'_>, options: &ReadOptions) -> Result<Layout, SurfaceError> {
         let Some(mut positions) = self.positions.take() else {
             let along = self.distance(0, units, options)?;
@@ -168,7 +167,8 @@ impl Reading {
     }
 
     /// Returns the distance in m between evenly spaced points along the rows (`axis` 0), or between
-    /// the rows (1). It is the distance in the file, or else the distance of the options.
+    /// the rows (`axis` 1). The distance in the file is used or, if the file states none, that in
+    /// the options.
     fn distance(
         &self,
         axis: usize,
@@ -196,8 +196,8 @@ fn check_points(points: usize) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns an error if a length (m) exceeds [`LARGEST`]. Only lengths for which `counts` is true
-/// are checked.
+/// Returns an error if the magnitude of a length in m exceeds [`LARGEST`]. Lengths for which
+/// `counts` is false are not checked.
 fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), SurfaceError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
     let Some(index) = lengths.iter().position(is_beyond) else {
@@ -211,8 +211,8 @@ fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(
 fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     check_range("position", positions, |_| true)?;
     for (index, pair) in positions.windows(2).enumerate() {
-        // The conversion of units is a division, after which two neighbours may be equal if they
-        // differed only in the last bit.
+        // The conversion of units is a division. It may round two neighbouring positions to the
+        // same value if they differ only in the last bit.
         if pair[0] >= pair[1] {
             let found = format!("x = {:e} m after {:e} m", pair[1], pair[0]);
             let allowed = "positions that ascend, or descend";

@@ -1,5 +1,5 @@
-//! SDF of ISO 25178-71 and its predecessor BCR: text or binary, with heights as integers or real
-//! numbers and scales in m.
+//! The format SDF of ISO 25178-71 and its predecessor BCR. A file is text or binary, with heights
+//! as integers or real numbers, and with scales in m.
 
 use super::bytes::{Bytes, Number, Order};
 use super::key_values::{KeyValues, missing};
@@ -9,13 +9,13 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use std::ops::RangeInclusive;
 
-/// A type of heights.
+/// A type of numbers that a file may use for heights.
 #[derive(Clone, Copy)]
 struct HeightType {
     name_in_bcr: &'static str,
     number: Number,
-    /// Smallest value of the type. For real numbers, the smallest and the largest value have only
-    /// the digits that texts have.
+    /// Smallest value of the type. For real numbers, the smallest and the largest value are rounded
+    /// to the few digits that texts contain.
     smallest: f64,
     largest: f64,
 }
@@ -34,7 +34,7 @@ const fn height_type(
     }
 }
 
-/// Types of heights, indexed by their number in the header.
+/// Types of heights. The index in this list is the number of the type in the header.
 const TYPES: [HeightType; 8] = [
     height_type("UCHAR", Number::U8, 0.0, 255.0),
     height_type("UINTEGER", Number::U16, 0.0, 65_535.0),
@@ -46,7 +46,7 @@ const TYPES: [HeightType; 8] = [
     height_type("DOUBLE", Number::F64, -1.7e308, 1.7e308),
 ];
 
-/// Keys that the text form has to have.
+/// Keys that a file in text form must contain, for error messages.
 const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
 
 /// Byte order mark that some programs write before a text.
@@ -65,7 +65,7 @@ enum Version {
 /// Largest number of letters of the name of an institute.
 const LONGEST_NAME: usize = 8;
 
-/// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and the name of a
+/// Returns true if `bytes` begin like SDF: with `a` for text or `b` for binary, and the name of a
 /// version.
 pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
@@ -76,8 +76,8 @@ pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     b"aAbB".contains(form) && (is_known || is_of_institute(version))
 }
 
-/// Returns true for the name of an institute and a version, as in `NIST-1.0` and `NPL-V1.0`.
-/// Institutes write files of the version BCR, but with their own name.
+/// Returns true for the name of an institute and a version, such as `NIST-1.0` or `NPL-V1.0`. Files
+/// of these institutes have the version BCR, but begin with the name of the institute.
 fn is_of_institute(version: &[u8]) -> bool {
     let head = &version[..version.len().min(LONGEST_NAME + 1)];
     let Some(letters) = head.iter().position(|byte| *byte == b'-') else {
@@ -95,7 +95,7 @@ fn is_of_institute(version: &[u8]) -> bool {
     letters >= 2 && head[..letters].iter().all(u8::is_ascii_uppercase) && is_number
 }
 
-/// Reads the text or the binary form of any version.
+/// Reads a file of any version, in text or binary form.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
     let version = version(bytes.get(1..).unwrap_or_default())?;
@@ -106,7 +106,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Returns the version that follows the first letter of a file.
+/// Returns the version whose name follows the first letter of a file.
 fn version(name: &[u8]) -> Result<Version, SurfaceError> {
     let is_known = name.starts_with(b"ISO-") || name.starts_with(b"BCR-");
     match name.get(..7) {
@@ -123,13 +123,13 @@ fn version(name: &[u8]) -> Result<Version, SurfaceError> {
     }
 }
 
-/// Size of a map, the distances of its points, and the unit of its numbers.
+/// Size of a map, distances between its points, and scale of its heights.
 struct Layout {
     columns: usize,
     rows: usize,
-    /// Distances along and between rows in m.
+    /// Distances in m between points along and between rows.
     spacing: [f64; 2],
-    /// Height in m that a number 1 in the file means.
+    /// Height in m to which a number 1 in the file corresponds.
     unit: f64,
 }
 
@@ -146,7 +146,7 @@ impl Layout {
     }
 }
 
-/// Returns the type with this number or name.
+/// Returns the type of heights that has this number (in SDF) or this name (in BCR).
 fn height_type_named(name: &str, place: Place) -> Result<HeightType, SurfaceError> {
     for (number, kind) in TYPES.into_iter().enumerate() {
         if name == number.to_string() || name.eq_ignore_ascii_case(kind.name_in_bcr) {
@@ -158,11 +158,11 @@ fn height_type_named(name: &str, place: Place) -> Result<HeightType, SurfaceErro
 }
 
 impl HeightType {
-    /// Returns the range of heights that mark missing points. In ISO this is the smallest value of
-    /// the type, and in BCR and for types without negative values the largest value.
+    /// Returns the range of heights that mark missing points. In ISO the mark is the smallest value
+    /// of the type. In BCR, and for types without negative values, it is the largest value.
     fn missing(&self, version: Version) -> RangeInclusive<f64> {
-        // A text rounds the largest and the smallest real number to few digits, so any real number
-        // beyond the limit is a mark too.
+        // A text may round the largest or the smallest real number beyond its exact value. Any
+        // number beyond the limit is therefore a mark too.
         let is_real = matches!(self.number, Number::F32 | Number::F64);
         let reach = if is_real { f64::INFINITY } else { 0.0 };
         if version == Version::Bcr || self.smallest == 0.0 {
@@ -173,14 +173,14 @@ impl HeightType {
     }
 }
 
-/// A line of a text, without its comment.
+/// A line of a text, without the comment at its end.
 struct Line<'a> {
     number: usize,
     text: &'a str,
 }
 
-/// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and
-/// comments after semicolons.
+/// Reads the text form. It has a header of lines `key = value`, then `*`, heights separated by
+/// white space, and `*`. Comments follow after semicolons.
 fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let text = String::from_utf8_lossy(bytes);
     let line_end = if text.contains('\n') { '\n' } else { '\r' };
@@ -199,7 +199,8 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     };
     let missing = match entries.value("DataType") {
         Some(value) => height_type_named(value.text, value.place)?.missing(version),
-        // Without a type of heights only the word BAD marks a missing point: no height is infinite.
+        // If the header states no type of heights, only the word BAD marks a missing point. This
+        // range contains no height, because no height is infinite.
         None => f64::INFINITY..=f64::INFINITY,
     };
     let heights = heights(lines, layout.points(), &missing)?;
@@ -213,7 +214,7 @@ fn scale(entries: &KeyValues, key: &str) -> Result<f64, SurfaceError> {
     scale.ok_or_else(|| missing(key, REQUIRED))
 }
 
-/// Reads the header, from the second line up to `*`.
+/// Reads the header, which goes from the second line to the line `*`.
 fn entries<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<KeyValues, SurfaceError> {
     let mut entries = KeyValues::default();
     for line in lines.skip(1) {
@@ -227,13 +228,14 @@ fn entries<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<KeyValues, 
     Err(refused(Place::File, "a header without an end", allowed))
 }
 
-/// Heights of the text form, before multiplication by the scale of the header.
+/// Heights of the text form, not yet multiplied by the scale in the header.
 struct TextHeights {
     values: Vec<f64>,
     first_missing: Option<Place>,
 }
 
-/// Reads the heights up to `*`. Returns an error unless there are `points` heights.
+/// Reads the heights up to the line `*`. Returns an error unless there are exactly `points`
+/// heights.
 fn heights<'a>(
     lines: impl Iterator<Item = Line<'a>>,
     points: usize,
@@ -275,10 +277,10 @@ fn heights<'a>(
     })
 }
 
-/// Reads the binary form, little-endian.
+/// Reads the binary form, in which the lowest byte of each number comes first.
 fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let mut data = Bytes::new(bytes, Order::Little);
-    // Skips the fields of the version, the manufacturer and two dates.
+    // These are the fields of the version, the manufacturer and two dates, which are not needed.
     data.take(8 + 10 + 12 + 12)?;
     let count = if version == Version::Iso2 {
         Number::U32
@@ -379,7 +381,7 @@ mod tests {
             assert_eq!(found(content.as_bytes()), Ok(expected.clone()), "{name}");
         }
         let heights = [1_i16, 2, 3, 4, 5, 6].map(i16::to_le_bytes).concat();
-        // The names are filled up to 8 bytes, the size of the field of the version.
+        // The field of the version has 8 bytes. A shorter name is padded to this size.
         for name in ["NPL-1.0", "BC-1.0 "] {
             let content = binary(name, 5, &heights);
             assert!(is_sdf(&content), "{name}");

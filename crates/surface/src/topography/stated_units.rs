@@ -1,16 +1,16 @@
-//! Units of positions and heights. The unit that the file states is used; if there is none, the
-//! unit of the options; if there is none either, the unit of a convention.
+//! Units of positions and heights. The unit that the file states is used. If the file states none,
+//! the unit in the options is used, or else the unit of a convention.
 
 use super::options::ReadOptions;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 
-/// Units that a file states; `None` where it states none.
+/// Units that a file states. A unit that the file does not state is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StatedUnits {
-    /// Unit of positions along the rows, or of the positions of a profile.
+    /// Unit of the positions along the rows of a map, or of the positions of a profile.
     pub along: Option<Unit>,
-    /// Unit of positions between the rows.
+    /// Unit of the positions across the rows of a map.
     pub between: Option<Unit>,
     pub heights: Option<Unit>,
 }
@@ -22,7 +22,7 @@ impl StatedUnits {
         heights: Some(Unit::METRE),
     };
 
-    /// Creates the units of a file with one unit for all positions.
+    /// Creates the units of a file that states one unit for all its positions.
     pub fn new(positions: Option<Unit>, heights: Option<Unit>) -> Self {
         StatedUnits {
             along: positions,
@@ -32,32 +32,34 @@ impl StatedUnits {
     }
 }
 
-/// The units that a file and the options state, from which the unit of each quantity is chosen.
+/// The units that a file and the options state. The unit of each quantity is chosen from these.
 pub(super) struct Units<'a> {
     stated: StatedUnits,
     options: &'a ReadOptions,
-    /// Unit of the options that is compared with the unit of the positions in the file. It is an
-    /// error if both differ. `None` if the option is not meant for the positions.
+    /// Unit in the options with which the unit of the positions in the file is compared; a
+    /// difference is an error. `None` if the unit in the options is not meant for the positions.
     option_of_positions: Option<Unit>,
-    /// Unit of the options that is used for the heights, or compared with their unit in the file.
-    /// `None` if no option is meant for the heights.
+    /// Unit in the options for the heights. It is compared with the unit of the heights in the
+    /// file, or used if the file states none. `None` if no unit in the options is meant for the
+    /// heights.
     option_of_heights: Option<Unit>,
 }
 
 impl<'a> Units<'a> {
-    /// Decides for which quantities the units of the options are meant. `has_positions` is true for
-    /// a profile with a position for each point.
+    /// Decides for which quantities the units in the options are meant. `has_positions` is true for
+    /// a profile in which each point has a position.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
         let mut option_of_heights = options.height_unit.or(options.unit);
         if options.height_unit.is_none() {
-            // If the file states only one of the two units, the option is meant for the other
-            // quantity, and is not compared with the stated unit.
+            // If the file states only one of the two units, the unit in the options is meant for
+            // the other quantity. It is not compared with the stated unit.
             match (stated.along, stated.heights) {
                 (None, Some(_)) => option_of_heights = None,
                 (Some(_), None) => option_of_positions = None,
-                // The distance of the points of a grid is a single length, such as 500 nm. Its unit
-                // may differ from the unit of the heights, for which the option is then meant.
+                // A grid has a single distance between points, such as 500 nm. The unit of this
+                // distance may differ from the unit of the heights, for which the unit in the
+                // options is then meant.
                 (Some(_), Some(unit)) => {
                     if !has_positions && options.unit == Some(unit) {
                         option_of_positions = None;
@@ -84,7 +86,7 @@ impl<'a> Units<'a> {
         self.lateral("positions", self.stated.along)
     }
 
-    /// Returns the unit of the distances along (0) or between (1) the rows.
+    /// Returns the unit of the distances along the rows (`axis` 0) or between the rows (`axis` 1).
     pub fn distances(&self, axis: usize) -> Result<Unit, SurfaceError> {
         let stated = [self.stated.along, self.stated.between];
         self.lateral("distances", stated[axis])
@@ -99,8 +101,8 @@ impl<'a> Units<'a> {
         unit.ok_or_else(|| no_unit(name, None))
     }
 
-    /// Returns the unit of a quantity: the unit in the file, or else the unit of the options, or
-    /// else the unit of the convention.
+    /// Returns the unit of a quantity. The unit in the file is used, or else the unit in the
+    /// options, or else the unit of the convention.
     fn chosen(
         &self,
         name: &str,
@@ -119,8 +121,8 @@ impl<'a> Units<'a> {
     }
 }
 
-/// Returns the error for a quantity without a unit. `of_positions` is the unit of the positions, if
-/// the file states this unit but none for the heights.
+/// Returns the error for a quantity whose unit is not stated. `of_positions` is the unit of the
+/// positions, if the file states this unit but no unit of the heights.
 fn no_unit(quantity: &'static str, of_positions: Option<Unit>) -> SurfaceError {
     SurfaceError::NoUnit {
         place: Place::File,

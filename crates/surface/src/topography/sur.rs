@@ -1,5 +1,5 @@
-//! The format SUR of Digital Surf: a header of 512 bytes, a comment, a private part, and integer
-//! heights, which may be compressed.
+//! The format SUR of Digital Surf. A file has a header of 512 bytes, a comment, a private part, and
+//! heights as integers, which may be compressed.
 
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
 use super::reading::Reading;
@@ -9,20 +9,21 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::read_limited;
 use flate2::read::ZlibDecoder;
 
-/// First bytes of a file with plain heights.
+/// First bytes of a file with heights that are not compressed.
 pub(super) const PLAIN: &[u8] = b"DIGITAL SURF";
 
 /// First bytes of a file with compressed heights.
 pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
 
-/// Size of the header in bytes, without the comment and the private part after it.
+/// Size of the header in bytes. The comment and the private part follow after it.
 const HEADER: usize = 512;
 
-/// Difference between the smallest height and the mark of missing points, in integer steps.
+/// The number that marks missing points is below the smallest height by this number of integer
+/// steps.
 const MISSING_BELOW: f64 = 2.0;
 
-/// Largest number of compressed parts. It limits the time, because the decompression of each part
-/// takes some microseconds, even if the part is a single byte.
+/// Largest allowed number of compressed parts. It limits the computing time, because decompressing
+/// a part takes some microseconds, even if the part has a single byte.
 const MOST_PARTS: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
@@ -47,16 +48,16 @@ struct Header {
     rows: usize,
     /// Type of the heights.
     number: Number,
-    /// Height that marks a missing point.
+    /// Number that marks a missing point; `None` if no points are missing.
     missing: Option<f64>,
-    /// Height of one integer step, in the unit of the heights.
+    /// Height of one integer step, in the unit of the heights that the header states.
     scale: f64,
     spacing: [f64; 2],
     units: StatedUnits,
 }
 
 impl Header {
-    /// Reads the header after the signature, and skips the comment and the private part.
+    /// Reads the header after the signature. Then skips the comment and the private part.
     fn read(data: &mut Bytes<'_>) -> Result<Self, SurfaceError> {
         let [order, _objects, _version, study] = data.array(Number::U16)?;
         if order != 0.0 {
@@ -67,11 +68,11 @@ impl Header {
             let found = format!("a study of type {study}");
             return Err(refused(Place::Byte(18), found, "1, a profile, or 2, a map"));
         }
-        // Skips the names of the object and the operator, and the codes of material, acquisition
-        // and range.
+        // The names of the object and the operator, and the codes of material, acquisition and
+        // range, are not needed.
         data.take(30 + 30 + 6)?;
         let has_missing = data.size(Number::U16)? == 1;
-        // Skips the flag of absolute heights, the resolution and a reserved field.
+        // The flag of absolute heights, the resolution and a reserved field are not needed.
         data.take(2 + 4 + 4)?;
         let number = match data.size(Number::U16)? {
             16 => Number::I16,
@@ -86,15 +87,15 @@ impl Header {
         let rows = count(data)?;
         data.take(4)?;
         let [along, between, scale] = data.array(Number::F32)?;
-        // Skips the names of the axes.
+        // The names of the axes are not needed.
         data.take(3 * 16)?;
         let units = StatedUnits {
             along: unit(data)?,
             between: unit(data)?,
             heights: unit(data)?,
         };
-        // Skips the units of the axes, the ratios of the units and the flag of an imprint. Times
-        // follow after the flag of inversion.
+        // The units of the axes, the ratios of the units and the flag of an imprint are not needed.
+        // After the next field, the flag of inversion, times follow.
         data.take(3 * 16 + 3 * 4 + 2)?;
         let is_inverted = data.size(Number::U16)? != 0;
         data.take(334 - 292)?;
@@ -123,8 +124,8 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
     Err(refused(place, found, "above 0"))
 }
 
-/// Returns the unit in the next field, which is padded with spaces or zeros. Old files write µ in
-/// an MS-DOS code page, as a byte that is æ in Windows-1252.
+/// Returns the unit in the next field, which is padded with spaces or zeros. Old files encode µ in
+/// a code page of MS-DOS, in which µ is the byte that means æ in Windows-1252.
 fn unit(data: &mut Bytes<'_>) -> Result<Option<Unit>, SurfaceError> {
     let place = data.place();
     let field = data.take(16)?;
@@ -136,8 +137,8 @@ fn unit(data: &mut Bytes<'_>) -> Result<Option<Unit>, SurfaceError> {
     }
 }
 
-/// Decompresses heights: a table with the size of each part before and after compression, then the
-/// parts.
+/// Decompresses the heights. A table states the size of each part before and after compression, and
+/// the parts follow after the table.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, SurfaceError> {
     let place = data.place();
     let expected = unpacked_size(points, number.size(), place.clone())?;
@@ -180,8 +181,8 @@ mod tests {
     use flate2::write::ZlibEncoder;
     use std::io::Write;
 
-    /// Returns a file of a map of flat heights in µm. The points are 2 µm apart along the rows, and
-    /// the rows 3 nm.
+    /// Returns a file with a map of flat heights in µm. The distance of points is 2 µm along the
+    /// rows and 3 nm between the rows.
     fn flat(columns: u32, rows: u32) -> Vec<u8> {
         let mut header = vec![0; 512];
         let (columns_at, bits) = (columns.to_le_bytes(), 32_u32.to_le_bytes());

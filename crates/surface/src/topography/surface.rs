@@ -1,4 +1,4 @@
-//! Measured heights in m with their positions.
+//! A measured surface: heights in m, with the positions of the points.
 
 use super::missing;
 use super::positions::{LARGEST, UNEVEN, first_uneven, interpolated, mean_distance};
@@ -10,16 +10,16 @@ use strum::IntoStaticStr;
 /// Positions of the points of a surface in m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Layout {
-    /// Positions of the points of a profile, ascending.
+    /// Ascending positions of the points of a profile.
     Positions(Vec<f64>),
     /// Distance between neighbouring points of a row, and distance between neighbouring rows. For a
     /// profile both values are the distance between its points.
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that have no measured point and are
-/// therefore left out. For a profile the numbers of columns are the numbers of unmeasured points at
-/// its two ends.
+/// Numbers of columns and rows at the borders of a map that were removed because they have no
+/// measured point. For a profile, the columns are its points, and the missing points at both ends
+/// were removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -27,14 +27,14 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of columns and the number of rows left out, each as the sum over two
+    /// Returns the number of removed columns and the number of removed rows, each added up over two
     /// opposite borders.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index that a point has in the file, where the left-out columns and rows are
-    /// counted too. `index` is the index of the point without them, in rows of `columns` points.
+    /// Returns the index of a point among all points of the file, including removed columns and
+    /// rows. `index` is the index of the point without these, in rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let [columns_before, rows_before] = self.before;
         let [columns_left_out, _] = self.counts();
@@ -54,7 +54,8 @@ pub struct Topography {
     /// Number of points in each row. All points of a profile are one row.
     pub columns: usize,
     pub(super) layout: Layout,
-    /// Numbers of rows and columns without a measured point that are left out at the borders.
+    /// Numbers of columns and rows that were removed at the borders because they have no measured
+    /// point.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
@@ -78,7 +79,7 @@ impl Topography {
     /// Returns an error if the surface has a slope above [`LARGEST`].
     pub(super) fn check_slopes(&self) -> Result<(), SurfaceError> {
         for index in 1..self.heights.len() {
-            // The first point of a row has no point before it.
+            // The first point in a row has no neighbour before it in the row.
             if index % self.columns == 0 {
                 continue;
             }
@@ -102,7 +103,7 @@ impl Topography {
         self.interpolated.len()
     }
 
-    /// Returns the index in the file of the first missing point of a profile, from 0.
+    /// Returns the index of the first missing point of a profile in the file, counted from 0.
     pub(crate) fn first_missing(&self) -> Option<usize> {
         let [points_before, _] = self.cropped.before;
         let [points_after, _] = self.cropped.after;
@@ -120,11 +121,11 @@ impl Topography {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights in m. If `quarters` is above zero, the copy is changed by about as much
-    /// as the interpolation may have falsified the heights. For this, as many measured points are
-    /// interpolated as were missing: those at a distance of `quarters` quarters of the length and
-    /// the width from the missing ones. A resampled profile also gets an estimate of the short
-    /// waves that resampling has removed.
+    /// Copies the heights in m. With `quarters` above zero, the copy is changed by about as much as
+    /// interpolation may have changed the original. For this purpose, as many measured points as
+    /// were missing are interpolated too: the points that are `quarters` quarters of the length and
+    /// of the width away from the missing points. A resampled profile also gets an estimate of the
+    /// short waves that resampling has removed.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if quarters == 0 {
@@ -150,7 +151,8 @@ impl Topography {
     }
 
     /// Adds to the heights of a resampled profile an estimate of the short waves that resampling
-    /// has removed. The estimate comes from a second resampling, to the former positions and back.
+    /// has removed. The estimate is the effect of a second resampling, to the former positions and
+    /// back.
     fn add_lost_waves(&self, heights: &mut [f64], spacing: f64) -> Result<(), SurfaceError> {
         let points = self.columns;
         let former = &self.resampled;
@@ -160,9 +162,9 @@ impl Topography {
         let at_former = gathered(points, at_former)?;
         let smoother = interpolated(former, &at_former, 0.0, places.iter().copied());
 
-        // The second resampling removes less than the first one did, because the waves removed
-        // first are already missing. The correction is larger the more the distances between points
-        // vary.
+        // The second resampling removes less than the first resampling, because the waves that were
+        // removed first are already missing. The estimate is therefore enlarged, and the more so
+        // the more the distances between points vary.
         let squares = former
             .windows(2)
             .map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2))
@@ -328,7 +330,8 @@ mod tests {
             (even.spacing(), &even.heights[..]),
             (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..])
         );
-        // A straight line is unchanged, and a corner becomes sharper.
+        // On a straight line, resampling removes nothing, so nothing is added. A corner becomes
+        // sharper.
         assert_eq!(even.copied_heights(1), Ok(vec![0.0, 2.0, 4.0, 6.0]));
         let corner = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 0.0, 6.0, 6.0])
             .resampled()

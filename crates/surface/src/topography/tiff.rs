@@ -1,5 +1,5 @@
-//! The parts of the format TIFF that makers of microscopes use: directories of tags, and
-//! uncompressed images with one number for each point.
+//! Those parts of the format TIFF that makers of microscopes use: directories of tags, and images
+//! without compression that have one number for each point.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
@@ -8,18 +8,18 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURES: [&[u8]; 2] = [b"II*\0", b"MM\0*"];
 
-/// Largest number of directories that are read. The limit also ends the reading of a file whose
+/// Largest number of directories that are read. This limit also ends the reading of a file in which
 /// directories refer to each other in a circle.
 const MOST_DIRECTORIES: usize = 1_024;
 
-/// Size in bytes of a tag in a directory.
+/// Size in bytes of the entry of a tag in a directory.
 const TAG_SIZE: usize = 12;
 
-/// Largest size in bytes of a value that is stored in the directory itself; larger values are
-/// elsewhere in the file.
+/// Largest size in bytes of a value that is stored in the directory itself. A larger value is
+/// stored elsewhere in the file.
 const INLINE: usize = 4;
 
-/// Numbers of the tags of images.
+/// Numbers of the tags that describe an image.
 mod tag {
     pub const WIDTH: u16 = 256;
     pub const LENGTH: u16 = 257;
@@ -56,9 +56,9 @@ pub(super) fn directories(bytes: &[u8]) -> Result<Vec<Directory<'_>>, SurfaceErr
     Ok(directories)
 }
 
-/// A directory: the tags of one image.
+/// A directory of a TIFF file, which contains the tags of one image.
 pub(super) struct Directory<'a> {
-    /// The whole file.
+    /// Content of the whole file.
     bytes: &'a [u8],
     tags: Bytes<'a>,
 }
@@ -71,8 +71,8 @@ struct Value<'a> {
     content: Bytes<'a>,
 }
 
-/// Returns the type of the numbers of a tag from its code in TIFF; `None` for a type that is not a
-/// number.
+/// Returns the type of the numbers of a tag, from its code in TIFF; `None` if the code is not that
+/// of a type of numbers.
 fn number_of(kind: usize) -> Option<Number> {
     match kind {
         1 | 7 => Some(Number::U8),
@@ -88,7 +88,7 @@ fn number_of(kind: usize) -> Option<Number> {
 }
 
 impl<'a> Directory<'a> {
-    /// Returns the place of the directory, for messages.
+    /// Returns the place of the directory in the file, for error messages.
     pub fn place(&self) -> Place {
         self.tags.place()
     }
@@ -121,7 +121,7 @@ impl<'a> Directory<'a> {
         Ok(None)
     }
 
-    /// Returns the first number of a tag.
+    /// Returns the first number in the value of a tag; `None` if the directory has no such tag.
     pub fn number(&self, tag: u16) -> Result<Option<f64>, SurfaceError> {
         let Some(mut value) = self.value(tag)? else {
             return Ok(None);
@@ -132,7 +132,7 @@ impl<'a> Directory<'a> {
         }
     }
 
-    /// Returns the text of a tag.
+    /// Returns the value of a tag as a text; `None` if the directory has no such tag.
     pub fn text(&self, tag: u16) -> Result<Option<Cow<'a, str>>, SurfaceError> {
         let Some(value) = self.value(tag)? else {
             return Ok(None);
@@ -143,13 +143,13 @@ impl<'a> Directory<'a> {
         Ok(Some(decoded(&text[..end.unwrap_or(text.len())])))
     }
 
-    /// Returns the bytes of a tag.
+    /// Returns the value of a tag as bytes; `None` if the directory has no such tag.
     pub fn content(&self, tag: u16) -> Result<Option<Bytes<'a>>, SurfaceError> {
         Ok(self.value(tag)?.map(|value| value.content))
     }
 
-    /// Returns the number of a tag that states a size or a code. Returns `otherwise` if the tag is
-    /// missing.
+    /// Returns the number of a tag whose value is a size or a code. Returns `otherwise` if the
+    /// directory has no such tag.
     fn code(&self, tag: u16, otherwise: usize) -> Result<usize, SurfaceError> {
         let number = self.number(tag)?;
         Ok(number.map_or(otherwise, |number| number as usize))
@@ -208,8 +208,8 @@ impl<'a> Directory<'a> {
         let (Some(offsets), Some(sizes)) = strips else {
             return Err(self.refused("an image without numbers".to_owned(), "strips of numbers"));
         };
-        // The strips of an image may overlap, so the size of the file is compared with the size of
-        // the image.
+        // Strips of an image may overlap, so their sizes prove nothing. The size of the image is
+        // therefore compared with that of the file.
         let size = points.saturating_mul(kind.size());
         if points == 0 || size > self.bytes.len() {
             let found = format!("an image of {points} points in {} bytes", self.bytes.len());
@@ -230,7 +230,7 @@ impl<'a> Directory<'a> {
     }
 }
 
-/// Strips of an image, one after the other.
+/// Strips of an image, which are read one after another.
 struct Strips<'a> {
     bytes: &'a [u8],
     order: Order,
@@ -248,7 +248,7 @@ impl<'a> Strips<'a> {
         }
     }
 
-    /// Returns the next strip, of at most `most` numbers; `None` after the last one.
+    /// Returns the next strip, but at most `most` numbers of it; `None` after the last strip.
     fn next(&mut self, most: usize, kind: Number) -> Result<Option<Bytes<'a>>, SurfaceError> {
         let Some(offset) = self.offsets.next_size()? else {
             return Ok(None);
@@ -276,14 +276,14 @@ impl Value<'_> {
 pub(super) mod tests {
     use super::*;
 
-    /// Content of a tag that a test writes.
+    /// A tag that a test writes.
     pub struct Tag {
         pub tag: u16,
         pub kind: u16,
         pub content: Vec<u8>,
     }
 
-    /// Writes a file in either order of bytes.
+    /// Writer of a file in either order of bytes, for tests.
     pub struct Writer {
         pub order: Order,
     }
@@ -332,8 +332,8 @@ pub(super) mod tests {
             }
         }
 
-        /// Appends an image of integers of 16 or 32 bits to the file, in strips of one row of three
-        /// points. Returns the tags of this image.
+        /// Appends an image of integers of 16 or 32 bits to the file. Each strip has one row of
+        /// three points. Returns the tags of this image.
         pub fn image(&self, file: &mut Vec<u8>, numbers: &[i32], bits: u16) -> Vec<Tag> {
             let row = 3 * u32::from(bits) / 8;
             let mut offsets = Vec::new();
@@ -366,8 +366,8 @@ pub(super) mod tests {
             [signature, &[0; 4]].concat()
         }
 
-        /// Writes a directory, and writes its offset at the place `link`. Returns the place for the
-        /// offset of the next directory.
+        /// Writes a directory to the end of the file, and its offset to the place `link`. Returns
+        /// the place to which the offset of the next directory is to be written.
         pub fn directory(&self, file: &mut Vec<u8>, link: usize, tags: &[Tag]) -> usize {
             let mut entries = Vec::new();
             for tag in tags {
@@ -401,7 +401,7 @@ pub(super) mod tests {
         order: Order::Little,
     };
 
-    /// Reads the numbers of a file with one image, after `change` has changed its tags.
+    /// Makes a file with one image whose tags are changed by `change`, and reads its numbers.
     fn image(change: impl FnOnce(&mut Vec<Tag>)) -> Result<Vec<f64>, String> {
         let mut file = LITTLE.begin();
         let mut tags = LITTLE.image(&mut file, &[1, -2, 3, 4, 5, 6], 16);
@@ -448,7 +448,7 @@ pub(super) mod tests {
         let tags = LITTLE.image(&mut file, &[1, 2, 3], 16);
         let link = LITTLE.directory(&mut file, 4, &tags);
         assert_eq!(directories(&file).unwrap().len(), 1);
-        // The directory names itself as the next directory.
+        // The directory states its own offset as that of the next directory.
         let own = file[4..8].to_vec();
         file[link..].copy_from_slice(&own);
         assert_eq!(directories(&file).unwrap().len(), MOST_DIRECTORIES);

@@ -1,8 +1,9 @@
-//! Reordering of maps whose file has the heights column by column, or begins with the lowest row.
+//! Reordering of maps, for files that have the heights column by column or begin with the lowest
+//! row.
 
 use asperity_data::{OutOfMemory, gathered};
 
-/// Returns the values of a matrix row by row. The given values are column by column, with
+/// Returns the values of a matrix row by row. `values` has them column by column, with
 /// `column_length` values in each column.
 pub(super) fn transposed(values: &[f64], column_length: usize) -> Result<Vec<f64>, OutOfMemory> {
     let rows =

@@ -5,7 +5,7 @@ use asperity_data::shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// A unit of length with its spellings.
+/// A unit of length with the names that files use for it.
 struct KnownUnit {
     unit: Unit,
     other_names: &'static str,
@@ -33,7 +33,7 @@ const UNITS: [KnownUnit; 7] = [
     known("pm", 1e12, "picometer picometre"),
 ];
 
-/// Largest number of letters of a symbol of a unit. In a symbol, capitals and small letters differ.
+/// Largest number of letters of the symbol of a unit. In a symbol, upper and lower case differ.
 const LONGEST_SYMBOL: usize = 3;
 
 /// A unit of length that a file or an option may state, such as µm.
@@ -65,7 +65,8 @@ impl Unit {
         self.name
     }
 
-    /// Returns the unit that a file states at this place; `None` for an empty text.
+    /// Returns the unit that the text in a file states; `None` for an empty text. `place` is for
+    /// the error.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, SurfaceError> {
         if text.is_empty() {
             return Ok(None);
@@ -111,8 +112,8 @@ impl KnownUnit {
 impl FromStr for Unit {
     type Err = SurfaceError;
 
-    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`. Words, such
-    /// as `Metre`, are not case-sensitive.
+    /// Parses the name of a unit. The case of a symbol matters, because `Mm` is not `mm`. The case
+    /// of a word, such as `Metre`, does not matter.
     fn from_str(text: &str) -> Result<Unit, SurfaceError> {
         Unit::named(text, Place::File)
     }

@@ -1,5 +1,5 @@
-//! The formats VK4 and VK3 of Keyence: a table of offsets, the conditions of the measurement, and
-//! up to three images of heights as unsigned integers, row by row from the top.
+//! The formats VK4 and VK3 of Keyence. A file has a table of offsets, the conditions of the
+//! measurement, and up to three images of heights as unsigned integers, the top row first.
 
 use super::bytes::{Bytes, Number, Order};
 use super::channel::{self, Label, Wanted};
@@ -10,26 +10,27 @@ use crate::error::{Place, SurfaceError, refused};
 
 pub(super) const SIGNATURES: [&[u8]; 2] = [b"VK4_", b"VK3_"];
 
-/// Offset in the file, in bytes, of the table of offsets.
+/// Offset in bytes of the table of offsets, from the beginning of the file.
 const TABLE: usize = 12;
 
-/// Place in the file, in bytes, of the offset of the conditions of the measurement.
+/// Offset in bytes at which the file states the offset of the conditions of the measurement.
 const CONDITIONS: usize = TABLE;
 
-/// Place in the file, in bytes, of the offset of the first of three images of heights.
+/// Offset in bytes at which the file states the offset of the first of three images of heights.
 const HEIGHTS: usize = TABLE + 6 * 4;
 
 /// Largest number of images of heights in a file.
 const MOST_IMAGES: u32 = 3;
 
-/// Offset in the conditions, in bytes, of three numbers in pm: the distances between points along x
-/// and along y, and the step of the heights.
+/// Offset in bytes, within the conditions, of three numbers in pm: the distances between points
+/// along x and along y, and the height of one integer step.
 const SCALES: usize = 42 * 4;
 
-/// Size in bytes of the table of colours between the header of an image and its numbers.
+/// Size in bytes of the table of colours, which lies between the header of an image and its
+/// numbers.
 const PALETTE: usize = 3 * 256;
 
-/// Reads the image of heights that is wanted. Numbers of images count from 0.
+/// Reads the wanted image of heights. Images are numbered from 0.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut table = Bytes::from(bytes, Order::Little, HEIGHTS)?;
     let mut labels = Vec::new();
@@ -130,7 +131,7 @@ pub(super) mod tests {
         }
         for image in 0..images {
             let offset = file.len();
-            // The second of the three possible images is missing.
+            // The second of three possible images is left out.
             put(&mut file, HEIGHTS + 8 * image, offset);
             for number in [3, 2, bits, 0, 6 * bits / 8, 0, 255] {
                 file.extend(number.to_le_bytes());

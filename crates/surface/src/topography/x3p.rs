@@ -1,5 +1,5 @@
-//! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths
-//! are in m.
+//! The format X3P of ISO 25178-72. A file is an archive with the index file `main.xml` and usually
+//! a binary file of heights. Lengths are in m.
 
 use super::archive::Archive;
 use super::bytes::{Bytes, Number, Order, unpacked_size};
@@ -14,15 +14,15 @@ use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt;
 
-/// Largest size of `main.xml` in bytes.
+/// Largest allowed size of the index file `main.xml` in bytes.
 const LONGEST_INDEX: usize = 1 << 26;
 
-/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The time
-/// of the parser grows with the square of this number, because it compares each attribute with all
-/// others of its element, and each declaration with all that the element inherits.
+/// Largest allowed number of attributes in `main.xml`, including declarations of namespaces. The
+/// time of the parser grows with the square of this number: each attribute is compared with all
+/// others of its element, and each declaration with all declarations that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Name of the index in the archive.
+/// Name of the index file in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
 /// Index of the heights in arrays of coordinates, after x and y.
@@ -31,7 +31,8 @@ const Z: usize = 2;
 pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
     let encoding = declared_encoding(&content).unwrap_or(UTF_8);
-    // If the content begins with a byte order mark, `decode` follows it and not the declaration.
+    // If the content begins with a byte order mark, `decode` uses the encoding of this mark and not
+    // that of the declaration.
     let (index, ..) = encoding.decode(&content);
     check_index(&index)?;
     let options = ParsingOptions {
@@ -47,7 +48,7 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Returns the encoding that the XML declaration states, if ASCII is a part of this encoding.
+/// Returns the encoding that the XML declaration states; `None` unless the encoding contains ASCII.
 fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     let declaration = content.strip_prefix(b"<?xml")?;
     let declaration = declaration.split(|byte| *byte == b'>').next()?;
@@ -57,11 +58,11 @@ fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     Encoding::for_label(label.as_bytes())
 }
 
-/// Returns an error for an index whose parsing would take far more time or memory than its length
+/// Returns an error if parsing the index file would take far more time or memory than its length
 /// suggests.
 fn check_index(index: &str) -> Result<(), SurfaceError> {
-    // The parser reserves memory for each `<` and each `=`. The shortest element, `<a/>`, has four
-    // characters.
+    // The parser reserves memory for each `<` and each `=`. Real files have few of them, because
+    // even the shortest element, `<a/>`, has four characters.
     let signs = index.bytes().filter(|byte| b"<=".contains(byte)).count();
     if signs > index.len() / 4 {
         let found = "more than a quarter of the characters are < or =";
@@ -81,8 +82,8 @@ fn wrong(found: impl fmt::Display, allowed: &str) -> SurfaceError {
 }
 
 struct Axis<'a> {
-    /// True if the file has a coordinate for each point. Otherwise the points are equally spaced,
-    /// with the increment as distance.
+    /// True if the file has a coordinate for each point. If it is false, the points are evenly
+    /// spaced, and the increment is their distance.
     is_absolute: bool,
     increment: Option<f64>,
     offset: f64,
@@ -93,7 +94,7 @@ impl<'a> Axis<'a> {
     fn new(axis: Node<'a, '_>) -> Result<Self, SurfaceError> {
         let kind = text(axis, "AxisType");
         let name = axis.tag_name().name();
-        // Heights are always absolute.
+        // The axis of the heights always has a coordinate for each point.
         let is_absolute = name == "CZ" || kind == "A";
         if !is_absolute && kind != "I" {
             let found = format!("the axis {name} is of type {:?}", shown(kind));
@@ -109,7 +110,7 @@ impl<'a> Axis<'a> {
         })
     }
 
-    /// Returns the type of the coordinates in a binary file.
+    /// Returns the type of the coordinates on this axis in a binary file.
     fn number_type(&self) -> Result<Number, SurfaceError> {
         match self.data_type {
             "I" => Ok(Number::I16),
@@ -124,14 +125,14 @@ impl<'a> Axis<'a> {
     }
 }
 
-/// x, y and z of each point in m. An axis without coordinates is empty.
+/// Coordinates x, y and z of each point in m. The list of an axis without coordinates is empty.
 type Coordinates = [Vec<f64>; 3];
 
-/// A surface as the index describes it.
+/// A surface as the index file describes it.
 struct Surface<'a, 'input> {
     root: Node<'a, 'input>,
     axes: [Axis<'a>; 3],
-    /// Messages about the file.
+    /// Messages for the user about unusual properties of the file.
     warnings: Vec<Note>,
 }
 
@@ -156,7 +157,7 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(reading)
     }
 
-    /// Reads a list of points without an order.
+    /// Reads points that are listed in any order.
     fn list(&mut self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
         let points = count(self.root, "ListDimension")?;
         if self.axes.iter().any(|axis| !axis.is_absolute) {
@@ -167,7 +168,7 @@ impl<'a, 'input> Surface<'a, 'input> {
         scattered(sorted(coordinates)?, points)
     }
 
-    /// Reads points in rows and columns.
+    /// Reads points that are arranged in rows and columns.
     fn matrix(&mut self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
         let columns = count(self.root, "SizeX")?;
         let rows = count(self.root, "SizeY")?;
@@ -199,9 +200,9 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(Reading::even("X3P", heights, columns, spacing, units))
     }
 
-    /// Returns a message about binary content whose MD5 checksum differs from the checksum that the
-    /// index states. ISO 25178-72 demands equal checksums. `element` is the name of the element
-    /// that states the checksum.
+    /// Returns a message if the MD5 checksum of binary content differs from the checksum that the
+    /// index file states. ISO 25178-72 demands that they are equal. `element` is the name of the
+    /// element that states the checksum.
     fn changed(&self, name: &str, content: &[u8], element: &str) -> Option<String> {
         let stated = trimmed(find(self.root, element)?);
         let is_checksum = stated.len() == 32 && stated.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -222,7 +223,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         ))
     }
 
-    /// Reads the coordinates of each point from a binary file or a list in the index.
+    /// Reads the coordinates of each point from a binary file of the archive, or from a list in the
+    /// index file.
     fn coordinates(
         &mut self,
         archive: &mut Archive<'_>,
@@ -241,8 +243,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(coordinates)
     }
 
-    /// Reads the coordinates from a binary file of the archive, point by point. Points that a bit
-    /// field marks as invalid are missing.
+    /// Reads the coordinates, point by point, from a binary file of the archive. Points that a
+    /// field of bits marks as invalid become missing points.
     fn linked(
         &mut self,
         archive: &mut Archive<'_>,
@@ -283,7 +285,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(coordinates)
     }
 
-    /// Returns the coordinates that a binary file has for each point, in the order of the file.
+    /// Returns which coordinates a binary file has for each point, in the order in which they are
+    /// stored.
     fn stored_coordinates(&self) -> Result<Vec<StoredCoordinate>, SurfaceError> {
         let mut stored = Vec::new();
         for (index, axis) in self.axes.iter().enumerate() {
@@ -297,8 +300,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(stored)
     }
 
-    /// Reads the coordinates of a list in the index. The last number of each entry is a height, and
-    /// an empty entry is a missing point.
+    /// Reads the coordinates from a list in the index file. The last number in each entry is a
+    /// height, and an empty entry is a missing point.
     fn listed(&self, points: usize) -> Result<Coordinates, SurfaceError> {
         let Some(list) = find(self.root, "DataList") else {
             let found = "neither PointDataLink nor DataList";
@@ -341,14 +344,14 @@ fn axis<'a, 'input>(root: Node<'a, 'input>, name: &str) -> Result<Node<'a, 'inpu
     find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
 }
 
-/// A coordinate that a binary file has for each point.
+/// A coordinate that a binary file stores for each point.
 struct StoredCoordinate {
     /// Index of the axis.
     axis: usize,
     number: Number,
 }
 
-/// Returns the content of a file of the archive. Returns an error unless it has exactly `size`
+/// Returns the content of a file of the archive. Returns an error unless it has exactly `bytes`
 /// bytes.
 fn exactly(
     archive: &mut Archive<'_>,
@@ -364,8 +367,8 @@ fn exactly(
     Err(refused(Place::Part(name.to_owned()), found, allowed))
 }
 
-/// Removes the coordinates of the points whose bit in the bit field is 0. The stored coordinates of
-/// such a point, also its position, mean nothing.
+/// Removes the coordinates of points whose bit in the field of bits is 0. The stored coordinates of
+/// such a point, including its position, have no meaning.
 fn remove_invalid(coordinates: &mut Coordinates, valid: &[u8]) {
     for values in coordinates {
         for (index, value) in values.iter_mut().enumerate() {
@@ -377,7 +380,7 @@ fn remove_invalid(coordinates: &mut Coordinates, valid: &[u8]) {
     }
 }
 
-/// Sorts the points of a list without an order by y and then by x.
+/// Sorts the points of a list by y, and points with the same y by x.
 fn sorted(coordinates: Coordinates) -> Result<Coordinates, SurfaceError> {
     let [x, y, _] = &coordinates;
     let mut order = gathered(x.len(), 0..x.len())?;
@@ -393,8 +396,8 @@ fn sorted(coordinates: Coordinates) -> Result<Coordinates, SurfaceError> {
     Ok([x?, y?, heights?])
 }
 
-/// Returns a profile if the points are in one row with the same y, or else a map of points at the
-/// given positions. A point without a position is left out.
+/// Returns a profile if all points are in one row and have the same y, otherwise a map of points at
+/// these positions. A point without a position is left out.
 fn scattered(mut coordinates: Coordinates, columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == coordinates[Z].len();
     let [x, y, _] = &coordinates;
@@ -427,7 +430,7 @@ fn scattered(mut coordinates: Coordinates, columns: usize) -> Result<Reading, Su
     ))
 }
 
-/// Returns the first element of this name below a node, in any namespace.
+/// Returns the first element with this name below a node. Its namespace does not matter.
 fn find<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
     node.descendants()
         .find(|node| node.is_element() && node.tag_name().name() == name)
@@ -437,13 +440,14 @@ fn trimmed<'a>(node: Node<'a, '_>) -> &'a str {
     node.text().unwrap_or_default().trim()
 }
 
-/// Returns the text of the first element of this name below a node. The text is empty if there is
-/// no such element.
+/// Returns the text of the first element with this name below a node; an empty text if there is no
+/// such element.
 fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
 
-/// Returns the number in the first element of this name; `None` if the element is missing or empty.
+/// Returns the number in the first element with this name; `None` if the element is missing or
+/// empty.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
     let text = text(axis, name);
     if text.is_empty() {
@@ -489,8 +493,8 @@ mod tests {
         in_folders(main.as_bytes(), ["", ""])
     }
 
-    /// Reads a surface from an archive with the index in one folder and the other files in another
-    /// folder.
+    /// Reads a surface from an archive in which the index file is in one folder, and the other
+    /// files are in another folder.
     fn in_folders(main: &[u8], [folder, bindata]: [&str; 2]) -> Result<Reading, String> {
         let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
         let name = |folder: &str, name: &str| format!("{folder}{name}");
@@ -552,8 +556,8 @@ mod tests {
             .flat_map(u16::to_le_bytes)
             .collect();
         assert!(same(&in_folders(&in_utf_16, ["", ""]).unwrap(), &plain));
-        // If the file states no scale of heights, the scale is 1. If it states no distance between
-        // points, the distance remains unknown.
+        // If the file states no scale of the heights, the scale is 1. If it states no distance
+        // between points, this distance remains unknown.
         let no_scale =
             with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
         assert_eq!(no_scale.heights[0], 1.0 + 5e-9);
@@ -575,7 +579,7 @@ mod tests {
                 1,
             ))
         };
-        // The checksum of the twelve bytes of heights was computed with the program md5sum.
+        // This checksum of the twelve bytes of heights was computed with the program md5sum.
         let right = "f6050cdac59263109f2a853227bed520";
         let in_capitals = right.to_uppercase();
         for checksum in [right, &in_capitals, "", "none"] {
@@ -663,7 +667,7 @@ mod tests {
         };
         let found = read(&absolute, &matrix(3, 1), "1;5 3;6 7;7").unwrap();
         assert_eq!((found.positions.unwrap()[2] * 1e6, found.columns), (7.0, 3));
-        // A list may be in any order, and its point without a position is left out.
+        // A list may have any order. Its point without a position is left out.
         let points = "<ListDimension>7</ListDimension>";
         let found = read(&both, points, "1;0;1 0;0;0 0;1;3 1;1;4 2;1;5  2;0;2").unwrap();
         assert_eq!((found.columns, found.spacing.unwrap()[0] * 1e6), (3, 1.0));
@@ -674,7 +678,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         assert_eq!(steps(&found.heights), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
-        // The positions along even rows are absolute.
+        // The rows are evenly spaced, but the file states the position of each point along them.
         let found = read(&absolute, &matrix(2, 2), "0;1 3;2 0;3 3;4").unwrap();
         assert_eq!(
             (
@@ -773,7 +777,7 @@ mod tests {
                 .collect()
         };
         let with_root = |more: &str| MAIN.replacen(" xmlns:p=", &format!("{more} xmlns:p="), 1);
-        // The document itself has three attributes.
+        // The document has three attributes already without the declarations that are added.
         assert!(with(&with_root(&declared(MOST_ATTRIBUTES - 3))).is_ok());
         let nested: String = (0..40_000)
             .map(|i| format!("<a xmlns:n{i}=\"u{i}\">"))

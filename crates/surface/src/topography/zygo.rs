@@ -1,5 +1,5 @@
-//! The format DAT of Zygo MetroPro: a header of fixed fields, intensities, and integer heights in
-//! fractions of a wavelength, row by row from the top.
+//! The format DAT of Zygo MetroPro. A file has a header of fixed fields, intensities, and heights
+//! as integers in fractions of a wavelength, the top row first.
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
@@ -12,13 +12,14 @@ pub(super) const SIGNATURES: [&[u8]; 3] = [
     b"\x88\x1b\x03\x71",
 ];
 
-/// Smallest integer that marks a missing point.
+/// Smallest integer that marks a missing point. All larger integers mark missing points too.
 const MISSING: f64 = 2_147_483_640.0;
 
-/// Number of integer steps in a wavelength, indexed by the code of the resolution in the header.
+/// Number of integer steps per wavelength. The index in this list is the code of the resolution in
+/// the header.
 const STEPS: [f64; 3] = [4_096.0, 32_768.0, 131_072.0];
 
-/// Offsets in bytes of the fields of the header.
+/// Offsets in bytes of fields in the header.
 mod field {
     pub const HEADER_SIZE: usize = 6;
     pub const INTENSITY_BYTES: usize = 60;
@@ -31,8 +32,8 @@ mod field {
     pub const SIGN: usize = 232;
 }
 
-/// Reads the heights and converts them to m. If the distance between points in the header is 0, it
-/// is unknown.
+/// Reads the heights and converts them to m. If the header states the distance 0 between points,
+/// this distance is unknown.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let number = |offset: usize, kind: Number| Bytes::from(bytes, Order::Big, offset)?.number(kind);
     let mut counts = Bytes::from(bytes, Order::Big, field::COLUMNS)?;
@@ -72,7 +73,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     Ok(reading.scaled(|height| height >= MISSING, signed_scale))
 }
 
-/// Returns the number of integer steps in a wavelength.
+/// Returns the number of integer steps per wavelength.
 fn steps(bytes: &[u8]) -> Result<f64, SurfaceError> {
     let mut header = Bytes::from(bytes, Order::Big, field::PHASE_RESOLUTION)?;
     let place = header.place();
@@ -92,8 +93,8 @@ fn steps(bytes: &[u8]) -> Result<f64, SurfaceError> {
 pub(super) mod tests {
     use super::*;
 
-    /// Returns a file with intensities and these integer heights, in rows of three points at
-    /// distances of 2 µm.
+    /// Returns a file with intensities and these integer heights. Rows have three points, and the
+    /// distance between points is 2 µm.
     pub fn file(signature: usize, resolution: i16, sign: i16, heights: &[i32]) -> Vec<u8> {
         let size: usize = if signature == 2 { 4_096 } else { 834 };
         let mut header = vec![0; size];
@@ -103,7 +104,7 @@ pub(super) mod tests {
         put(0, SIGNATURES[signature]);
         put(4, &(signature as u16 + 1).to_be_bytes());
         put(6, &(size as u32).to_be_bytes());
-        // The file has two intensities in one image of intensities.
+        // The file has one image of two intensities before the heights.
         put(52, &[0, 2, 0, 1, 0, 1]);
         put(60, &4_u32.to_be_bytes());
         put(68, &3_u16.to_be_bytes());

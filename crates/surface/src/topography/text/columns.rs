@@ -1,18 +1,19 @@
-//! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
+//! Meaning of the columns of a table in a text: heights alone, a profile, points of a map, or rows
+//! of a map.
 
 use super::super::channel::{self, Label, Wanted};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::text_table::{Role, TextColumn};
 use asperity_data::{Remedy, shown};
 
-/// Largest number of columns of positions and heights. More columns are the rows of a map, unless
-/// their names say otherwise.
+/// Largest number of columns of a list of points (two positions and a height). More columns are the
+/// rows of a map, unless their names say otherwise.
 const MOST_NAMED: usize = 3;
 
-/// Largest number of columns that a message lists.
+/// Largest number of columns that an error message lists.
 const MOST_LISTED: usize = 8;
 
-/// Indices of the columns of a list of points.
+/// Indices of the columns of a list of points, by their meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
     /// Column of the positions of a profile, or of the coordinate x of the points of a map.
@@ -22,8 +23,8 @@ pub(super) struct List {
     pub valid: Option<usize>,
 }
 
-/// Finds the columns of a list of points; `None` if the columns are rows of a map. If several
-/// columns may be the heights, `wanted` chooses one.
+/// Finds the columns of a list of points; `None` if the lines are rows of a map. If several columns
+/// may be the heights, `wanted` chooses one of them.
 pub(super) fn list_of(
     columns: &[TextColumn],
     wanted: Wanted<'_>,
@@ -60,11 +61,11 @@ pub(super) fn list_of(
     Err(refused(Place::File, found, allowed))
 }
 
-/// Columns with the meaning that their names give. If several columns have a name of the same
-/// meaning, as `point 1`, `point 2`, …, none of them gets this meaning.
+/// Columns by the meaning of their names. If several columns have names with the same meaning, such
+/// as `point 1`, `point 2`, …, none of them gets this meaning.
 struct NamedColumns<'a> {
     columns: &'a [TextColumn],
-    /// Column with the numbers of the points.
+    /// Column that numbers the points.
     number: Option<usize>,
     valid: Option<usize>,
     x: Option<usize>,
@@ -90,7 +91,7 @@ impl<'a> NamedColumns<'a> {
         }
     }
 
-    /// Returns the columns for lists with one to three numbers for each point; `None` for other
+    /// Returns the columns if each point of the list has one to three numbers; `None` for other
     /// lists.
     fn list(&self) -> Option<List> {
         match self.others[..] {
@@ -103,8 +104,8 @@ impl<'a> NamedColumns<'a> {
         }
     }
 
-    /// Returns true if the first column is x and several named columns follow, none of which is y.
-    /// A file may so hold a profile before and after a filter.
+    /// Returns true if the first column is x, and at least two named columns follow, none of which
+    /// is y. Such a file contains, for example, the heights of a profile before and after a filter.
     fn has_several_heights(&self) -> bool {
         let [first, heights @ ..] = &self.others[..] else {
             return false;
@@ -117,7 +118,7 @@ impl<'a> NamedColumns<'a> {
             })
     }
 
-    /// Returns the first column with a name that may be the heights.
+    /// Returns the first column that is not a position, if it has a name. It may be the heights.
     fn candidate(&self) -> Option<&TextColumn> {
         let is_position = |column: usize| Some(column) == self.x || Some(column) == self.y;
         let mut heights = self.others.iter().filter(|column| !is_position(**column));
@@ -125,11 +126,11 @@ impl<'a> NamedColumns<'a> {
         (!first.name.is_empty()).then_some(first)
     }
 
-    /// Returns the list with the wanted column as heights. The positions are the columns named x
-    /// and y. Without such names, the first column has the positions of a profile.
+    /// Returns the list in which the wanted column is the heights. The positions are the columns
+    /// named x and y. If there are no such names, the first column is the positions of a profile.
     fn list_with(&self, wanted: Wanted<'_>) -> Result<List, SurfaceError> {
         let height = self.wanted(wanted)?;
-        // If the only columns are X and Y, then Y is the height.
+        // If X and Y are the only columns, then Y is the heights of a profile.
         let y = self.y.filter(|_| self.others.len() > 2);
         let is_position = Some(height) == self.x || Some(height) == y;
         let x = match self.others.first() {
@@ -187,8 +188,8 @@ impl<'a> NamedColumns<'a> {
             let height = self.others.iter().copied().find(is_height);
             return Some(self.with(Some(x), Some(y), height.unwrap_or(third)));
         }
-        // If two columns are named as x and height, a third column with an unknown name is another
-        // quantity, and not the coordinate y.
+        // If two columns are named x and height, a third column with an unknown name is not the
+        // coordinate y but another quantity.
         let has_other_quantity =
             self.x.is_some() && self.height.is_some() && self.has_unknown_name();
         if self.is_usual() && !has_other_quantity {
@@ -197,7 +198,7 @@ impl<'a> NamedColumns<'a> {
         None
     }
 
-    /// Returns true if the columns are in the order x, y, height, as far as they are named.
+    /// Returns true if those columns that have a name are in the order x, y, height.
     fn is_usual(&self) -> bool {
         [self.x, self.y, self.height]
             .into_iter()
@@ -222,7 +223,7 @@ impl<'a> NamedColumns<'a> {
     }
 }
 
-/// Returns the only column with a role; `None` if no column or several columns have it.
+/// Returns the only column with a role; `None` if no column or several columns have this role.
 fn single(columns: &[TextColumn], role: Role) -> Option<usize> {
     let mut found = (0..columns.len()).filter(|column| columns[*column].role == role);
     let first = found.next();

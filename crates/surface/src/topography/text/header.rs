@@ -1,4 +1,4 @@
-//! Header before the numbers of a text: units, sizes, and the lines that may name columns.
+//! Header of a text: the lines above the numbers, which state units and sizes and may name columns.
 
 use super::super::unit::Unit;
 use asperity_data::text_table::{
@@ -8,28 +8,29 @@ use asperity_data::text_table::{
 /// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
 
-/// Keys of the width of a map in English and in the other languages of Gwyddion.
+/// Keys with which a header states the width of a map, in English and in the other languages of the
+/// program Gwyddion.
 const WIDTH: &str = "width x-length šířka breite anchura largeur larghezza 幅 폭 largura ширина";
 
-/// Keys of the height of a map.
+/// Keys with which a header states the height of a map (its size along y), in these languages.
 const HEIGHT: &str = "height y-length výška höhe altura hauteur altezza 高さ 높이 высота";
 
-/// Keys of the name of a channel.
+/// Keys with which a header states the name of a channel, in these languages.
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
 
-/// Words for `unit` in the keys of units, in several languages.
+/// Words for `unit`, in several languages. A key with such a word states a unit.
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
-/// Words beside `unit` in a key of the unit of heights.
+/// Words that may occur beside `unit` in a key, and that mean the unit of the heights.
 const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor 값";
 
-/// Words beside `unit` in a key of the unit of both positions.
+/// Words that may occur beside `unit` in a key, and that mean the unit of positions along x and y.
 const OF_POSITIONS: &str = "xy lateral position positions distance";
 
-/// Words beside `unit` in a key that name no axis.
+/// Words that may occur beside `unit` in a key, but do not say to which axis the unit belongs.
 const OF_ALL: &str = "length lengths axis de измерения";
 
-/// Keys of the distance between points of a map along both axes.
+/// Keys with which a header states one distance between points, for both axes of a map.
 const SPACING: [&str; 8] = [
     "xy calibration",
     "pixel size",
@@ -41,27 +42,29 @@ const SPACING: [&str; 8] = [
     "pixel_size",
 ];
 
-/// Keys of the distances between points along each axis.
+/// Keys with which a header states the distance between points along one axis: x, then y.
 const SPACING_OF_AXIS: [[&str; 4]; 2] = [
     ["scale x", "dx", "delta x", "x spacing"],
     ["scale y", "dy", "delta y", "y spacing"],
 ];
 
-/// Keys of the sizes of a map in files of the program WSxM. The unit of the size in z is the unit
-/// of the heights.
+/// Keys with which files of the program WSxM state the sizes of a map. Of the size in z, which is
+/// the range of the heights, only the unit is used.
 const AMPLITUDES: [&str; 3] = ["x amplitude", "y amplitude", "z amplitude"];
 
 /// Key of the unit of the heights of a profile in files of the program WSxM.
 const UNIT_OF_ORDINATE: &str = "y axis unit";
 
-/// Keys of the number of columns and of rows.
+/// Keys with which a header states the number of columns, then the number of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 
-/// First words of the header of Wyko, a maker of interferometers. In such a file the rows run along
-/// y. The number after these words says whether the heights are in nm or in wavelengths.
+/// First words of the header of Wyko, a maker of interferometers. The rows of numbers in such a
+/// file run along y. The number after these words says whether the heights are in nm or in
+/// wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
-/// Number of the line, from 1, that has the distance between points in the format Zygo XYZ.
+/// Number, counted from 1, of the header line with the distance between points in the format Zygo
+/// XYZ.
 const LINE_OF_DISTANCE: usize = 8;
 
 /// Unit of lengths in headers of the program SPIP.
@@ -70,16 +73,16 @@ const NANOMETRE: &str = "nm";
 /// Unit of lengths in headers of Wyko.
 const MILLIMETRE: &str = "mm";
 
-/// Index of x in arrays of three axes.
+/// Index of x in arrays with one element for each of x, y and height.
 pub(super) const X: usize = 0;
 
-/// Index of y in arrays of three axes.
+/// Index of y in arrays with one element for each of x, y and height.
 pub(super) const Y: usize = 1;
 
-/// Index of the heights in arrays of three axes.
+/// Index of the heights in arrays with one element for each of x, y and height.
 pub(super) const Z: usize = 2;
 
-/// A length, with its unit if it has one of its own.
+/// A length in a header. `unit` is `None` if no unit is written after the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Length {
     value: f64,
@@ -125,38 +128,40 @@ const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 pub struct TextHeader {
     /// Name of the channel, if the header states it.
     pub channel: Option<String>,
-    /// Units of x, y and heights, from keys that name them.
+    /// Units of x, y and heights, from keys that say to which of them the unit belongs.
     units: [Option<Unit>; 3],
-    /// Unit of all lengths, from a key that names no axis.
+    /// Unit of all lengths, from a key that does not say to which axis the unit belongs.
     unit: Option<Unit>,
     /// Unit of the heights if it is not a unit of length.
     pub other_unit: Option<String>,
     /// Width and height of a map.
     sizes: [Option<Length>; 2],
-    /// Distances between points of a map along and between rows.
+    /// Distances between points of a map, along the rows and between the rows.
     spacing: [Option<Length>; 2],
     /// Number of columns and number of rows, if the header states them.
     pub counts: [Option<usize>; 2],
-    /// Factor by which the numbers of the file are multiplied to give heights.
+    /// Factor by which the numbers in the file are multiplied to give the heights.
     factor: Option<f64>,
-    /// Factor by which the numbers are multiplied to give heights in nm, used unless the file
-    /// states a unit of heights.
+    /// Factor by which the numbers in the file are multiplied to give the heights in nm. It is used
+    /// only if the file states no unit of heights.
     nanometres: Option<f64>,
-    /// Factor of the heights that is used only if `is_data_scale_needed`.
+    /// Factor by which the numbers in the file are multiplied only if `is_data_scale_needed` is
+    /// true.
     data_scale: Option<f64>,
     is_data_scale_needed: bool,
     /// True if the rows of numbers run along y.
     pub is_along_y: bool,
-    /// True if the positions of the points are only the numbers of their columns and rows.
+    /// True if the file gives, as the position of a point, only the numbers of its column and its
+    /// row.
     pub has_counted_positions: bool,
-    /// True if heights are in wavelengths.
+    /// True if the heights are in wavelengths of light.
     is_in_wavelengths: bool,
-    /// Last lines of the header that have no key and may name columns.
+    /// Last lines of the header that have no key. One of them may name the columns.
     pub lines: HeadLines,
 }
 
 impl TextHeader {
-    /// Creates a header that states this unit for all lengths.
+    /// Creates a header that states only this unit, for all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader {
             unit,
@@ -177,7 +182,7 @@ impl TextHeader {
         self.lines.take(line);
     }
 
-    /// Reads an entry; `None` if the key or the value is unknown.
+    /// Takes what an entry of the header states. Returns `None` if its key or its value is unknown.
     fn take_entry(&mut self, entry: &Entry) -> Option<()> {
         let key = entry.key.as_str();
         let value = entry.value.as_str();
@@ -206,8 +211,8 @@ impl TextHeader {
         Some(())
     }
 
-    /// Reads an amplitude of WSxM: along x or y the size of the map, and along z the range of the
-    /// heights, of which only the unit is used.
+    /// Takes an amplitude in a header of WSxM: along x or y it is the size of the map, and along z
+    /// the range of the heights, of which only the unit is used.
     fn take_amplitude(&mut self, axis: usize, value: &str) -> Option<()> {
         if axis != Z {
             self.sizes[axis] = Some(Length::parse(value)?);
@@ -217,9 +222,9 @@ impl TextHeader {
         self.take_unit(&[Z], unit)
     }
 
-    /// Reads a line of the header of Zygo XYZ. `line_number` is the number of the line in the file,
-    /// from 1. The seventh number of the eighth line is the distance in m between columns and
-    /// between rows, or 0 if the distance is unknown.
+    /// Reads a line of a header in the format Zygo XYZ. `line_number` is the number of the line in
+    /// the file, counted from 1. The seventh number in the eighth line is the distance in m between
+    /// columns and between rows; it is 0 if the distance is unknown.
     pub fn take_zygo(&mut self, line_number: usize, line: &str) {
         self.has_counted_positions = true;
         if line_number != LINE_OF_DISTANCE {
@@ -232,7 +237,7 @@ impl TextHeader {
         }
     }
 
-    /// Reads the unit of the given axes. An empty list of axes means the unit of all lengths.
+    /// Takes the unit of the given axes. If there are no axes, it is the unit of all lengths.
     fn take_unit(&mut self, axes: &[usize], value: &str) -> Option<()> {
         match value.trim_matches(BRACKETS).parse() {
             Ok(unit) if axes.is_empty() => self.unit = Some(unit),
@@ -247,7 +252,7 @@ impl TextHeader {
         Some(())
     }
 
-    /// Reads a factor of the heights.
+    /// Takes a factor of the heights, or the entry that says whether such a factor is needed.
     fn take_factor(&mut self, key: &str, value: &str) -> Option<()> {
         let Some(factor) = number(value) else {
             if key != "datascaleneeded" {
@@ -270,7 +275,7 @@ impl TextHeader {
         Some(())
     }
 
-    /// Reads an entry of the header of Wyko: a name, two numbers and a value.
+    /// Takes an entry of a header of Wyko, which is a name, two numbers and a value.
     fn take_wyko(&mut self, key: &str, value: &str) -> Option<()> {
         if key.starts_with(WYKO) {
             self.is_along_y = true;
@@ -278,7 +283,7 @@ impl TextHeader {
             self.units[Z] = NANOMETRE.parse().ok();
             return Some(());
         }
-        // The flag is set only by the first line of a file of Wyko.
+        // Only the first line of a file of Wyko sets this flag, so other files are left here.
         if !self.is_along_y {
             return None;
         }
@@ -288,7 +293,7 @@ impl TextHeader {
         match key {
             "x size" => self.counts[1] = Some(number as usize),
             "y size" => self.counts[0] = Some(number as usize),
-            // The aspect may be stated before the size of a pixel, or after it.
+            // The header may state the aspect ratio before or after the size of a pixel.
             "pixel_size" => {
                 let along = Length::millimetres(number * stated);
                 self.spacing = [Some(along), Some(Length::millimetres(number))];
@@ -301,14 +306,14 @@ impl TextHeader {
         Some(())
     }
 
-    /// Returns the distance in m between the points of a profile without positions.
+    /// Returns the distance in m between points, for a profile whose file has no positions.
     pub fn distance(&self) -> Option<f64> {
         let [along, _] = self.spacing;
         self.metres(along?, X, None)
     }
 
-    /// Returns the distances in m along and between the rows of a map with these numbers of columns
-    /// and rows.
+    /// Returns the distances in m between points, along and between the rows of a map with these
+    /// numbers of columns and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         self.distances_by_size(columns, rows).or_else(|| {
             let [along, between] = self.spacing;
@@ -328,13 +333,13 @@ impl TextHeader {
     }
 
     /// Converts a length along an axis to m. `usual` is the unit of the length if the header states
-    /// none.
+    /// no unit for it.
     fn metres(&self, length: Length, axis: usize, usual: Option<Unit>) -> Option<f64> {
         let unit = length.unit.or(self.unit(axis, None)).or(usual)?;
         Some(unit.to_metres(length.value))
     }
 
-    /// Returns the factor by which the heights are multiplied.
+    /// Returns the factor by which the numbers in the file are multiplied to give the heights.
     pub fn scale(&self) -> f64 {
         let mut scale = 1.0;
         if let Some(factor) = self.factor {
@@ -353,8 +358,8 @@ impl TextHeader {
         scale
     }
 
-    /// Returns the unit of [`X`], [`Y`] or the heights [`Z`]: the unit that the name of the column
-    /// states, or else the unit that a key states.
+    /// Returns the unit of x, y or the heights ([`X`], [`Y`] or [`Z`]). The unit in the name of the
+    /// column is used, or else the unit that a key states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         if let Some(unit) = column.and_then(unit_of_column) {
             return Some(unit);
@@ -373,8 +378,8 @@ fn unit_of_column(column: &TextColumn) -> Option<Unit> {
     column.unit.as_deref()?.parse().ok()
 }
 
-/// Reads the size of a map. The lengths of the program SPIP, such as `x-length`, are in nm, unless
-/// the header states a unit for the axis.
+/// Reads the size of a map. Sizes in files of the program SPIP, such as `x-length`, are in nm,
+/// unless the header states a unit for this axis.
 fn size(key: &str, value: &str) -> Option<Length> {
     if let Some(size) = Length::parse(value) {
         return Some(size);
@@ -385,7 +390,7 @@ fn size(key: &str, value: &str) -> Option<Length> {
     None
 }
 
-/// An entry of the header.
+/// A key of the header with its value.
 struct Entry {
     /// Key in lower case.
     key: String,
@@ -419,8 +424,8 @@ fn bare(text: &str) -> &str {
     text.trim_matches(['"', ',', ';', ' ', '\t'])
 }
 
-/// Returns the axes whose unit a key states. The list is empty for the unit of all lengths, and
-/// `None` for another key.
+/// Returns the axes whose unit a key states. The list is empty if the unit is that of all lengths.
+/// Returns `None` if the key does not state a unit.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     let mut words: Vec<&str> = key.split(|c: char| !c.is_alphanumeric()).collect();
     words.retain(|word| !word.is_empty());
@@ -440,14 +445,16 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
             _ => return None,
         }
     }
-    // Japanese writes "unit of values" without spaces, so the key has no separate word for `unit`.
+    // Japanese writes "unit of values" as one word, so that the word for `unit` is not found
+    // separately.
     if key == "値の単位" {
         return Some(vec![Z]);
     }
     Some(axes)
 }
 
-/// Reads a number, with a decimal point or a decimal comma; `None` if the text is no finite number.
+/// Reads a number with a decimal point or a decimal comma; `None` if the text is not a finite
+/// number.
 fn number(text: &str) -> Option<f64> {
     match Decimal::default().read(text, Separator::SPACE) {
         TextCell::Number(value) if value.is_finite() => Some(value),
@@ -466,7 +473,7 @@ mod tests {
         header
     }
 
-    /// Returns the units of the positions and the heights of a table with the columns x and height.
+    /// Returns the units of positions and heights of a table that has the columns x and height.
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
         let columns = header.lines.columns(2, 2, Separator::SPACE, Unit::is_name);

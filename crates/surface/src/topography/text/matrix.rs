@@ -1,4 +1,4 @@
-//! Maps written row by row, with or without positions in the first row and the first column.
+//! Maps that are written row by row in a text. The first row and the first column may be positions.
 
 use super::super::grid::Map;
 use super::super::positions::first_uneven;
@@ -6,13 +6,13 @@ use super::super::printed::{Digits, Grid, move_to_printed_grid};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{Remedy, gathered};
 
-/// Smallest number of evenly spaced numbers along one axis that are taken for positions, although
+/// Smallest number of evenly spaced numbers along one axis that are taken for positions although
 /// the numbers along the other axis are not evenly spaced.
 const LEAST_STEPS: usize = 8;
 
-/// Returns the map in rows of `columns` numbers. If the first row and column hold positions, they
-/// are removed and give the distances. If these positions are only the numbers of rows and columns,
-/// from 0 or 1, the distances remain unknown. `digits` are the printed digits of the first row and
+/// Returns the map in rows of `columns` numbers. Positions in the first row and the first column
+/// are removed and give the distances. If they only number the columns and rows, from 0 or 1, the
+/// distances remain unknown. `digits` are the printed digits of the first row and of the first
 /// column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
@@ -68,14 +68,14 @@ pub(super) fn without_positions(
     }
 }
 
-/// Numbers in rows, of which the first row and column may be positions.
+/// Numbers in rows, of which the first row and the first column may be positions.
 struct Matrix<'a> {
     numbers: &'a [f64],
     columns: usize,
     digits: [Digits; 2],
 }
 
-/// Evenly spaced positions in the first row (`along`) and in the first column (`between`).
+/// Positions of an even grid, in the first row (`along`) and in the first column (`between`).
 #[derive(Default)]
 struct Positions {
     along: Option<Grid>,
@@ -88,7 +88,7 @@ impl Matrix<'_> {
     }
 
     /// Returns the positions in the first row and the first column. If the second row or column is
-    /// evenly spaced too, the surface may be a plane, and nothing counts as positions.
+    /// evenly spaced too, the surface may be a plane, and no numbers are taken for positions.
     fn positions(&self) -> Result<Positions, SurfaceError> {
         let along = self.row_steps(0)?;
         let between = self.column_steps(0)?;
@@ -98,15 +98,15 @@ impl Matrix<'_> {
         Ok(Positions { along, between })
     }
 
-    /// Returns the first position and the step of a row, without its first number; `None` if it is
-    /// not evenly spaced.
+    /// Returns the first position and the step of a row, whose first number is left out; `None` if
+    /// the row is not evenly spaced.
     fn row_steps(&self, row: usize) -> Result<Option<Grid>, SurfaceError> {
         let numbers = &self.numbers[row * self.columns + 1..(row + 1) * self.columns];
         even_steps(self.columns - 1, numbers.iter().copied(), self.digits[0])
     }
 
-    /// Returns the first position and the step of a column, without its first number; `None` if it
-    /// is not evenly spaced.
+    /// Returns the first position and the step of a column, whose first number is left out; `None`
+    /// if the column is not evenly spaced.
     fn column_steps(&self, column: usize) -> Result<Option<Grid>, SurfaceError> {
         let numbers = self.numbers.iter().skip(self.columns + column);
         let numbers = numbers.step_by(self.columns).copied();
@@ -114,7 +114,8 @@ impl Matrix<'_> {
     }
 }
 
-/// Returns the first number and the step of numbers that rise or fall in even steps.
+/// Returns the first number and the step of numbers that rise or fall in even steps; `None` for
+/// other numbers.
 fn even_steps(
     count: usize,
     numbers: impl Iterator<Item = f64>,
@@ -132,12 +133,12 @@ fn even_steps(
     Ok(is_even.then_some(Grid { first, distance }))
 }
 
-/// Returns true for the numbers 0, 1, 2, … and 1, 2, 3, …, which only count rows or columns.
+/// Returns true for the numbers 0, 1, 2, … and for 1, 2, 3, …, which only number rows or columns.
 fn is_count(grid: Grid) -> bool {
     (grid.first == 0.0 || grid.first == 1.0) && grid.distance == 1.0
 }
 
-/// Returns the error for positions that are in the first row alone, or in the first column alone.
+/// Returns the error for a map with positions only in the first row, or only in the first column.
 fn single_positions(place: Place, name: &str, grid: Grid) -> SurfaceError {
     let Grid { first, distance } = grid;
     let found = format!(
@@ -154,8 +155,8 @@ mod tests {
 
     const COLUMNS: usize = 12;
 
-    /// Returns the numbers of a map with rough heights, and with positions in the first row and the
-    /// first column.
+    /// Returns the numbers of a map whose heights are rough, with positions in the first row and
+    /// the first column.
     fn numbers(along: impl Fn(usize) -> f64, between: impl Fn(usize) -> f64) -> Vec<f64> {
         let rough = |index: usize| (7.3 * (index * index % 101) as f64).sin();
         let number = |index: usize| match (index / COLUMNS, index % COLUMNS) {
@@ -191,7 +192,7 @@ mod tests {
             (heights[0], heights[11]),
             (all[COLUMNS + 1], all[2 * COLUMNS + 1])
         );
-        // Numbers of rows and columns are not taken for positions.
+        // Numbers that only count rows and columns are removed, but are not taken for positions.
         let counted = numbers(|column| column as f64, |row| 1.0 + row as f64);
         assert_eq!(
             read(&counted).map(|found| (found.columns, found.distances)),

@@ -1,11 +1,11 @@
-//! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or
-//! several.
+//! Surfaces in texts. A text has one or several channels, and each channel has columns of heights,
+//! columns of positions and heights, or rows of a map.
 //!
 //! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of
-//! numbers fixes the separator ([`Separator::of`](asperity_data::text_table::Separator::of)) and
-//! the number of columns ([`table::Table`]). The columns are heights, positions and heights, or
-//! rows of a map ([`columns::list_of`]). A header between lines of numbers begins another channel.
-//! In rows of a map an empty line does so too.
+//! numbers determines the separator ([`Separator::of`](asperity_data::text_table::Separator::of))
+//! and the number of columns ([`table::Table`]). [`columns::list_of`] decides whether the columns
+//! are heights, positions and heights, or rows of a map. Another channel begins at a header between
+//! lines of numbers and, in rows of a map, also at an empty line.
 
 pub(crate) mod columns;
 pub(crate) mod header;
@@ -25,26 +25,27 @@ use std::borrow::Cow;
 use std::ops::Range;
 use table::{NumberedLine, Table, is_header};
 
-/// Largest number of headers after which numbers follow.
+/// Largest allowed number of parts of a text. A part is a header with the numbers after it.
 const MOST_PARTS: usize = 256;
 
-/// First words of the format Zygo XYZ. Its header ends with the line [`ZYGO_END`].
+/// First words of a file in the format Zygo XYZ. The header of such a file ends with the line
+/// [`ZYGO_END`].
 const ZYGO_XYZ: &str = "Zygo XYZ Data File";
 
-/// Last line of the header of Zygo XYZ.
+/// Last line of the header in the format Zygo XYZ.
 const ZYGO_END: &str = "#";
 
-/// Mark of a missing point in Zygo XYZ, in two words.
+/// Mark of a missing point in the format Zygo XYZ. It consists of two words.
 const NO_DATA: &str = "no data";
 
-/// Lines of numbers of a text, with the header before them.
+/// A part of a text: a header and the lines of numbers after it.
 #[derive(Default)]
 struct Part {
     header: TextHeader,
     table: Option<Table>,
 }
 
-/// Rows of numbers of a part that form one channel.
+/// Rows of numbers that form one channel. A part may have several channels.
 #[derive(Clone)]
 struct Channel {
     /// Index of the part in the text.
@@ -52,19 +53,19 @@ struct Channel {
     rows: Range<usize>,
 }
 
-/// A text with its headers and numbers.
+/// The parts of a text, each of which has a header and numbers.
 struct Text {
     parts: Vec<Part>,
-    /// Number and text of the last line of the last header, unless the line is a comment.
+    /// Number and text of the last line in the last header; `None` if this line is a comment.
     last_of_header: Option<(usize, String)>,
     last_line: usize,
-    /// True while the lines belong to the header of Zygo XYZ, whose lines of numbers are no
-    /// heights.
+    /// True while the lines belong to a header in the format Zygo XYZ. Such a header has lines of
+    /// numbers that are not heights.
     is_in_zygo_header: bool,
 }
 
-/// Reads the channel that is wanted. Numbers of channels count from 0. If neither a number nor a
-/// name is given, reads the only channel whose unit is a length.
+/// Reads the wanted channel. Channels are numbered from 0. If neither a number nor a name is
+/// wanted, reads the only channel whose unit is a length.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let text = Text::parse(bytes)?;
     let last_line = text.last_line;
@@ -74,7 +75,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     let Some(table) = table else {
         return Err(no_numbers());
     };
-    // If the text ends with a line end, an empty line follows the last line of numbers.
+    // The last line of numbers has no line end if no empty line follows after it.
     let is_open = channel.rows.end == table.rows() && table.last_line() == last_line;
     table.reading(&header, channel.rows, column, is_open)
 }
@@ -99,7 +100,7 @@ impl Text {
         Ok(text)
     }
 
-    /// Reads a line of a text that may be in the format Zygo XYZ.
+    /// Reads a line, which may belong to a header in the format Zygo XYZ.
     fn take_special(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         self.is_in_zygo_header |= number == 1 && line.starts_with(ZYGO_XYZ);
         if !self.is_in_zygo_header {
@@ -113,8 +114,8 @@ impl Text {
         Ok(())
     }
 
-    /// Reads a line of the header or of the numbers of the present part, or begins a new part.
-    /// `number` is the number of the line from 1.
+    /// Reads a line of the header or of the numbers of the present part, or begins a new part with
+    /// it. `number` is the number of the line, counted from 1.
     fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         self.last_line = number;
         let is_comment = line.starts_with(COMMENT);
@@ -155,7 +156,7 @@ impl Text {
     }
 }
 
-/// Returns a line in which each mark [`NO_DATA`] is replaced by a single word.
+/// Returns a line in which the two words of each [`NO_DATA`] are replaced by a single word.
 fn without_no_data(line: &str) -> Cow<'_, str> {
     if !line.contains(['d', 'D']) || !line.is_ascii() {
         return line.into();
@@ -173,8 +174,8 @@ fn without_no_data(line: &str) -> Cow<'_, str> {
     (text + rest).into()
 }
 
-/// Returns true for a line after numbers that begins another header: words, or a comment with the
-/// name of a channel.
+/// Returns true if a line after numbers begins a new part. The line has words, or is a comment with
+/// the name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
     let Some(table) = parts.last().and_then(|part| part.table.as_ref()) else {
         return false;
@@ -192,14 +193,14 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", allowed)
 }
 
-/// A chosen channel, and the column that the options ask for in it.
+/// The chosen channel, and the column that the options choose in this channel.
 struct Choice<'a> {
     channel: Channel,
     column: Wanted<'a>,
 }
 
-/// Returns the channel that is wanted. If the text has only one channel, a number means a column of
-/// this channel, and so does a name that is not the name of the channel.
+/// Returns the wanted channel. If the text has only one channel, a wanted number means a column of
+/// this channel; so does a wanted name, unless it is the name of the channel.
 fn chosen<'a>(parts: &[Part], wanted: Wanted<'a>) -> Result<Choice<'a>, SurfaceError> {
     let channels = channels(parts);
     if channels.is_empty() {
@@ -232,8 +233,8 @@ fn chosen<'a>(parts: &[Part], wanted: Wanted<'a>) -> Result<Choice<'a>, SurfaceE
     })
 }
 
-/// Describes the channels. Channels in a unit of length are heights. If there are none, channels
-/// without a unit are heights.
+/// Returns the labels of the channels. Channels in a unit of length contain heights. If there are
+/// none, the channels without a unit contain heights.
 fn labels(parts: &[Part], channels: &[Channel]) -> Vec<Label> {
     let numbered = channels.iter().zip(0..);
     let mut labels: Vec<Label> = numbered
@@ -247,7 +248,7 @@ fn labels(parts: &[Part], channels: &[Channel]) -> Vec<Label> {
     labels
 }
 
-/// Describes a channel by its number, its name, its unit and its first line.
+/// Returns the label of a channel: its number, its name, its unit and its first line.
 fn label(number: u32, part: &Part, channel: &Channel) -> Label {
     let header = &part.header;
     let unit = header.unit(Z, None).map(Unit::name);
@@ -375,18 +376,18 @@ mod tests {
     fn what_is_no_number_of_a_point_is_left_out() {
         let expected = text("0.5 1e-1\n1.5 2.5\n2.5 -3\n").unwrap();
         for other in [
-            // The following texts have separators at the ends of lines.
+            // In the next texts, lines end with separators.
             "0.5,0.1,,\n1.5,2.5,,\n2.5,-3,,\n",
             "x,z,\n0.5,0.1,\n1.5,2.5\n2.5,-3,,\n",
-            // The following text has quotation marks, and lines that end with CR.
+            // The next text has quotation marks, and its lines end with CR.
             "\"0,5\";\"0,1\"\r\"1,5\";\"2,5\"\r\"2,5\";\"-3\"",
-            // The following texts begin with the number of points, or of distances between points.
+            // The next texts begin with the number of points, or of distances between points.
             "3\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
             "2\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
-            // The following texts have headers that begin with a number, and footers.
+            // The next texts have a header that begins with a number, and a footer.
             "5.6 mm scan\n3 points\n0.5 0.1\n1.5 2.5\n2.5 -3\n\nEnd of data\n",
             "3 points\n0.5,0.1\n1.5,2.5\n2.5,-3\n3 points,\"read\",at 12:00\n",
-            // The following texts have columns with the number of the point or its validity.
+            // The next texts have a column with the number of the point, or with its validity.
             "index;x;z\n1;0.5;0.1\n2;1.5;2.5\n3;2.5;-3\n",
             "Z,X,valid\n0.1,0.5,1\n2.5,1.5,1\n-3,2.5,1\n",
         ] {
@@ -443,7 +444,7 @@ mod tests {
                 .unwrap_err()
                 .starts_with("no channel \"Trace\"; channels: 0 \"Height\"")
         );
-        // A text with one channel has the name of the channel or of a column.
+        // If a text has one channel, a name may be that of the channel or of a column.
         let one = channel("Height", "nm", 10.0);
         assert_eq!(named(&one, "Height"), text(&one));
         assert!(
@@ -461,7 +462,7 @@ mod tests {
                 .unwrap_err()
                 .starts_with("the channel is in deg; channels: 0 \"Phase\" in deg")
         );
-        // Channels may have no header, and may be profiles.
+        // Channels may have no header. They may also be profiles.
         let rows = "1 2 3 4\n5 6 7 9\n\n11 2 3 4\n5 6 7 9\n";
         assert!(text(rows).unwrap_err().starts_with(
             "2 channels of heights; channels: 0 from line 1, 1 from line 4; allowed: the number or the name"
@@ -594,7 +595,7 @@ mod tests {
                 (spacing, Some("nm")),
                 "{header}"
             );
-            // The lines of a file of Wyko run along y.
+            // The lines of numbers in a file of Wyko run along y.
             let (columns, order) = if header.starts_with("Wyko") {
                 (2, [1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0, 8.0])
             } else {
@@ -617,7 +618,7 @@ mod tests {
             (found.columns, found.spacing, units(&found)),
             (4, Some([5e-7; 2]), [Some("m"), Some("µm")])
         );
-        // The distance has a unit of its own, so the option gives the unit of the heights.
+        // The distance is written with a unit, so the unit in the options is that of the heights.
         let with = |unit: &str| {
             let options = ReadOptions {
                 unit: unit.parse().ok(),
@@ -746,8 +747,8 @@ mod tests {
         };
         let map = found.resolve(&options).unwrap();
         assert_eq!((map.heights[3], map.spacing()), (5e-6, Ok([2e-6; 2])));
-        // A distance of 0 means an unknown distance, and numbers of columns and rows are no
-        // distances.
+        // A distance of 0 means that the distance is unknown. The numbers of columns and rows are
+        // not taken for positions.
         let found = text(&zygo("0")).unwrap();
         assert_eq!((found.spacing, units(&found)), (None, [None, None]));
         assert!(

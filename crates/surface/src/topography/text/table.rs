@@ -1,4 +1,4 @@
-//! Lines of numbers in a text.
+//! The lines of numbers of a text, read into a table.
 
 use super::super::positions::LARGEST;
 use super::super::printed::Digits;
@@ -7,45 +7,47 @@ use asperity_data::text_table::{Decimal, ONE_MARK, Separator, TextCell};
 use asperity_data::{push, reserve, shown};
 use std::ops::Range;
 
-/// Number of first columns whose printed digits are recorded, because they may be positions.
+/// Number of columns at the left whose printed digits are recorded, because these columns may be
+/// positions.
 pub(super) const FEW_COLUMNS: usize = 4;
 
-/// Largest number of lines before the rows that may state how many rows and columns follow. It is
-/// also the largest number of such numbers.
+/// Largest number of whole numbers before the rows of a table, and of lines with such numbers, that
+/// may state how many rows and columns follow.
 const MOST_COUNTS: usize = 3;
 
 /// Largest magnitude of a number in a text, in the unit of the text.
 const LARGEST_NUMBER: f64 = LARGEST * 1e12;
 
-/// Lines of numbers of a text, in the units of the file.
+/// Numbers in the lines of a text, in the units of the file.
 #[derive(Debug)]
 pub(super) struct Table {
     pub separator: Separator,
     pub decimal: Decimal,
     widths: Widths,
-    /// Numbers of all lines, one after the other. Each line has as many numbers as cells.
+    /// Numbers of all lines, one line after another. Each line has as many numbers as cells.
     pub values: Vec<f64>,
-    /// True for each column with a cell that is not empty.
+    /// For each column, true if at least one of its cells is not empty.
     is_filled: Vec<bool>,
-    /// Printed digits of the first columns.
+    /// Digits with which the numbers in the first columns are printed.
     pub digits: [Digits; FEW_COLUMNS],
-    /// Printed digits of the first line without its first number.
+    /// Digits with which the numbers in the first line are printed, except the first number.
     pub first_line: Digits,
-    /// Runs of rows on consecutive lines.
+    /// Runs of rows that are on consecutive lines of the file.
     runs: Vec<Run>,
-    /// Indices of the rows that follow an empty line.
+    /// Indices of the rows before which the file has an empty line.
     breaks: Vec<usize>,
     is_paused: bool,
-    /// Numbers before the first row that state how many rows and columns follow.
+    /// Numbers before the first row that state how many rows and columns follow; `None` if there
+    /// are none.
     pub counts: Option<Counts>,
 }
 
-/// Numbers of cells of a line.
+/// Numbers of cells in a line.
 #[derive(Clone, Copy, Debug, Default)]
 struct Widths {
     /// Number of all cells, including empty ones at the end.
     cells: usize,
-    /// Number of cells up to the last one that is not empty.
+    /// Number of cells up to the last cell that is not empty.
     filled: usize,
 }
 
@@ -66,14 +68,14 @@ impl Widths {
     }
 }
 
-/// Run of rows on consecutive lines: the index and the line of its first row.
+/// Run of rows on consecutive lines, given by the index and the line number of its first row.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     row: usize,
     line: usize,
 }
 
-/// Numbers before the rows that state how many rows and columns follow.
+/// Numbers above the rows of a table that state how many rows and columns follow.
 #[derive(Debug)]
 pub(super) struct Counts {
     pub line: usize,
@@ -91,8 +93,8 @@ fn is_word(cell: &str) -> bool {
     cell.contains(char::is_alphabetic) && !cell.contains(|c: char| c.is_ascii_digit())
 }
 
-/// Returns true for a line before the numbers. Its first cell is no number, another cell is a word,
-/// or all cells are empty.
+/// Returns true for a line before the numbers: the first cell is not a number, another cell is a
+/// word, or all cells are empty.
 pub(super) fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
     let is_no_number = |cell: &str| Decimal::default().read(cell, separator) == TextCell::NoNumber;
@@ -108,7 +110,7 @@ fn is_number(separator: Separator, cell: &str) -> bool {
 }
 
 impl Table {
-    /// Creates an empty table with the layout of this first line.
+    /// Creates an empty table whose separator and number of cells are those of `line`.
     fn empty(line: &str) -> Self {
         let separator = Separator::of(line);
         let widths = Widths::of_line(separator, line);
@@ -127,9 +129,9 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers. The line before the first line of numbers
-    /// also belongs to the table if it has as many cells, and either begins with a number and
-    /// consists mostly of numbers, or has positions after a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers. `before` is the line before it, which also
+    /// belongs to the table if it has as many cells and one of two forms. Either it begins with a
+    /// number and consists mostly of numbers, or it has positions after a word, as in `y\x 0 1 2`.
     pub fn new(
         before: Option<NumberedLine<'_>>,
         first: NumberedLine<'_>,
@@ -172,7 +174,7 @@ impl Table {
         self.line(self.rows() - 1)
     }
 
-    /// Returns the number of the line in the file, from 1, in which a row is.
+    /// Returns the number of the line of a row in the file, counted from 1.
     pub fn line(&self, row: usize) -> usize {
         let later = self.runs.partition_point(|run| run.row <= row);
         match self.runs.get(later.saturating_sub(1)) {
@@ -181,14 +183,15 @@ impl Table {
         }
     }
 
-    /// Notes an empty line: the next row begins a new run of rows.
+    /// Records that an empty line was read, so that the next row begins after a gap.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
 
-    /// Returns true for a line of words between or after lines of numbers.
+    /// Returns true for a line with words between the lines of numbers or after them.
     pub fn is_heading(&self, line: &str) -> bool {
-        // Most lines have no letters except the e of exponents, and need no further test.
+        // A line without letters, except the e of exponents, is a line of numbers. Most lines need
+        // no further test.
         let may_be_of_number =
             |byte: u8| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e');
         if line.bytes().all(may_be_of_number) {
@@ -203,8 +206,8 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line without white space around it. The first lines may state how many rows and
-    /// columns follow.
+    /// Reads a line, which has no white space at its ends. The first lines of a table may state how
+    /// many rows and columns follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if self.may_be_counts() {
             let table = Table::empty(line);
@@ -222,8 +225,7 @@ impl Table {
         self.take_cells(number, line, false)
     }
 
-    /// Returns true if the numbers read so far may be the numbers of the rows and columns that
-    /// follow.
+    /// Returns true if all numbers read so far may be numbers of rows or columns that follow.
     fn may_be_counts(&self) -> bool {
         let is_count = |value: &f64| *value >= 1.0 && value.fract() == 0.0;
         (1..=MOST_COUNTS).contains(&self.values.len())
@@ -263,8 +265,8 @@ impl Table {
                 self.first_line.take(cell);
             }
         }
-        // The number of separators at the ends of lines may vary, so only the cells up to the last
-        // one that is not empty are compared.
+        // Lines may end with different numbers of separators. Therefore it suffices if the lines
+        // agree in their cells up to the last one that is not empty.
         if found.cells != cells && found.filled != self.widths.filled {
             let columns = format!("{} columns", found.cells);
             let allowed = match self.widths.filled {
@@ -287,7 +289,7 @@ impl Table {
         Ok(())
     }
 
-    /// Reads a cell; NaN for a missing point.
+    /// Reads the number in a cell; NaN for a missing point.
     fn value(&mut self, line: usize, cell: &str) -> Result<f64, SurfaceError> {
         let quoted = || format!("{:?}", shown(cell));
         let (found, allowed) = match self.decimal.read(cell, self.separator) {
@@ -306,7 +308,7 @@ impl Table {
         Err(refused(Place::Line(line), found, allowed))
     }
 
-    /// Returns the number of columns up to the last one with a cell that is not empty.
+    /// Returns the number of columns up to the last column that is not empty in all lines.
     pub fn columns(&self) -> usize {
         match self.is_filled.iter().rposition(|is_filled| *is_filled) {
             Some(last) => last + 1,
@@ -314,8 +316,8 @@ impl Table {
         }
     }
 
-    /// Returns the ranges of rows of the channels, which are separated by empty lines. Returns a
-    /// single range if each row follows an empty line, or if the rows hold positions.
+    /// Returns the range of rows of each channel. Channels are separated by empty lines. Returns a
+    /// single range if an empty line precedes every row, or if the table has columns of positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let rows = self.rows();
         let columns = self.columns();
@@ -332,7 +334,7 @@ impl Table {
         parts
     }
 
-    /// Removes all rows except `rows`, which are the rows of one channel.
+    /// Removes all rows except `rows`, the rows of one channel.
     pub fn keep_rows(&mut self, rows: Range<usize>) {
         let cells = self.widths.cells;
         let line = self.line(rows.start);
@@ -342,7 +344,7 @@ impl Table {
         self.runs = vec![Run { row: 0, line }];
     }
 
-    /// Leaves out the columns after the first `columns`.
+    /// Removes all columns after the first `columns`.
     pub fn keep_columns(&mut self, columns: usize) {
         let cells = self.widths.cells;
         let mut index = 0;
@@ -354,8 +356,8 @@ impl Table {
         self.widths.cells = columns;
     }
 
-    /// Returns the numbers in a column. The memory of the table is reused, and its other numbers
-    /// are lost.
+    /// Returns the numbers in a column. They are moved within the memory of the table, so its other
+    /// numbers are lost.
     pub fn take_column(&mut self, column: usize) -> Vec<f64> {
         let cells = self.widths.cells;
         let mut values = std::mem::take(&mut self.values);

@@ -1,4 +1,4 @@
-//! Meaning of lines of numbers: heights, a profile, points of a map, or rows of a map.
+//! Conversion of a table to a surface: heights alone, a profile, points of a map, or rows of a map.
 
 use super::super::channel::Wanted;
 use super::super::grid::PointList;
@@ -21,8 +21,8 @@ const COLUMNS: &str = "text columns";
 const MATRIX: &str = "text matrix";
 
 impl Table {
-    /// Returns the surface in the rows `rows`. If several columns may be heights, `wanted` chooses
-    /// one. `is_open` is true if the last line of the text has no line end.
+    /// Returns the surface in these rows of the table. If several columns may be heights, `wanted`
+    /// chooses one of them. `is_open` is true if the last line of the text has no line end.
     pub fn reading(
         mut self,
         header: &TextHeader,
@@ -43,7 +43,7 @@ impl Table {
         Ok(reading.scaled(|_| false, header.scale()))
     }
 
-    /// Returns the surface in a list of points.
+    /// Returns the surface that a list of points describes.
     fn list(
         self,
         header: &TextHeader,
@@ -69,8 +69,8 @@ impl Table {
         })
     }
 
-    /// Returns the heights of a list, with NaN for the points that its column `valid` marks as
-    /// invalid.
+    /// Returns the heights of a list of points. The height is NaN if the column `valid` marks a
+    /// point as invalid.
     fn heights(&self, columns: &[TextColumn], list: List) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = self.column(list.height)?;
         let Some(valid) = list.valid else {
@@ -90,7 +90,8 @@ impl Table {
         Ok(heights)
     }
 
-    /// Returns the map of a list of points, each of which has a position x and y.
+    /// Returns the map that a list of points describes. Each point has a position x and a position
+    /// y.
     fn points(
         mut self,
         x: usize,
@@ -147,7 +148,7 @@ impl Table {
         Ok(Reading::profile(COLUMNS, positions, heights, units))
     }
 
-    /// Returns the surface in rows of a map.
+    /// Returns the surface if the lines are rows of a map.
     fn map(mut self, header: &TextHeader, is_open: bool) -> Result<Reading, SurfaceError> {
         let columns_with_positions = self.columns();
         self.keep_columns(columns_with_positions);
@@ -161,7 +162,7 @@ impl Table {
         check_stated(columns, header.counts[0], "columns")?;
         check_stated(rows, header.counts[1], "rows")?;
 
-        // If the map has positions, they are in the first row and the first column.
+        // Positions in the first row shift the lines of the heights by one.
         let rows_above = columns_with_positions - columns;
         let place_of_point = |index: usize| place(index / columns + rows_above);
         let warnings = warnings::of_heights(&map.heights, is_open, place_of_point);
@@ -174,7 +175,7 @@ impl Table {
             heights: header.unit(Z, None),
         };
         if stated.is_some() {
-            // The distances of the header are already in m.
+            // These distances are from the header and already in m.
             units.along = Some(Unit::METRE);
             units.between = Some(Unit::METRE);
         }
@@ -221,8 +222,8 @@ impl Table {
         ))
     }
 
-    /// Returns an error unless the numbers before the first row agree with the table. They may be
-    /// the number of rows, of distances between rows, of columns or of points.
+    /// Returns an error if numbers before the first row do not fit the table. Such a number may
+    /// count rows, distances between rows, columns or points.
     fn check_counts(&self, rows: usize, columns: usize) -> Result<(), SurfaceError> {
         let Some(counts) = &self.counts else {
             return Ok(());
@@ -267,7 +268,7 @@ impl Table {
     }
 }
 
-/// Units that the columns of a list state.
+/// Units that the names of the columns of a list state.
 #[derive(Clone, Copy)]
 struct ColumnUnits {
     /// Unit of the positions of a profile, or of the coordinate x of a map.
@@ -282,7 +283,7 @@ impl ColumnUnits {
         let is_y = |column: usize| columns[column].role == Role::Y;
         let mut heights = unit(Z, list.height);
         if heights.is_none() && is_y(list.height) {
-            // If the only columns are X and Y, then Y is the height.
+            // If X and Y are the only columns, then Y is the heights of a profile.
             heights = unit(Y, list.height);
         }
         let x = list.x.and_then(|x| match list.y {
@@ -297,7 +298,7 @@ impl ColumnUnits {
     }
 }
 
-/// Returns evenly spaced heights without positions.
+/// Returns a profile of evenly spaced heights without positions.
 fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     let points = heights.len();
     let distance = header.distance();
@@ -311,7 +312,7 @@ fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     Reading::even(COLUMNS, heights, points, spacing, units)
 }
 
-/// Returns an error if one axis of a map has a unit and the other axis has none.
+/// Returns an error if only one of the two axes of a map has a unit.
 fn check_both(units: StatedUnits) -> Result<(), SurfaceError> {
     let unit = match (units.along, units.between) {
         (Some(unit), None) | (None, Some(unit)) => unit,
@@ -322,7 +323,7 @@ fn check_both(units: StatedUnits) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns an error if the number of columns or rows differs from the number in the header.
+/// Returns an error if the number of columns or rows differs from the number stated in the header.
 fn check_stated(count: usize, stated: Option<usize>, name: &str) -> Result<(), SurfaceError> {
     match stated {
         Some(stated) if stated != count => {

@@ -1,26 +1,26 @@
-//! Warnings of heights that are far from all other heights. Such a height may be a mark of a
-//! missing point, or a number that was cut off.
+//! Warnings about heights that are far from all other heights. Such a height may mark a missing
+//! point, or be a number that was cut off.
 
 use crate::error::Place;
 use asperity_data::{Note, Remedy, median};
 
-/// Distance of a height from the median of all heights, divided by the median of all such
-/// distances, from which on the height counts as an error of the file.
+/// Smallest distance of a height from the median of all heights with which the height counts as an
+/// error of the file. It is in units of the median of all such distances.
 const FAR: f64 = 1e6;
 
-/// Largest distance of a height from the median of all heights, divided by the next largest
-/// distance, from which on the height counts as an error of the file or a spike.
+/// Smallest ratio of the largest distance of a height from the median to the next largest distance,
+/// with which this height counts as an error of the file or a spike.
 const ALONE: f64 = 30.0;
 
-/// Limit in place of [`ALONE`] for the last height, if its line has no line end and the number may
-/// be cut off.
+/// Limit that replaces [`ALONE`] for the last height if its line has no line end, because the
+/// number may then be cut off.
 const ALONE_AT_OPEN_END: f64 = 10.0;
 
-/// Largest number of heights from which the median is computed.
+/// Largest number of heights from which the medians are computed.
 const SAMPLE: usize = 4096;
 
-/// Returns warnings for finite heights in the order of the file. `is_open` is true if the last line
-/// has no line end.
+/// Returns a warning about heights far from all others. The heights are in the order of the file.
+/// `is_open` is true if the last line of the file has no line end.
 pub(super) fn of_heights(
     heights: &[f64],
     is_open: bool,
@@ -68,7 +68,7 @@ pub(super) fn of_heights(
     vec![Note::new(text)]
 }
 
-/// Median of the heights, and median of the distances of the heights from it.
+/// Median of the heights, and median of the distances between the heights and this median.
 struct Spread {
     level: f64,
     usual_distance: f64,
@@ -79,7 +79,7 @@ struct Farthest {
     index: usize,
     /// Distance of this height from the median.
     largest: f64,
-    /// Next largest distance.
+    /// Second largest distance of a height from the median.
     next: f64,
 }
 
