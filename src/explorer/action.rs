@@ -2,12 +2,12 @@
 
 use super::keys::bindings::KeyCommand;
 use super::measured::Measured;
-use super::opening::Opened;
+use super::openable::Openable;
+use super::opening::{CurveQuestion, Opened};
 use super::snapshot::Reply;
 use super::studies::Finding;
 use asperity_experiment::CurveOptions;
 use asperity_report::Format;
-use asperity_scene::library::Entry;
 use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -26,8 +26,8 @@ pub enum Action {
     Found(Finding),
     /// A file has been written, or writing it has failed.
     Written(OutputFile, Result<(), WriteFailure>),
-    /// The list of scenes that can be opened has been read.
-    Listed(Vec<Entry>),
+    /// The list of scenes and files that can be opened has been read.
+    Listed(Vec<Openable>),
     /// The paths that begin with the typed path have been found.
     Completed(Vec<String>),
     /// Opening the path in the first text has succeeded with a scene, a study or a force curve, or
@@ -52,6 +52,8 @@ pub enum Task {
     List,
     Complete(String),
     Open(String),
+    /// Opens a measured curve with the options that the user has typed.
+    OpenCurve(CurveQuestion),
     /// Reads the measured curve with other options.
     ReadCurve(CurveRequest),
     Copy(String),

@@ -313,6 +313,11 @@ impl CurveOptionRow {
         (self.written)(options, exact_quantity).unwrap_or_default()
     }
 
+    /// Returns true if the option is set.
+    pub fn is_set(&self, options: &CurveOptions) -> bool {
+        (self.written)(options, format_quantity).is_some()
+    }
+
     /// Returns the value as text for a list of changes.
     pub fn in_words(&self, options: &CurveOptions) -> String {
         (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())

@@ -29,6 +29,7 @@ mod manual_body;
 pub mod map_state;
 pub mod measured;
 mod mouse;
+pub mod openable;
 pub mod opening;
 pub mod pane;
 pub mod panel;

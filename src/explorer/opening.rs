@@ -1,19 +1,23 @@
 //! What the explorer shows when it starts (a scene, or a finished study with its scene), and what
 //! the user opens later by typing a path.
 
+use super::curve_options::{CurveOptionRow, OPTIONS};
 use super::ghost::Ghost;
 use super::measured::Measured;
-use super::recognition::MeasuredFile;
+use super::recognition::{MeasuredFile, lacks_options};
 use crate::explorer::advice;
-use asperity_data::Remedied;
+use asperity_data::{Remedied, Remedy, read_regular_text};
 use asperity_experiment::CurveOptions;
-use asperity_scene::library::open_argument;
+use asperity_scene::library::{is_plan, open_argument};
 use asperity_scene::{Document, SceneErrors, open};
 use asperity_study::maps::StudyMap;
-use asperity_study::{Folder, StudyError};
-use std::path::Path;
+use asperity_study::{Changes, Folder, Plan, StudyError};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
+
+/// Largest length of the text of a plan in bytes.
+const LONGEST_PLAN: usize = 1 << 20;
 
 #[derive(Clone, Debug)]
 pub struct Opening {
@@ -99,30 +103,106 @@ pub enum Opened {
     Scene(Box<Opening>),
     /// Measured force curve, to be shown beside the present scene.
     Curve(Box<Measured>),
+    /// Measured force curve that cannot be read before the user has typed an option.
+    Question(Box<CurveQuestion>),
+    /// Measured surface, to be made the roughness of the present scene.
+    Surface(PathBuf),
 }
 
+/// Question for an option without which a measured curve cannot be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveQuestion {
+    pub path: PathBuf,
+    /// Options that are known so far.
+    pub options: CurveOptions,
+    /// Index in [`OPTIONS`] of the missing option.
+    pub missing: usize,
+    /// Reason why the curve cannot be read without the option.
+    pub reason: String,
+}
+
+impl CurveQuestion {
+    pub fn option(&self) -> &'static CurveOptionRow {
+        &OPTIONS[self.missing]
+    }
+}
+
+/// Options that a curve may lack, in the order in which they are asked for, by their paths in
+/// [`OPTIONS`].
+const MAY_BE_MISSING: [(Remedy, &str); 3] = [
+    (Remedy::Columns, "measured.columns"),
+    (Remedy::Units, "measured.units"),
+    (Remedy::Ramp, "measured.ramp"),
+];
+
 impl Opened {
-    /// Opens a scene, the folder of a study, or a measured force curve.
+    /// Opens a scene, the folder of a study, the scene of a plan, a measured force curve, or a
+    /// measured surface.
     ///
     /// # Errors
-    /// Returns the reason if nothing can be opened. For a measured surface, the message says how to
-    /// use it in a scene.
+    /// Returns the reason if nothing can be opened.
     pub fn of(name: &str) -> Result<Self, String> {
         let error = match Opening::of(name) {
             Ok(opening) => return Ok(Opened::Scene(Box::new(opening))),
             Err(error) => error,
         };
         match MeasuredFile::of(Path::new(name)) {
+            Some(MeasuredFile::Surface) => Ok(Opened::Surface(PathBuf::from(name))),
             Some(MeasuredFile::Curve) => {
-                let measured = Measured::read(Path::new(name), CurveOptions::default());
-                let opened = measured.map(|measured| Opened::Curve(Box::new(measured)));
-                opened.map_err(|error| error.in_words(advice::row))
+                Opened::read_curve(Path::new(name), CurveOptions::default())
             }
-            Some(MeasuredFile::Surface) => Err(
-                "a surface; its name, typed on the row of the roughness, makes it the roughness of the scene"
-                    .to_owned(),
-            ),
-            None => Err(error.to_string()),
+            None if lacks_options(Path::new(name)) => {
+                Opened::read_curve(Path::new(name), CurveOptions::default())
+            }
+            None => plan_scene(name).unwrap_or_else(|| Err(error.to_string())),
         }
     }
+
+    /// Opens a measured curve with the options that the user has typed.
+    ///
+    /// # Errors
+    /// Returns the reason if the curve cannot be read with these options.
+    pub fn of_curve(question: CurveQuestion) -> Result<Self, String> {
+        Opened::read_curve(&question.path, question.options)
+    }
+
+    /// Reads a measured curve, or returns the question for an option that is still missing.
+    fn read_curve(path: &Path, options: CurveOptions) -> Result<Self, String> {
+        let error = match Measured::read(path, options.clone()) {
+            Ok(measured) => return Ok(Opened::Curve(Box::new(measured))),
+            Err(error) => error,
+        };
+        let reason = error.to_string();
+        let remedies = error.remedies();
+        for (remedy, row) in &MAY_BE_MISSING {
+            let missing = OPTIONS.iter().position(|option| option.field.path == *row);
+            let Some(missing) = missing.filter(|_| remedies.contains(remedy)) else {
+                continue;
+            };
+            if !OPTIONS[missing].is_set(&options) {
+                return Ok(Opened::Question(Box::new(CurveQuestion {
+                    path: path.to_owned(),
+                    options,
+                    missing,
+                    reason,
+                })));
+            }
+        }
+        Err(error.in_words(advice::row))
+    }
+}
+
+/// Opens the scene of a plan; `None` if the file is not a plan.
+fn plan_scene(name: &str) -> Option<Result<Opened, String>> {
+    let text = read_regular_text(Path::new(name), LONGEST_PLAN).ok()?;
+    if !is_plan(&text) {
+        return None;
+    }
+    let opened = || {
+        let plan = Plan::open(name, &Changes::default()).map_err(|error| error.to_string())?;
+        let document =
+            Document::from_scene(&plan.scene, name).map_err(|error| error.to_string())?;
+        Ok(Opened::Scene(Box::new(Opening::from(document))))
+    };
+    Some(opened())
 }

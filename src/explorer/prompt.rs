@@ -3,11 +3,12 @@
 
 use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
+use super::openable::Openable;
+use super::opening::CurveQuestion;
 use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::{corrected, find};
 use super::text_line::TextLine;
-use asperity_scene::library::{Entry, Source};
 use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
@@ -42,8 +43,10 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
-    /// Words of a search for a scene in this list, or the path of a scene or a study.
-    Scene(Vec<Entry>),
+    /// Words of a search in this list of what can be opened, or a path.
+    Open(Vec<Openable>),
+    /// Value of an option without which a measured curve cannot be read.
+    Curve(CurveQuestion),
     Parameter {
         before: Pane,
     },
@@ -174,7 +177,7 @@ impl Prompt {
             Purpose::Topics {
                 is_typed: false, ..
             } => Context::Help,
-            Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Topics { .. } => Context::List,
+            Purpose::Open(_) | Purpose::Parameter { .. } | Purpose::Topics { .. } => Context::List,
             Purpose::Overwrite(_) => Context::Overwrite,
             Purpose::Leave => Context::Leave,
             _ => Context::Line,
@@ -186,14 +189,11 @@ impl Prompt {
         let query = self.line.text();
         self.selected = 0;
         self.found = match &self.purpose {
-            // A text with a separator is a path, so it is not compared with the names of scenes.
-            Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Scene(entries) => {
+            // A text with a separator is a path, so it is not compared with names.
+            Purpose::Open(_) if query.contains(is_separator) => Vec::new(),
+            Purpose::Open(entries) => {
                 let entries = entries.iter().enumerate();
-                find(
-                    entries.map(|(index, entry)| scene_texts(index, entry)),
-                    query,
-                )
+                find(entries.map(|(index, entry)| entry.texts(index)), query)
             }
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
             Purpose::Topics { topics, .. } => {
@@ -216,28 +216,12 @@ impl Prompt {
         self.found.get(self.selected).copied()
     }
 
-    pub fn scene(&self) -> Option<&Entry> {
-        if let Purpose::Scene(entries) = &self.purpose {
+    /// Returns the selected entry of the list of what can be opened.
+    pub fn openable(&self) -> Option<&Openable> {
+        if let Purpose::Open(entries) = &self.purpose {
             entries.get(self.choice()?)
         } else {
             None
         }
     }
-}
-
-/// Returns the texts of a scene in which a search looks for words: the number of a built-in scene,
-/// the name, the title and the notice. Built-in scenes come first in the list, so the number of
-/// such a scene follows from its index.
-fn scene_texts(index: usize, entry: &Entry) -> Vec<String> {
-    let number = if entry.origin == Source::BuiltIn {
-        (index + 1).to_string()
-    } else {
-        String::new()
-    };
-    vec![
-        number,
-        entry.name.clone(),
-        entry.title().to_owned(),
-        entry.notice().to_owned(),
-    ]
 }

@@ -1,8 +1,8 @@
 //! Recognition of measured files that the user has named where the program expects another kind of
 //! file. A file is a force curve or a surface if the reader for this kind can read it.
 
-use asperity_data::{Remedied, Wording, path_name, printable};
-use asperity_experiment::{ExperimentError, MeasuredCurve};
+use asperity_data::{Remedied, Remedy, Wording, path_name, printable};
+use asperity_experiment::{CurveOptions, ExperimentError, MeasuredCurve};
 use asperity_scene::text::quoted;
 use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, SurfaceError, read};
@@ -46,6 +46,20 @@ impl MeasuredFile {
             ),
         }
     }
+}
+
+/// Returns true if a file is a table of numbers from which a force curve could be read if its
+/// columns, their units or the travel of the instrument were stated.
+pub fn lacks_options(path: &Path) -> bool {
+    let Err(error) = MeasuredCurve::read(path, &CurveOptions::default()) else {
+        return false;
+    };
+    let missing = [Remedy::Columns, Remedy::Units, Remedy::Ramp];
+    path.is_file()
+        && error
+            .remedies()
+            .iter()
+            .any(|remedy| missing.contains(remedy))
 }
 
 /// Returns true if a file can be read as a surface. In a binary file, units, spacing and single

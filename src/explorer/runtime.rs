@@ -7,6 +7,7 @@ use super::app::App;
 use super::commands::accuracy::studies;
 use super::completion::complete;
 use super::keys::bindings::Context;
+use super::openable::{Openable, openables};
 use super::opening::Opened;
 use super::request::Request;
 use super::solver::{Solve, Solver, SolverThread};
@@ -16,7 +17,7 @@ use super::writing;
 use crate::explorer::advice;
 use asperity_data::Remedied;
 use asperity_scene::Simulation;
-use asperity_scene::library::{Entry, own_folder, scenes};
+use asperity_scene::library::own_folder;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
@@ -144,11 +145,15 @@ impl Runtime {
             Task::Ask => return self.ask(),
             Task::Study => return (self.engine.perform)(studies(&mut self.app)),
             Task::Write(file) => writing::write(&self.app, &self.folder, file),
-            Task::List => Action::Listed(self.scenes()),
+            Task::List => Action::Listed(self.openables()),
             Task::Complete(typed) => Action::Completed(complete(&typed)),
             Task::Open(name) => {
                 let opened = Opened::of(&name);
                 Action::Opened(name, opened)
+            }
+            Task::OpenCurve(question) => {
+                let name = question.path.to_string_lossy().into_owned();
+                Action::Opened(name, Opened::of_curve(question))
             }
             Task::ReadCurve(wanted) => {
                 let Some(measured) = &self.app.edit.measured else {
@@ -177,13 +182,13 @@ impl Runtime {
         replies
     }
 
-    /// Returns the scenes that can be opened. Tests and demos set `folder`; then the scenes in the
-    /// user's own folder are left out.
-    fn scenes(&self) -> Vec<Entry> {
+    /// Returns the scenes and files that can be opened. Tests and demos set `folder`; then the
+    /// scenes in the user's own folder are left out.
+    fn openables(&self) -> Vec<Openable> {
         if self.folder.as_os_str().is_empty() {
-            scenes(own_folder().as_deref(), Path::new("."))
+            openables(own_folder().as_deref(), Path::new("."))
         } else {
-            scenes(None, &self.folder)
+            openables(None, &self.folder)
         }
     }
 }

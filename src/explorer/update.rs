@@ -43,7 +43,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Completed(paths) => dialogue::completed(app, paths),
         Action::Opened(_, Ok(opened)) => opening::open(app, opened),
         Action::Opened(path, Err(why)) => {
-            app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
+            app.ask_again(Purpose::Open(Vec::new()), &path, &why);
             app.effects.push(Task::List);
         }
         Action::CurveRead(wanted, read) => measured::show_read(app, &wanted, read),

@@ -108,7 +108,7 @@ fn assert_fit(fit: SelfAffineFit, spectrum: &Spectrum, has_roll_off: bool) {
         "H = {}: {fit:?}",
         spectrum.hurst
     );
-    assert!(fit.hurst.error > 0.001 && fit.hurst.error < 0.02, "{fit:?}");
+    assert!(fit.hurst.error > 0.001 && fit.hurst.error < 0.05, "{fit:?}");
     let is_right = |found: f64| (found / (TAU * spectrum.roll_off) - 1.0).abs() < 0.08;
     assert!(
         fit.roll_off

@@ -99,7 +99,7 @@ pub mod loading {
 /// Finds scenes by name: built-in scenes, the user's own scenes, and scenes in a folder.
 pub mod library {
     pub use crate::scene::library::{
-        DEFAULT, Entry, Source, find_scene, own_folder, scenes, typed_path,
+        DEFAULT, Entry, Source, find_scene, is_plan, own_folder, scenes, typed_path,
     };
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }

@@ -6,11 +6,13 @@ use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::bindings::{Context, KeyCommand, Row};
 use crate::explorer::layout::Layout;
+use crate::explorer::openable::Openable;
+use crate::explorer::opening::CurveQuestion;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
 use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
 use crate::explorer::text::on_one_line;
-use asperity_scene::library::{Entry, typed_path};
+use asperity_scene::library::typed_path;
 use asperity_scene::presets;
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::InputRequest;
@@ -26,13 +28,13 @@ pub fn find_parameter(app: &mut App) {
 }
 
 pub fn open_library(app: &mut App) {
-    app.ask(Purpose::Scene(Vec::new()), "");
+    app.ask(Purpose::Open(Vec::new()), "");
     app.effects.push(Task::List);
 }
 
-pub fn listed(app: &mut App, entries: Vec<Entry>) {
+pub fn listed(app: &mut App, entries: Vec<Openable>) {
     if let Some(prompt) = &mut app.prompt {
-        prompt.purpose = Purpose::Scene(entries);
+        prompt.purpose = Purpose::Open(entries);
         prompt.search(&app.edit.parameters);
     }
 }
@@ -157,7 +159,8 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Fit => measured::accept_fit(app, typed),
         Purpose::Save { then_quit } => files::save(app, typed_path(typed), *then_quit),
         Purpose::Export => files::export(app, typed_path(typed)),
-        Purpose::Scene(_) => accept_scene(app, prompt),
+        Purpose::Open(_) => accept_openable(app, prompt),
+        Purpose::Curve(question) => accept_curve_option(app, question, typed),
         Purpose::Parameter { .. } => {
             let row = prompt.choice().ok_or(NOTHING_FITS)?;
             show_parameter(app, row);
@@ -182,13 +185,21 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
 
 const NOTHING_FITS: &str = "nothing in the list fits";
 
-/// Opens the selected scene. If no scene in the list matches the typed text, the text is taken as
-/// the path of a scene or a study, which is then opened.
-fn accept_scene(app: &mut App, prompt: &Prompt) -> Result<(), String> {
-    if let Some(entry) = prompt.scene() {
-        let document = entry.document.clone();
-        edit::open(app, document.map_err(|errors| errors.to_string())?);
-        return Ok(());
+/// Opens the selected entry of the list. If no entry matches the typed text, the text is taken as a
+/// path, which is then opened.
+fn accept_openable(app: &mut App, prompt: &Prompt) -> Result<(), String> {
+    match prompt.openable() {
+        Some(Openable::Scene(entry)) => {
+            let document = entry.document.clone();
+            edit::open(app, document.map_err(|errors| errors.to_string())?);
+            return Ok(());
+        }
+        Some(Openable::File(file)) => {
+            let path = file.path.to_string_lossy().into_owned();
+            app.effects.push(Task::Open(path));
+            return Ok(());
+        }
+        None => {}
     }
     let typed = prompt.line.text().trim();
     if typed.is_empty() {
@@ -196,6 +207,19 @@ fn accept_scene(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     }
     let path = typed_path(typed).to_string_lossy().into_owned();
     app.effects.push(Task::Open(path));
+    Ok(())
+}
+
+/// Opens a measured curve with the typed value of the option that was missing.
+fn accept_curve_option(app: &mut App, question: &CurveQuestion, typed: &str) -> Result<(), String> {
+    if typed.trim().is_empty() {
+        return Err(format!("type {}", question.option().field.meaning));
+    }
+    let options = question.option().with(&question.options, typed)?;
+    app.effects.push(Task::OpenCurve(CurveQuestion {
+        options,
+        ..question.clone()
+    }));
     Ok(())
 }
 
@@ -258,7 +282,7 @@ fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
     match prompt.purpose {
-        Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => Some(text.to_owned()),
+        Purpose::Save { .. } | Purpose::Export | Purpose::Open(_) => Some(text.to_owned()),
         Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
             let path = text.rsplit('"').next().unwrap_or(text);
             let path = app.edit.document.resolve(path);

@@ -8,9 +8,12 @@ use crate::explorer::map_state::OpenStudy;
 use crate::explorer::measured::Measured;
 use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::pane::Pane;
+use crate::explorer::prompt::Purpose;
 use crate::explorer::theme::Appearance;
+use asperity_data::path_name;
 use asperity_report::LoopQuantities;
 use asperity_study::maps::StudyMap;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Creates the state of an explorer in a window of this size. `opening` contains the scene, study
@@ -45,6 +48,11 @@ pub fn open(app: &mut App, opened: Opened) {
             }
         }
         Opened::Curve(measured) => show_measured(app, *measured),
+        Opened::Question(question) => {
+            let reason = question.reason.clone();
+            app.ask_again(Purpose::Curve(*question), "", &reason);
+        }
+        Opened::Surface(path) => set_roughness(app, &path),
     }
 }
 
@@ -52,6 +60,26 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.map.study = Some(OpenStudy::new(study_map, 0));
     app.map.of_study = true;
     app.show(Pane::Map);
+}
+
+/// Makes a measured surface the roughness of the present scene, in one edit.
+fn set_roughness(app: &mut App, path: &Path) {
+    let document = &app.edit.document;
+    // Paths in a scene are relative to the folder of its file.
+    let from_scene = document.resolve(&path.to_string_lossy());
+    let path = if from_scene.exists() {
+        path.to_owned()
+    } else {
+        path.canonicalize().unwrap_or_else(|_| path.to_owned())
+    };
+    match document.set("roughness", &path.to_string_lossy()) {
+        Ok(document) => {
+            edit::adopt(app, document);
+            let name = path_name(&path);
+            app.set_done(format!("{name} is the roughness of the scene; u undoes"));
+        }
+        Err(errors) => app.set_error(errors.to_string()),
+    }
 }
 
 /// Shows a measured curve together with the scene, and gives the scene the loading of the curve, in

@@ -181,7 +181,8 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
             let extensions = EXPORTS.map(|format| format!(".{}", format.extension()));
             format!("Export to ({}): ", extensions.join(" "))
         }
-        Purpose::Scene(_) => "Search: ".to_owned(),
+        Purpose::Open(_) => "Search: ".to_owned(),
+        Purpose::Curve(question) => format!("{}: ", question.option().field.name),
         Purpose::Parameter { .. } | Purpose::Topics { .. } => "Find: ".to_owned(),
     }
 }

@@ -2,11 +2,13 @@
 //! or the scenes, with the selected scene on the right.
 
 use crate::explorer::layout::inside;
+use crate::explorer::openable::{ListedFile, Openable};
 use crate::explorer::panel;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::prompt::{Prompt, Topic};
 use crate::explorer::text::{fitted, on_one_line, wrapped};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
+use asperity_data::printable;
 use asperity_scene::library::{Entry, Source};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -123,29 +125,33 @@ fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> 
     rows
 }
 
-pub fn draw_scenes(
+/// Draws the list of what can be opened, and on its right the selected entry.
+pub fn draw_openables(
     area: Rect,
     look: Appearance,
     prompt: &Prompt,
-    entries: &[Entry],
+    entries: &[Openable],
     buffer: &mut Buffer,
 ) {
     let mut list = List {
-        name: "Scenes",
+        name: "Scenes and files",
         length: entries.len(),
-        none: "no scene fits; Enter tries it as a path, such as ./scene.ron or ./study",
+        none: "nothing fits; Enter tries it as a path, such as ./scene.ron, ./study or ./curve.csv",
         rows: Vec::new(),
         selected: prompt.selected,
     };
     for (place, index) in prompt.found.iter().enumerate() {
         if let Some(entry) = entries.get(*index) {
             let is_selected = place == prompt.selected;
-            list.rows
-                .push(row_of_scene(*index, entry, is_selected, look.theme));
+            let row = match entry {
+                Openable::Scene(entry) => row_of_scene(*index, entry, is_selected, look.theme),
+                Openable::File(file) => row_of_file(file, is_selected, look.theme),
+            };
+            list.rows.push(row);
         }
     }
     let list = list.panel(prompt);
-    let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
+    let beside = prompt.openable().filter(|_| area.width >= WITH_SCENE);
     let Some(entry) = beside else {
         panel::draw(&list, area, false, look, buffer);
         return;
@@ -157,12 +163,16 @@ pub fn draw_scenes(
         width: area.width - width,
         ..area
     };
-    let scene = Panel {
-        head: words_of_scene(entry, right.width - 2, look.theme),
-        ..Panel::of_text(entry.name.clone(), "")
+    let head = match entry {
+        Openable::Scene(entry) => words_of_scene(entry, right.width - 2, look.theme),
+        Openable::File(file) => words_of_file(file, right.width - 2, look.theme),
+    };
+    let selected = Panel {
+        head,
+        ..Panel::of_text(entry.name().to_owned(), "")
     };
     panel::draw(&list, left, false, look, buffer);
-    panel::draw(&scene, right, false, look, buffer);
+    panel::draw(&selected, right, false, look, buffer);
 }
 
 /// Returns the row of a scene in the list: the number by which the user can search for a built-in
@@ -197,6 +207,32 @@ fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) ->
         Span::styled(name, theme.style(name_meaning)),
         Span::styled(format!("  {origin}"), quiet),
     ])
+}
+
+/// Returns the row of a file in the list: its name and its kind.
+fn row_of_file(file: &ListedFile, is_selected: bool, theme: Theme) -> Line<'static> {
+    let (mark, meaning) = if is_selected {
+        ("› ", Meaning::Selected)
+    } else {
+        ("  ", Meaning::Text)
+    };
+    let quiet = theme.style(Meaning::Quiet);
+    Line::from_iter([
+        Span::styled("   ", quiet),
+        Span::styled(format!("{mark}{}", file.name), theme.style(meaning)),
+        Span::styled(format!("  {}", file.kind.word()), quiet),
+    ])
+}
+
+/// Returns what opening a file does, and the beginning of its text, in lines of this width.
+fn words_of_file(file: &ListedFile, width: u16, theme: Theme) -> Vec<Line<'static>> {
+    let effect = Line::styled(file.kind.effect(), theme.style(Meaning::Text));
+    let mut lines = wrapped(&effect, width);
+    for line in file.text.lines() {
+        let line = printable(line).into_owned();
+        lines.push(Line::styled(line, theme.style(Meaning::Quiet)));
+    }
+    lines
 }
 
 /// Returns the title, the notice, the error and the text of a scene, in lines of this width.

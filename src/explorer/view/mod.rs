@@ -51,8 +51,8 @@ fn draw_body(app: &App, layout: &Layout, buffer: &mut Buffer) {
             Purpose::Topics { name, topics, .. } => {
                 return lists::draw_topics(layout.body(), look, prompt, name, topics, buffer);
             }
-            Purpose::Scene(entries) => {
-                return lists::draw_scenes(layout.body(), look, prompt, entries, buffer);
+            Purpose::Open(entries) => {
+                return lists::draw_openables(layout.body(), look, prompt, entries, buffer);
             }
             _ => {}
         }

@@ -254,7 +254,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
 }
 
 /// Returns true if a text is the plan of a study, which contains a scene as its part `scene`.
-fn is_plan(text: &str) -> bool {
+pub fn is_plan(text: &str) -> bool {
     Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }
 
