@@ -4,6 +4,7 @@ use crate::curve::numerics::{Baseline, Extent, correlated, growing, noise_of_nei
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::CurveOptions;
+use asperity_data::mean;
 use std::ops::Range;
 
 /// Smallest number of points without contact.
@@ -29,6 +30,14 @@ const PARTS: [usize; 3] = [5, 10, 20];
 const STEEP: f64 = 0.5;
 /// Share of the range of the force above which a change of the force is notable.
 const NOTABLE: f64 = 0.05;
+
+/// Share of the largest tension above which the end of a retraction may still be in contact.
+const HELD: f64 = 0.5;
+/// Tension at the end of a retraction, in units of the noise, below which it is noise.
+const BEYOND_NOISE: f64 = 5.0;
+/// Way of a part without contact whose force is such a tension, divided by the way over which the
+/// tension came about. A body that is held passes the largest tension on a shorter way.
+const LONG: f64 = 0.5;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,6 +198,9 @@ pub(crate) struct FreeParts {
     pub before: Option<usize>,
     /// Number of points after contact at the end; 0 if there are few.
     pub after: usize,
+    /// True if the last points of the last retraction look straight, but are a tension that still
+    /// holds the body.
+    pub ends_in_contact: bool,
     /// Time and displacement of each point, as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
 }
@@ -214,6 +226,11 @@ impl FreeParts {
             Some(free) if is_retraction => free,
             _ => count_after_contact(points, least_noise),
         };
+        let ends_in_contact = match before {
+            Ok(before) => asked.is_none() && is_still_held(points, before, after, least_noise),
+            Err(_) => false,
+        };
+        let after = if ends_in_contact { 0 } else { after };
 
         let needs_approach =
             !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
@@ -243,6 +260,7 @@ impl FreeParts {
         Ok(FreeParts {
             before: before.ok(),
             after,
+            ends_in_contact,
             shares: [shares_of_time(count), shares_of_range(&points.displacement)],
         })
     }
@@ -298,6 +316,36 @@ fn count_after_contact(points: &Points, least_noise: f64) -> usize {
     }
     let forces = &points.force[points.moving(last)];
     free_count(&reversed(forces), least_noise).unwrap_or(0)
+}
+
+/// Returns true if the last `after` points, which are nearly on a straight line, are no part without
+/// contact. Where a tension is largest, its curve is flat too, and a soft instrument or points at a
+/// falling speed make it straight. `before` points at the beginning have the zero of the force.
+///
+/// A drag of a fluid is a tension as well, but it lasts over a longer way than the contact.
+fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64) -> bool {
+    if before < FEWEST || after == 0 {
+        return false;
+    }
+    let free = &points.force[..before];
+    let zero = mean(free);
+    let noise = Baseline::through(free).noise.max(least_noise);
+    let retraction = points.moving(points.last_segment());
+    let tensions: Vec<f64> = points.force[retraction.clone()]
+        .iter()
+        .map(|force| zero - force)
+        .collect();
+    let displacements = &points.displacement[retraction];
+    let first = tensions.len() - after.min(tensions.len());
+    let end = mean(&tensions[first..]);
+    let largest = Extent::of(tensions.iter().copied()).high;
+    if end <= BEYOND_NOISE * noise || end <= HELD * largest {
+        return false;
+    }
+    let crossing = tensions.iter().position(|tension| *tension >= 0.0);
+    let way_of_tension = displacements[crossing.unwrap_or(first).min(first)] - displacements[first];
+    let way_without_contact = Extent::of(displacements[first..].iter().copied()).width();
+    way_without_contact < LONG * way_of_tension
 }
 
 fn reversed(forces: &[f64]) -> Vec<f64> {
