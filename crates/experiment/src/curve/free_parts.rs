@@ -37,7 +37,13 @@ const HELD: f64 = 0.5;
 const BEYOND_NOISE: f64 = 5.0;
 /// Way of a part without contact whose force is such a tension, divided by the way over which the
 /// tension came about. A body that is held passes the largest tension on a shorter way.
-const LONG: f64 = 0.5;
+const LONG: f64 = 1.0;
+
+/// Least gain by a parabola over a straight line at the end of a retraction.
+const GAIN_BY_PARABOLA: f64 = 20.0;
+/// Noise of the points at the end about a parabola, divided by the noise between neighbours, up to
+/// which they are a parabola.
+const LIKE_NEIGHBOURS: f64 = 1.5;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -315,7 +321,25 @@ fn count_after_contact(points: &Points, least_noise: f64) -> usize {
         return 0;
     }
     let forces = &points.force[points.moving(last)];
-    free_count(&reversed(forces), least_noise).unwrap_or(0)
+    free_count_at_end(forces, least_noise).unwrap_or(0)
+}
+
+/// Returns the number of forces after contact at the end of a segment. A parabola there is a tension
+/// about its largest value.
+fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
+    let reversed: Vec<f64> = forces.iter().rev().copied().collect();
+    let free = free_count(&reversed, least_noise)?;
+    let part = &reversed[..free];
+    let noise = LIKE_NEIGHBOURS * noise_of_neighbours(part).max(least_noise);
+    let squares = |terms: usize| growing(part.iter().copied(), terms)[free - 1];
+    let least_squares = free as f64 * least_noise * least_noise;
+    let squares_of_parabola = squares(3) + least_squares;
+    let gain = free as f64 * ((squares(2) + least_squares) / squares_of_parabola).ln();
+    let is_parabola = squares_of_parabola <= free as f64 * noise * noise;
+    if gain > GAIN_BY_PARABOLA && is_parabola {
+        return Err(NoFreePart::InContact);
+    }
+    Ok(free)
 }
 
 /// Returns true if the last `after` points, which are nearly on a straight line, are no part without
@@ -348,25 +372,20 @@ fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64)
     way_without_contact < LONG * way_of_tension
 }
 
-fn reversed(forces: &[f64]) -> Vec<f64> {
-    forces.iter().rev().copied().collect()
-}
-
 /// Returns true if the forces of a segment end without contact.
 pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
-    let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
+    let Ok(at_end) = free_count_at_end(forces, least_noise) else {
         return false;
     };
-    match free_change(forces, least_noise) {
-        Some(change_at_begin) => change_at_end < change_at_begin,
-        None => true,
-    }
+    let Ok(at_begin) = free_count(forces, least_noise) else {
+        return true;
+    };
+    change_along(&forces[forces.len() - at_end..]) < change_along(&forces[..at_begin])
 }
 
-/// Returns the change of the force in N over the part before contact, along its straight line.
-fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
-    let free = free_count(forces, least_noise).ok()?;
-    Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
+/// Returns the change of the force in N over a part without contact, along its straight line.
+fn change_along(forces: &[f64]) -> f64 {
+    Baseline::through(forces).slope.abs() * forces.len() as f64
 }
 
 /// Returns the error of a curve without a part before contact, according to the reason.
@@ -396,7 +415,7 @@ fn refuse<T>(
 
 /// Returns true if the segment that should be an approach ends without contact.
 fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
-    points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
+    points.segment.contains(&1) && free_count_at_end(approach, least_noise).is_ok()
 }
 
 #[cfg(test)]

@@ -28,7 +28,9 @@ use std::path::Path;
 const MOST_POINTS: usize = 4096;
 const FEWEST_POINTS: usize = 4 * FEWEST;
 /// Noise that is assumed for a curve without noise, as a share of the range of the force.
-const NO_NOISE: f64 = 1e-6;
+const NO_NOISE: f64 = 1e-5;
+/// Deviation of a multiple of the last digit from a whole number that is rounding.
+const ROUNDED: f64 = 0.05;
 /// Force at the end of the approach, in standard deviations of the noise. A force below this value
 /// is a tension, so the sign of the file is in doubt.
 const PULLS: f64 = -5.0;
@@ -185,7 +187,7 @@ impl MeasuredCurve {
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
         let left_out = columns.left_out();
-        let least_noise = NO_NOISE * Extent::of(columns.force.iter().copied()).width();
+        let least_noise = least_noise(&columns.force);
         let mut segments = Segments::of(&columns.displacement, &columns.labels);
         let reordered = put_in_order(&mut columns, &mut segments, least_noise);
         let averaged = points_in_mean(&segments);
@@ -338,6 +340,31 @@ impl MeasuredCurve {
             .map(|index| (self.free..end).contains(&index))
             .collect()
     }
+}
+
+/// Returns the noise in N that the forces of a curve have at least: that of their digits.
+fn least_noise(forces: &[f64]) -> f64 {
+    let range = Extent::of(forces.iter().copied()).width();
+    let of_digits = digit(forces).map_or(0.0, |digit| digit / 12.0_f64.sqrt());
+    of_digits.max(NO_NOISE * range)
+}
+
+/// Returns the last digit of forces in N if all of them are whole multiples of it, as the numbers of
+/// a converter are; `None` if there is no such digit above the range times [`NO_NOISE`].
+fn digit(forces: &[f64]) -> Option<f64> {
+    let mut sorted = forces.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let lowest = *sorted.first()?;
+    let range = sorted.last()? - lowest;
+    let differences = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let digit = differences
+        .filter(|difference| *difference > NO_NOISE * range)
+        .fold(f64::INFINITY, f64::min);
+    let is_whole = |force: &f64| {
+        let multiple = (force - lowest) / digit;
+        (multiple - multiple.round()).abs() < ROUNDED
+    };
+    (digit.is_finite() && sorted.iter().all(is_whole)).then_some(digit)
 }
 
 /// Returns the sums of products of the columns, and first of a constant, over the points without

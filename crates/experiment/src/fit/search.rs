@@ -14,6 +14,7 @@
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
 use crate::fit::agreement::MISFIT;
+use crate::fit::descent::descend;
 use crate::fit::lines::Lines;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
@@ -62,6 +63,16 @@ const CHANCE: f64 = 3.0;
 const ATTEMPTS: usize = 3;
 /// Difference of costs by which a start must be better than a population to count as missed.
 const MISSED: f64 = 3.0;
+/// Step of the coordinates in the first simplex of a descent.
+const FIRST_STEP: f64 = 0.3;
+/// Factor of this step from one descent to the next.
+const SHORTER: f64 = 0.6;
+/// Largest number of descents, each at a lower noise.
+const DESCENTS: usize = 12;
+/// Share of the residual that must be left after a descent for another one to be tried.
+const NO_BETTER: f64 = 0.97;
+/// Number of curves in a descent for each coordinate.
+const CURVES: usize = 25;
 /// Largest noise divided by the noise of the curve.
 const LARGE: f64 = 1e6;
 /// Number of halvings to determine a step of the logarithm of the noise.
@@ -228,6 +239,35 @@ impl Search<'_> {
         Ok(members)
     }
 
+    /// Returns the member to which the costs fall from the start. The noise falls with the residuals,
+    /// so that first all points count and in the end those at jumps count little. A descent is no
+    /// sample, but it follows a narrow valley that a population may miss.
+    pub fn descended(&mut self) -> Result<Member, ExperimentError> {
+        self.model.noise = 1.0;
+        let mut best = self.member(self.space.start())?;
+        let mut noise = self.misfit(&best, f64::INFINITY).clamp(1.0, LARGE);
+        let mut step = FIRST_STEP;
+        for _ in 0..DESCENTS {
+            let start = best.place.clone();
+            let most = CURVES * start.len();
+            let mut cost = |place: &[f64]| {
+                let member = self.member(self.space.inside(place))?;
+                Ok::<f64, ExperimentError>(self.cost(&member, noise))
+            };
+            let place = descend(&start, step, most, &mut cost)?;
+            best = self.member(self.space.inside(&place))?;
+            let misfit = self.misfit(&best, noise).clamp(1.0, LARGE);
+            let is_lowest = noise <= 1.0;
+            let has_improved = misfit < NO_BETTER * noise;
+            noise = misfit.min(0.5 * noise).max(1.0);
+            step *= SHORTER;
+            if is_lowest || (!has_improved && step < FIRST_STEP * SHORTER.powi(3)) {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
     /// Finds the member with the smallest residuals, and samples of the coordinates. Another
     /// population is drawn in three cases. The residuals exceed the noise, as one population in
     /// thirty ends in another minimum and one in 200 twice. The population has missed a better
@@ -256,7 +296,14 @@ impl Search<'_> {
         mut generator: ChaCha8Rng,
     ) -> Result<SearchResult, ExperimentError> {
         self.model.noise = 1.0;
-        let start = self.member(self.space.start())?;
+        let mut start = self.member(self.space.start())?;
+        if self.is_poor(&population.best)? {
+            let descended = self.descended()?;
+            let noise = population.noise;
+            if self.cost(&descended, noise) < self.cost(&start, noise) {
+                start = descended;
+            }
+        }
         for attempt in 1..ATTEMPTS {
             let is_poor = self.is_poor(&population.best)?;
             let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;

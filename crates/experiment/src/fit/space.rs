@@ -246,6 +246,16 @@ impl<'a> Space<'a> {
         values
     }
 
+    /// Returns the place within all ranges that is nearest to a place.
+    pub fn inside(&self, place: &[f64]) -> Vec<f64> {
+        let coordinates = self.coordinates.iter().zip(place);
+        let inside = coordinates.map(|(coordinate, position)| {
+            let (low, high) = coordinate.ends();
+            position.clamp(low, high)
+        });
+        inside.collect()
+    }
+
     /// Returns true if a place lies within all ranges.
     pub fn contains(&self, place: &[f64]) -> bool {
         self.coordinates

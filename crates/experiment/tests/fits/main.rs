@@ -5,4 +5,5 @@ mod common;
 mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
+mod simple_curves;
 mod single_curves;
