@@ -112,7 +112,10 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
         // Where the instrument moves back for a short way, the force changes with it.
         let before = ways[(jump + 1).saturating_sub(STEPS)];
         let after = ways[(jump + STEPS).min(ways.len() - 1)];
-        jumps += usize::from(after >= before);
+        // At a turning point the force of a body that relaxes falls, and the motion may turn between
+        // two points.
+        let is_at_turn = number < points.last_segment() && jump + 1 + STEPS >= forces.len();
+        jumps += usize::from(after >= before && !is_at_turn);
         // The means before the next places contain points before this jump.
         place = jump + 2 * STEPS;
     }
@@ -293,6 +296,21 @@ mod tests {
         assert_eq!((twice.jumps, twice.jumps_in_one_motion), (4, 2));
         // A drop below 1 % of the range of the force, or below the noise, is none.
         assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
+    }
+
+    /// The force of a body that relaxes falls where the motion turns, whichever segment the point in
+    /// the middle belongs to.
+    #[test]
+    fn a_fall_at_the_turning_point_is_no_jump() {
+        for first in 298..304 {
+            let mut points = of_spring(600);
+            for point in &mut points[first..] {
+                if point.1 > 3.0 {
+                    point.1 *= 0.6;
+                }
+            }
+            assert_eq!(features(points).jumps, 0, "{first}");
+        }
     }
 
     /// A force that falls gradually while the body is pressed is no jump, however far it falls.
