@@ -10,6 +10,9 @@ use serde::Serialize;
 const BEYOND_NOISE: f64 = 6.0;
 /// Smallest jump of the force, as a share of its range.
 const OF_RANGE: f64 = 0.01;
+/// Smallest jump of the force, as a share of the largest one in the same motion. A drag of a fluid
+/// may change in a cusp at first touch.
+const OF_LARGEST: f64 = 0.1;
 /// Largest number of steps between points over which a jump extends.
 const STEPS: usize = 3;
 /// Number of steps before and after a jump with which it is compared.
@@ -24,6 +27,24 @@ const PRESSED: f64 = 10.0;
 const STILL: f64 = 0.002;
 /// Share of the points of a pause of which its beginning and its end are means.
 const END: usize = 20;
+
+/// Place at which the force jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ForceJump {
+    /// Index, from 0, of the segment.
+    pub segment: usize,
+    /// Displacement in m at the last point before the jump.
+    pub displacement: f64,
+    /// Means of a few forces before and after the jump, N.
+    pub forces: [f64; 2],
+}
+
+impl ForceJump {
+    /// Returns the magnitude of the jump, N.
+    pub fn size(self) -> f64 {
+        (self.forces[1] - self.forces[0]).abs()
+    }
+}
 
 /// Numbers of a measured curve by itself, before any fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -44,13 +65,13 @@ pub struct CurveFeatures {
 }
 
 impl CurveFeatures {
-    pub(crate) fn of(points: &Points, noise: f64) -> Self {
-        let first = points.segment[0];
-        let mut features = CurveFeatures::default();
-        for number in first..=points.last_segment() {
-            let jumps = jumps_in(points, number, noise);
-            features.jumps += jumps;
-            features.jumps_in_one_motion = features.jumps_in_one_motion.max(jumps);
+    pub(crate) fn of(points: &Points, jumps: &[ForceJump], noise: f64) -> Self {
+        let mut features = CurveFeatures {
+            jumps: jumps.len(),
+            ..CurveFeatures::default()
+        };
+        for motion in jumps.chunk_by(|jump, next| jump.segment == next.segment) {
+            features.jumps_in_one_motion = features.jumps_in_one_motion.max(motion.len());
         }
         features.hysteresis = hysteresis(points, noise);
         features.fall_in_pause = fall_in_pause(points, noise);
@@ -87,8 +108,17 @@ fn percent(share: f64) -> String {
     format!("{} %", format_rounded(100.0 * share, 2, "1"))
 }
 
-/// Returns the number of jumps in the motion of one segment.
-fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
+/// Returns the jumps of the force of all segments, in the order of time.
+pub(crate) fn jumps_of(points: &Points, noise: f64) -> Vec<ForceJump> {
+    let mut jumps = Vec::new();
+    for number in points.segment[0]..=points.last_segment() {
+        jumps.extend(jumps_in(points, number, noise));
+    }
+    jumps
+}
+
+/// Returns the jumps in the motion of one segment.
+fn jumps_in(points: &Points, number: usize, noise: f64) -> Vec<ForceJump> {
     let range = Extent::of(points.force.iter().copied()).width();
     let least = (BEYOND_NOISE * noise).max(OF_RANGE * range);
     // The force of a jump changes against the force of a motion that is continuous.
@@ -102,7 +132,7 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
         }
     }
 
-    let mut jumps = 0;
+    let mut jumps = Vec::new();
     let mut place = 0;
     while place + 1 < forces.len() {
         let Some(jump) = jump_close_to(&forces, place, least) else {
@@ -115,11 +145,30 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
         // At a turning point the force of a body that relaxes falls, and the motion may turn between
         // two points.
         let is_at_turn = number < points.last_segment() && jump + 1 + STEPS >= forces.len();
-        jumps += usize::from(after >= before && !is_at_turn);
+        if after >= before && !is_at_turn {
+            let [before, after] = means_around(&forces, jump);
+            jumps.push(ForceJump {
+                segment: number,
+                displacement: -sign * ways[jump],
+                forces: [sign * before, sign * after],
+            });
+        }
         // The means before the next places contain points before this jump.
         place = jump + 2 * STEPS;
     }
+    let sizes = jumps.iter().map(|jump| jump.size());
+    let least = OF_LARGEST * sizes.fold(0.0, f64::max);
+    jumps.retain(|jump| jump.size() >= least);
     jumps
+}
+
+/// Returns the means of the forces up to a jump and after it.
+fn means_around(forces: &[f64], jump: usize) -> [f64; 2] {
+    let before = mean(&forces[(jump + 1).saturating_sub(STEPS)..=jump]);
+    let largest_gap = (0..STEPS).max_by(|gap, next| {
+        step_at(forces, jump, *gap).total_cmp(&step_at(forces, jump, *next))
+    });
+    [before, before + step_at(forces, jump, largest_gap.unwrap_or(0))]
 }
 
 /// Returns the mean of the next forces minus the mean of the forces up to a place. `gap` forces
@@ -305,9 +354,7 @@ mod tests {
         for first in 298..304 {
             let mut points = of_spring(600);
             for point in &mut points[first..] {
-                if point.1 > 3.0 {
-                    point.1 *= 0.6;
-                }
+                point.1 = 1.0 + 0.6 * (point.1 - 1.0);
             }
             assert_eq!(features(points).jumps, 0, "{first}");
         }

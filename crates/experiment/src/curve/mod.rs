@@ -10,7 +10,7 @@ pub(crate) mod segments;
 pub(crate) mod zero;
 
 use crate::curve::drag::{Drag, DragForce};
-use crate::curve::features::CurveFeatures;
+use crate::curve::features::{CurveFeatures, ForceJump, jumps_of};
 use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
 use crate::curve::numerics::{Extent, dot};
 use crate::curve::points::Points;
@@ -71,6 +71,8 @@ pub struct MeasuredCurve {
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
+    /// Jumps of the force of the whole curve, in the order of time.
+    pub(crate) jumps: Vec<ForceJump>,
     /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
     /// Changes of the force that remain in the curve without contact, in N: over time, over the
@@ -237,7 +239,8 @@ impl MeasuredCurve {
                 .as_ref()
                 .map(|drag| Note::new(drag_in_words(drag))),
         );
-        let features = CurveFeatures::of(&points, noise);
+        let jumps = jumps_of(&points, noise);
+        let features = CurveFeatures::of(&points, &jumps, noise);
         statements.push(features.sentence().into());
         let mut lines = subtracted.columns;
         lines.extend(drag.iter().flat_map(|drag| drag.columns(&points)));
@@ -251,6 +254,7 @@ impl MeasuredCurve {
             touch: free.contact_point(&points),
             noise,
             features,
+            jumps,
             drag: drag_in_contact,
             detaches: detaches(&points, noise),
             points: kept.iter().map(|index| points.counts[*index]).sum(),
@@ -314,6 +318,7 @@ impl MeasuredCurve {
                     .map(|column| thin(column))
                     .collect(),
             },
+            jumps: self.jumps.clone(),
             turns: self.turns.clone(),
             statements: self.statements.clone(),
             stiffness: self.stiffness.clone(),
