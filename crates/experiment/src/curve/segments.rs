@@ -253,7 +253,10 @@ mod tests {
         displacement.extend((0..3000).map(|index| 49.0 - f64::from(index)));
         let numbers = by_turning_points(&displacement);
         let first = numbers.partition_point(|number| *number == 0);
-        assert!(numbers.last() == Some(&1) && first.abs_diff(50) <= 2, "{first}");
+        assert!(
+            numbers.last() == Some(&1) && first.abs_diff(50) <= 2,
+            "{first}"
+        );
         let shaking = |(index, at): (usize, &f64)| at + 20.0 * (0.4 * index as f64).sin();
         let shaken: Vec<f64> = displacement.iter().enumerate().map(shaking).collect();
         assert_eq!(by_turning_points(&shaken).last(), Some(&0));
