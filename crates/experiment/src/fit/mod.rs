@@ -4,6 +4,7 @@
 pub(crate) mod agreement;
 pub(crate) mod descent;
 pub(crate) mod ensemble;
+pub(crate) mod lengths;
 pub(crate) mod lines;
 pub(crate) mod model;
 pub(crate) mod parameter;
@@ -16,6 +17,7 @@ pub(crate) mod search;
 pub(crate) mod space;
 pub(crate) mod start;
 pub(crate) mod statistics;
+pub(crate) mod two_spheres;
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;

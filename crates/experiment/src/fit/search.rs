@@ -85,7 +85,7 @@ const CLOSE: f64 = 2.5;
 /// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
-const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
+const PRIMES: [usize; 9] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
 
 /// Result of a search.
 pub(crate) struct SearchResult {

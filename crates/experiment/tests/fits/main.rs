@@ -7,3 +7,4 @@ mod ensembles;
 mod ensembles_of_other_bodies;
 mod simple_curves;
 mod single_curves;
+mod two_spheres;
