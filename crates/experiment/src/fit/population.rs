@@ -1,5 +1,7 @@
 //! The members of a search: values of the parameters, with their residuals and costs.
 
+use asperity_data::{mean, standard_deviation};
+
 /// Share of different members below which the extent of a population is meaningless.
 const DISTINCT: f64 = 0.5;
 /// Share of different members above which the copies of a step have moved apart.
@@ -60,6 +62,18 @@ impl Population {
             }
         }
         count
+    }
+
+    /// Returns the logarithm of the extent of the members, as a mean over the coordinates.
+    pub fn log_extent(&self) -> f64 {
+        let count = self.members.first().map_or(0, |member| member.place.len());
+        let mut sum = 0.0;
+        for index in 0..count {
+            let positions: Vec<f64> = self.members.iter().map(|one| one.place[index]).collect();
+            let deviation = standard_deviation(&positions, mean(&positions));
+            sum += deviation.max(f64::MIN_POSITIVE).ln();
+        }
+        sum / count.max(1) as f64
     }
 
     /// Returns true if most members differ, so that the next step can be taken.

@@ -38,6 +38,8 @@ pub(crate) struct Space<'a> {
     pub coordinates: Vec<Coordinate>,
     /// Largest allowed work of adhesion on closing, J/m².
     pub most_on_closing: f64,
+    /// Values at which further descents begin.
+    pub other_starts: Vec<Values>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -299,10 +301,18 @@ impl<'a> Space<'a> {
         };
         let mut base = ranges.start_values(values_of(document.scene(), &governing));
         let coordinates = ranges.coordinates(&mut base)?;
+        let is_of_two = free.iter().any(|free| free.parameter.is_of_two_spheres());
+        let other_starts = if is_of_two {
+            let way = ranges.starts.way;
+            contacts.other_starts(&base, way, |parameter| is_free(free, parameter))
+        } else {
+            Vec::new()
+        };
         let space = Space {
             base,
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
+            other_starts,
             curve,
             stop,
         };
@@ -408,6 +418,15 @@ impl<'a> Space<'a> {
             .iter()
             .map(|coordinate| coordinate.of(coordinate.start, &self.base))
             .collect()
+    }
+
+    /// Returns the place within all ranges that is nearest to these values.
+    pub fn place(&self, values: &Values) -> Vec<f64> {
+        let of = |coordinate: &Coordinate| {
+            coordinate.of(values[coordinate.parameter as usize], values)
+        };
+        let place: Vec<f64> = self.coordinates.iter().map(of).collect();
+        self.inside(&place)
     }
 
     /// Returns consecutive parts of the points of each segment that are in contact. Parts depend on

@@ -138,3 +138,19 @@ fn dbg_probes() {
         println!("{:?}", fit.not_distinguished);
     }
 }
+
+#[test]
+fn dbg_cost() {
+    for (index, radius, second_radius, behind, noise) in [(6, 5.4e-6, 3.2e-6, 0.0, 5e-10), (7, 5.4e-6, 4.8e-6, 2e-8, 2e-9), (1, 5e-6, 5e-6, 5e-8, 5e-10)] {
+        let closing_work = if index == 1 { 0.017 } else { 0.01 };
+        let probe = Probe { radius, second_radius, behind, closing_work, ..PROBE };
+        let curve = probe.curve(noise, index as u64);
+        for points in [2048, 6000] {
+        for free in ["offset", "work=16mJ/m2..18mJ/m2,modulus=0.7MPa..0.9MPa,offset,second_radius=2um..6um,behind=0..100nm"] {
+            let fit = fit_from(&curve, &probe.document(points, 512), free);
+            println!("{points} {free}");
+            print(&fit, probe);
+            println!("residual {}", fit.residual_over_noise);
+        }}
+    }
+}
