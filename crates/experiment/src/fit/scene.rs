@@ -261,7 +261,11 @@ mod tests {
         let found = with_values(&two, &values, |_| true, &curve).unwrap();
         assert!(matches!(
             found.scene().form,
-            Some(Form::TwoSpheres { radius: 6e-6, second_radius: 4e-6, behind: 1e-7 })
+            Some(Form::TwoSpheres {
+                radius: 6e-6,
+                second_radius: 4e-6,
+                behind: 1e-7
+            })
         ));
         // The modulus of a material by Young's modulus and Poisson's ratio.
         let plane = [(

@@ -77,7 +77,10 @@ fn check_scene(scene: &Scene, free: &[Free]) -> Result<(), ExperimentError> {
     let has_two_spheres = matches!(scene.form, Some(Form::TwoSpheres { .. }));
     for Free { parameter, .. } in free {
         if parameter.is_of_two_spheres() && !has_two_spheres {
-            let found = format!("{}: the form of the scene is no two spheres", parameter.name());
+            let found = format!(
+                "{}: the form of the scene is no two spheres",
+                parameter.name()
+            );
             return refused(found, "form = TwoSpheres");
         }
     }
@@ -99,7 +102,8 @@ fn check_apex(scene: &Scene, contact: &Contact) -> Result<(), ExperimentError> {
     let are_both_high = first.max(last) < HIGH * deepest;
     let is_deep = median(&mut gaps).is_some_and(|gap| gap > DEEP * deepest);
     if is_highest && are_both_high && is_deep {
-        let found = "the highest point of the measured line lies at its end, so that the body is hollow";
+        let found =
+            "the highest point of the measured line lies at its end, so that the body is hollow";
         let allowed = "heights, which grow outwards, and a line whose highest point is inside";
         return refused(found, allowed);
     }
@@ -422,9 +426,8 @@ impl<'a> Space<'a> {
 
     /// Returns the place within all ranges that is nearest to these values.
     pub fn place(&self, values: &Values) -> Vec<f64> {
-        let of = |coordinate: &Coordinate| {
-            coordinate.of(values[coordinate.parameter as usize], values)
-        };
+        let of =
+            |coordinate: &Coordinate| coordinate.of(values[coordinate.parameter as usize], values);
         let place: Vec<f64> = self.coordinates.iter().map(of).collect();
         self.inside(&place)
     }

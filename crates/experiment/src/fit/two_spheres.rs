@@ -96,8 +96,7 @@ impl TwoContacts {
 /// Returns values at which both spheres have exchanged their pull-off forces and their ranges of
 /// adhesion. A curve without separate jumps hardly shows which sphere is ahead.
 pub(crate) fn exchanged(values: &Values) -> Values {
-    let ratio =
-        values[Parameter::SecondRadius as usize] / values[Parameter::Radius as usize];
+    let ratio = values[Parameter::SecondRadius as usize] / values[Parameter::Radius as usize];
     let mut exchanged = *values;
     exchanged[Parameter::Work as usize] *= ratio;
     exchanged[Parameter::ClosingWork as usize] *= ratio;
