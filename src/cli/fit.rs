@@ -45,6 +45,9 @@ pub struct FitArguments {
     #[command(flatten)]
     pub overrides: Overrides,
     /// Parameters to be found, with ranges if known: work=1m..1,offset
+    ///
+    /// The parameters are work, closing_work, modulus, offset, zero, stiffness, radius, and
+    /// second_radius and behind of two spheres.
     #[arg(
         long,
         required = true,

@@ -174,7 +174,8 @@ impl Drag {
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();
-        if options.free_points.is_some() || last.is_multiple_of(2) || before < 2 * FEWEST {
+        let is_given = options.free_points.is_some();
+        if is_given || free.ends_in_contact || last.is_multiple_of(2) || before < 2 * FEWEST {
             return None;
         }
         let approach: Vec<usize> = points.moving(0).collect();

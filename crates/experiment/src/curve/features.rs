@@ -10,7 +10,10 @@ use serde::Serialize;
 const BEYOND_NOISE: f64 = 6.0;
 /// Smallest jump of the force, as a share of the range of the force.
 const OF_RANGE: f64 = 0.01;
-/// Largest number of steps (intervals between neighbouring points) over which a jump extends.
+/// Smallest jump of the force, as a share of the largest one in the same motion. A drag of a fluid
+/// may change in a cusp at first touch.
+const OF_LARGEST: f64 = 0.1;
+/// Largest number of steps between points over which a jump extends.
 const STEPS: usize = 3;
 /// Number of steps before and after a jump in which the slope of the force is computed. The jump
 /// has to be much steeper than this slope.
@@ -29,7 +32,25 @@ const STILL: f64 = 0.002;
 /// 1/20 of its points.
 const END: usize = 20;
 
-/// Features of a measured curve that are computed without a model.
+/// Place at which the force jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ForceJump {
+    /// Index, from 0, of the segment.
+    pub segment: usize,
+    /// Displacement in m at the last point before the jump.
+    pub displacement: f64,
+    /// Means of a few forces before and after the jump, N.
+    pub forces: [f64; 2],
+}
+
+impl ForceJump {
+    /// Returns the magnitude of the jump, N.
+    pub fn size(self) -> f64 {
+        (self.forces[1] - self.forces[0]).abs()
+    }
+}
+
+/// Numbers of a measured curve by itself, before any fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CurveFeatures {
@@ -50,13 +71,13 @@ pub struct CurveFeatures {
 }
 
 impl CurveFeatures {
-    pub(crate) fn of(points: &Points, noise: f64) -> Self {
-        let first = points.segment[0];
-        let mut features = CurveFeatures::default();
-        for number in first..=points.last_segment() {
-            let jumps = jumps_in(points, number, noise);
-            features.jumps += jumps;
-            features.jumps_in_one_motion = features.jumps_in_one_motion.max(jumps);
+    pub(crate) fn of(points: &Points, jumps: &[ForceJump], noise: f64) -> Self {
+        let mut features = CurveFeatures {
+            jumps: jumps.len(),
+            ..CurveFeatures::default()
+        };
+        for motion in jumps.chunk_by(|jump, next| jump.segment == next.segment) {
+            features.jumps_in_one_motion = features.jumps_in_one_motion.max(motion.len());
         }
         features.hysteresis = hysteresis(points, noise);
         features.fall_in_pause = fall_in_pause(points, noise);
@@ -94,8 +115,17 @@ fn percent(share: f64) -> String {
     format!("{} %", format_rounded(100.0 * share, 2, "1"))
 }
 
-/// Returns the number of jumps in the motion of one segment.
-fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
+/// Returns the jumps of the force of all segments, in the order of time.
+pub(crate) fn jumps_of(points: &Points, noise: f64) -> Vec<ForceJump> {
+    let mut jumps = Vec::new();
+    for number in points.segment[0]..=points.last_segment() {
+        jumps.extend(jumps_in(points, number, noise));
+    }
+    jumps
+}
+
+/// Returns the jumps in the motion of one segment.
+fn jumps_in(points: &Points, number: usize, noise: f64) -> Vec<ForceJump> {
     let range = Extent::of(points.force.iter().copied()).width();
     let least = (BEYOND_NOISE * noise).max(OF_RANGE * range);
     // On loading a jump decreases the force, and on unloading it increases the force, contrary to
@@ -110,7 +140,7 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
         }
     }
 
-    let mut jumps = 0;
+    let mut jumps = Vec::new();
     let mut place = 0;
     while place + 1 < forces.len() {
         let Some(jump) = jump_close_to(&forces, place, least) else {
@@ -121,16 +151,49 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
         // is not a jump.
         let before = ways[(jump + 1).saturating_sub(STEPS)];
         let after = ways[(jump + STEPS).min(ways.len() - 1)];
-        jumps += usize::from(after >= before);
-        // The search goes on behind this jump, because the means of the forces before a nearer
-        // place would contain points from before this jump.
+        // At a turning point the force of a body that relaxes falls, and the motion may turn between
+        // two points.
+        let steepest = steepest_step(&forces, jump);
+        let is_at_turn = number < points.last_segment() && steepest + 1 + STEPS > forces.len();
+        if after >= before && !is_at_turn {
+            let [before, after] = means_around(&forces, jump);
+            jumps.push(ForceJump {
+                segment: number,
+                displacement: -sign * ways[steepest],
+                forces: [sign * before, sign * after],
+            });
+        }
+        // The means before the next places contain points before this jump.
         place = jump + 2 * STEPS;
     }
+    let sizes = jumps.iter().map(|jump| jump.size());
+    let least = OF_LARGEST * sizes.fold(0.0, f64::max);
+    jumps.retain(|jump| jump.size() >= least);
     jumps
 }
 
-/// Returns the change of the force at a place: the mean of [`STEPS`] forces after it minus the mean
-/// of [`STEPS`] forces up to it. `gap` forces after the place are left out.
+/// Returns the place of the largest change from point to point at a jump.
+fn steepest_step(forces: &[f64], jump: usize) -> usize {
+    let end = (jump + 2 * STEPS).min(forces.len() - 1);
+    let change = |place: &usize| forces[place + 1] - forces[*place];
+    (jump..end)
+        .max_by(|place, next| change(place).total_cmp(&change(next)))
+        .unwrap_or(jump)
+}
+
+/// Returns the means of the forces up to a jump and after it.
+fn means_around(forces: &[f64], jump: usize) -> [f64; 2] {
+    let before = mean(&forces[(jump + 1).saturating_sub(STEPS)..=jump]);
+    let largest_gap = (0..STEPS)
+        .max_by(|gap, next| step_at(forces, jump, *gap).total_cmp(&step_at(forces, jump, *next)));
+    [
+        before,
+        before + step_at(forces, jump, largest_gap.unwrap_or(0)),
+    ]
+}
+
+/// Returns the mean of the next forces minus the mean of the forces up to a place. `gap` forces
+/// after the place are left out.
 fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
     let before = &forces[(place + 1).saturating_sub(STEPS)..=place];
     let start = (place + 1 + gap).min(forces.len() - 1);
@@ -309,6 +372,20 @@ mod tests {
         assert_eq!((twice.jumps, twice.jumps_in_one_motion), (4, 2));
         // A drop of 0.5 nN is less than 1 % of the range of the force and does not count as a jump.
         assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
+    }
+
+    /// The force of a body that relaxes falls where the motion turns, whichever segment the point in
+    /// the middle belongs to.
+    #[test]
+    fn a_fall_at_the_turning_point_is_no_jump() {
+        for first in 298..304 {
+            let mut points = of_spring(600);
+            for point in &mut points[first..] {
+                point.1 = 1.0 + 0.6 * (point.1 - 1.0);
+            }
+            let curve = from_text(&lines(points), &CurveOptions::default()).unwrap();
+            assert_eq!(curve.jumps, [], "{first}");
+        }
     }
 
     /// A force that falls gradually while the body is pressed is no jump, however far it falls.

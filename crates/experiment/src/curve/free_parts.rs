@@ -4,6 +4,7 @@ use crate::curve::numerics::{Baseline, Extent, correlated, growing, noise_of_nei
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::CurveOptions;
+use asperity_data::mean;
 use std::ops::Range;
 
 /// Smallest number of points without contact.
@@ -35,7 +36,21 @@ const STEEP: f64 = 0.5;
 /// Smallest change of the force that matters for [`STEEP`], as a share of the range of the force.
 const NOTABLE: f64 = 0.05;
 
-/// Reason why no part without contact is found in a segment.
+/// Share of the largest tension above which the end of a retraction may still be in contact.
+const HELD: f64 = 0.5;
+/// Tension at the end of a retraction, in units of the noise, below which it is noise.
+const BEYOND_NOISE: f64 = 5.0;
+/// Way of a part without contact whose force is such a tension, divided by the way over which the
+/// tension came about. A body that is held passes the largest tension on a shorter way.
+const LONG: f64 = 1.0;
+
+/// Least gain by a parabola over a straight line at the end of a retraction.
+const GAIN_BY_PARABOLA: f64 = 20.0;
+/// Noise of the points at the end about a parabola, divided by the noise between neighbours, up to
+/// which they are a parabola.
+const LIKE_NEIGHBOURS: f64 = 1.5;
+
+/// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoFreePart {
     /// The segment has too few points.
@@ -203,8 +218,10 @@ pub(crate) struct FreeParts {
     pub before: Option<usize>,
     /// Number of points after contact at the end of the curve; 0 if no such points are found.
     pub after: usize,
-    /// Time (first) and displacement (second) of each point, as shares of their ranges, from 0 to
-    /// 1.
+    /// True if the last points of the last retraction look straight, but are a tension that still
+    /// holds the body.
+    pub ends_in_contact: bool,
+    /// Time and displacement of each point, as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
 }
 
@@ -228,6 +245,11 @@ impl FreeParts {
             Some(free) if is_retraction => free,
             _ => count_after_contact(points, least_noise),
         };
+        let ends_in_contact = match before {
+            Ok(before) => asked.is_none() && is_still_held(points, before, after, least_noise),
+            Err(_) => false,
+        };
+        let after = if ends_in_contact { 0 } else { after };
 
         let needs_approach =
             !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
@@ -257,6 +279,7 @@ impl FreeParts {
         Ok(FreeParts {
             before: before.ok(),
             after,
+            ends_in_contact,
             shares: [shares_of_time(count), shares_of_range(&points.displacement)],
         })
     }
@@ -313,31 +336,73 @@ fn count_after_contact(points: &Points, least_noise: f64) -> usize {
         return 0;
     }
     let forces = &points.force[points.moving(last)];
-    free_count(&reversed(forces), least_noise).unwrap_or(0)
+    free_count_at_end(forces, least_noise).unwrap_or(0)
 }
 
-fn reversed(forces: &[f64]) -> Vec<f64> {
-    forces.iter().rev().copied().collect()
+/// Returns the number of forces after contact at the end of a segment. A parabola there is a tension
+/// about its largest value.
+fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
+    let reversed: Vec<f64> = forces.iter().rev().copied().collect();
+    let free = free_count(&reversed, least_noise)?;
+    let part = &reversed[..free];
+    let noise = LIKE_NEIGHBOURS * noise_of_neighbours(part).max(least_noise);
+    let squares = |terms: usize| growing(part.iter().copied(), terms)[free - 1];
+    let least_squares = free as f64 * least_noise * least_noise;
+    let squares_of_parabola = squares(3) + least_squares;
+    let gain = free as f64 * ((squares(2) + least_squares) / squares_of_parabola).ln();
+    let is_parabola = squares_of_parabola <= free as f64 * noise * noise;
+    if gain > GAIN_BY_PARABOLA && is_parabola {
+        return Err(NoFreePart::InContact);
+    }
+    Ok(free)
+}
+
+/// Returns true if the last `after` points, which are nearly on a straight line, are no part without
+/// contact. Where a tension is largest, its curve is flat too, and a soft instrument or points at a
+/// falling speed make it straight. `before` points at the beginning have the zero of the force.
+///
+/// A drag of a fluid is a tension as well, but it lasts over a longer way than the contact.
+fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64) -> bool {
+    if before < FEWEST || after == 0 {
+        return false;
+    }
+    let free = &points.force[..before];
+    let zero = mean(free);
+    let noise = Baseline::through(free).noise.max(least_noise);
+    let retraction = points.moving(points.last_segment());
+    let tensions: Vec<f64> = points.force[retraction.clone()]
+        .iter()
+        .map(|force| zero - force)
+        .collect();
+    let displacements = &points.displacement[retraction];
+    let first = tensions.len() - after.min(tensions.len());
+    let end = mean(&tensions[first..]);
+    let largest = Extent::of(tensions.iter().copied()).high;
+    if end <= BEYOND_NOISE * noise || end <= HELD * largest {
+        return false;
+    }
+    let crossing = tensions.iter().position(|tension| *tension >= 0.0);
+    let way_of_tension = displacements[crossing.unwrap_or(first).min(first)] - displacements[first];
+    let way_without_contact = Extent::of(displacements[first..].iter().copied()).width();
+    way_without_contact < LONG * way_of_tension
 }
 
 /// Returns true if a segment ends without contact. Its end must have a part without contact. Its
 /// beginning must have no such part, or one along which the force changes more than along the part
 /// at the end.
 pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
-    let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
+    let Ok(at_end) = free_count_at_end(forces, least_noise) else {
         return false;
     };
-    match free_change(forces, least_noise) {
-        Some(change_at_begin) => change_at_end < change_at_begin,
-        None => true,
-    }
+    let Ok(at_begin) = free_count(forces, least_noise) else {
+        return true;
+    };
+    change_along(&forces[forces.len() - at_end..]) < change_along(&forces[..at_begin])
 }
 
-/// Returns the magnitude of the change of the force, in N, along the straight line through the part
-/// before contact; `None` if there is no such part.
-fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
-    let free = free_count(forces, least_noise).ok()?;
-    Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
+/// Returns the change of the force in N over a part without contact, along its straight line.
+fn change_along(forces: &[f64]) -> f64 {
+    Baseline::through(forces).slope.abs() * forces.len() as f64
 }
 
 /// Returns the error for a curve in which no part before contact is found, for this `reason`.
@@ -368,7 +433,7 @@ fn refuse<T>(
 /// Returns true if the first segment is a retraction although it should be an approach. It is a
 /// retraction if its end is without contact.
 fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
-    points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
+    points.segment.contains(&1) && free_count_at_end(approach, least_noise).is_ok()
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ pub(crate) mod segments;
 pub(crate) mod zero;
 
 use crate::curve::drag::{Drag, DragForce};
-use crate::curve::features::CurveFeatures;
+use crate::curve::features::{CurveFeatures, ForceJump, jumps_of};
 use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
 use crate::curve::numerics::{Extent, dot};
 use crate::curve::points::Points;
@@ -30,12 +30,12 @@ const MOST_POINTS: usize = 4096;
 /// Smallest number of points of a curve, so that both segments can have enough points with and
 /// without contact.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise that is assumed for a curve without noise, such as a computed curve, as a share of the
-/// range of the force.
-const NO_NOISE: f64 = 1e-6;
-/// Smallest allowed force at the end of the approach, in standard deviations of the noise. A more
-/// negative force would be a tension where the body is pressed most, so the sign of the force in
-/// the file is probably wrong.
+/// Noise that is assumed for a curve without noise, as a share of the range of the force.
+const NO_NOISE: f64 = 1e-5;
+/// Deviation of a multiple of the last digit from a whole number that is rounding.
+const ROUNDED: f64 = 0.05;
+/// Force at the end of the approach, in standard deviations of the noise. A force below this value
+/// is a tension, so the sign of the file is in doubt.
 const PULLS: f64 = -5.0;
 /// Largest force at the end of a retraction, as a share of the largest tension, with which the body
 /// still counts as detached.
@@ -75,7 +75,9 @@ pub struct MeasuredCurve {
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
-    /// Displacement in m at the end of each segment.
+    /// Jumps of the force of the whole curve, in the order of time.
+    pub(crate) jumps: Vec<ForceJump>,
+    /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
     /// Changes of the force, in N, that remain in the points without contact: the drift over time,
     /// the tilt over the displacement, and the step from before to after the contact. A change that
@@ -198,7 +200,7 @@ impl MeasuredCurve {
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
         let left_out = columns.left_out();
-        let least_noise = NO_NOISE * Extent::of(columns.force.iter().copied()).width();
+        let least_noise = least_noise(&columns.force);
         let mut segments = Segments::of(&columns.displacement, &columns.labels);
         let reordered = put_in_order(&mut columns, &mut segments, least_noise);
         let averaged = points_in_mean(&segments);
@@ -248,7 +250,8 @@ impl MeasuredCurve {
                 .as_ref()
                 .map(|drag| Note::new(drag_in_words(drag))),
         );
-        let features = CurveFeatures::of(&points, noise);
+        let jumps = jumps_of(&points, noise);
+        let features = CurveFeatures::of(&points, &jumps, noise);
         statements.push(features.sentence().into());
         let mut lines = subtracted.columns;
         lines.extend(drag.iter().flat_map(|drag| drag.columns(&points)));
@@ -262,6 +265,7 @@ impl MeasuredCurve {
             touch: free.contact_point(&points),
             noise,
             features,
+            jumps,
             drag: drag_in_contact,
             detaches: detaches(&points, noise),
             points: kept.iter().map(|index| points.counts[*index]).sum(),
@@ -325,6 +329,7 @@ impl MeasuredCurve {
                     .map(|column| thin(column))
                     .collect(),
             },
+            jumps: self.jumps.clone(),
             turns: self.turns.clone(),
             statements: self.statements.clone(),
             stiffness: self.stiffness.clone(),
@@ -356,8 +361,33 @@ impl MeasuredCurve {
     }
 }
 
-/// Returns the sums of the products of each pair of columns over the points without contact whose
-/// indices are not in `kept`. A constant column of ones precedes `columns`.
+/// Returns the noise in N that the forces of a curve have at least: that of their digits.
+fn least_noise(forces: &[f64]) -> f64 {
+    let range = Extent::of(forces.iter().copied()).width();
+    let of_digits = digit(forces).map_or(0.0, |digit| digit / 12.0_f64.sqrt());
+    of_digits.max(NO_NOISE * range)
+}
+
+/// Returns the last digit of forces in N if all of them are whole multiples of it, as the numbers of
+/// a converter are; `None` if there is no such digit above the range times [`NO_NOISE`].
+fn digit(forces: &[f64]) -> Option<f64> {
+    let mut sorted = forces.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let lowest = *sorted.first()?;
+    let range = sorted.last()? - lowest;
+    let differences = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let digit = differences
+        .filter(|difference| *difference > NO_NOISE * range)
+        .fold(f64::INFINITY, f64::min);
+    let is_whole = |force: &f64| {
+        let multiple = (force - lowest) / digit;
+        (multiple - multiple.round()).abs() < ROUNDED
+    };
+    (digit.is_finite() && sorted.iter().all(is_whole)).then_some(digit)
+}
+
+/// Returns the sums of products of the columns, and first of a constant, over the points without
+/// contact that are not used.
 fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) -> Vec<Vec<f64>> {
     let count = free.shares[0].len();
     let before = 0..free.before.unwrap_or(0);

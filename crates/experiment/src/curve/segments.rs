@@ -7,7 +7,14 @@ use crate::read::points::Label;
 /// Smallest distance that the displacement goes back after a turning point, as a share of its
 /// range.
 const TURN: f64 = 0.05;
-/// Number of points of the running mean that smooths the displacement, as a share of all points.
+/// Share of the range by which the displacement comes back after the turning point of two steady
+/// motions, of which the retraction may be much longer than the approach.
+const STEADY_TURN: f64 = 0.01;
+/// Way from point to point of a steady motion, divided by the way from its begin to its end.
+const STEADY: f64 = 1.05;
+/// Smallest number of points of a steady motion.
+const FEWEST_STEADY: usize = 20;
+/// Share of the points that a smoothed displacement averages.
 const SMOOTHING: f64 = 1e-3;
 /// Largest change of the displacement during a pause at a turning point, as a share of the range of
 /// displacements.
@@ -112,8 +119,36 @@ fn smoothed(displacement: &[f64]) -> Vec<f64> {
 /// smoothed displacement if the displacement then goes back by at least [`TURN`] of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let smooth = smoothed(displacement);
-    let least = TURN * Extent::of(smooth.iter().copied()).width();
-    let mut numbers = vec![0; displacement.len()];
+    let range = Extent::of(smooth.iter().copied()).width();
+    let numbers = by_turns_of(&smooth, TURN * range);
+    if numbers.last() != Some(&0) {
+        return numbers;
+    }
+    let steady = by_turns_of(&smooth, STEADY_TURN * range);
+    let first = steady.partition_point(|number| *number == 0);
+    let are_two = steady.last() == Some(&1);
+    // Both motions contain the point at which the displacement turns.
+    if are_two && is_steady(&smooth[..first]) && is_steady(&smooth[first - 1..]) {
+        return steady;
+    }
+    numbers
+}
+
+/// Returns true for enough displacements that hardly move back.
+fn is_steady(displacements: &[f64]) -> bool {
+    let count = displacements.len();
+    if count < FEWEST_STEADY {
+        return false;
+    }
+    let steps = displacements.windows(2);
+    let way: f64 = steps.map(|pair| (pair[1] - pair[0]).abs()).sum();
+    way <= STEADY * (displacements[count - 1] - displacements[0]).abs()
+}
+
+/// Returns the index of the segment of each displacement, if it comes back by at least `least` m
+/// after each turning point.
+fn by_turns_of(smooth: &[f64], least: f64) -> Vec<usize> {
+    let mut numbers = vec![0; smooth.len()];
     if least <= 0.0 {
         return numbers;
     }
@@ -211,4 +246,26 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         return None;
     }
     Some(segments)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An approach that is a small part of a long retraction is a segment, and a displacement that
+    /// moves back and forth by as much is not.
+    #[test]
+    fn a_short_approach_before_a_long_retraction_is_a_segment() {
+        let mut displacement: Vec<f64> = (0..50).map(f64::from).collect();
+        displacement.extend((0..3000).map(|index| 49.0 - f64::from(index)));
+        let numbers = by_turning_points(&displacement);
+        let first = numbers.partition_point(|number| *number == 0);
+        assert!(
+            numbers.last() == Some(&1) && first.abs_diff(50) <= 2,
+            "{first}"
+        );
+        let shaking = |(index, at): (usize, &f64)| at + 20.0 * (0.4 * index as f64).sin();
+        let shaken: Vec<f64> = displacement.iter().enumerate().map(shaking).collect();
+        assert_eq!(by_turning_points(&shaken).last(), Some(&0));
+    }
 }

@@ -3,12 +3,12 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
+use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 use asperity_scene::{CheckedScene, RunError, Simulation};
-use asperity_surface::Form;
 use std::ops::Range;
 
 /// Number of points of the computed force curve of each segment, without the points at jumps.
@@ -32,18 +32,17 @@ pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: CheckedScene,
     simulation: &'a mut Simulation,
-    contact: Option<ContactOfRadius>,
-    /// Accuracy of the forces: a noise, in units of the noise of the curve and at least 1, compared
-    /// with which errors of the forces are small.
+    contact: Option<ContactOfForm>,
+    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
 
-/// Contact of a scene whose form has this radius in m. It is kept, because all other parameters can
-/// change without a new computation of the springs and their tree.
-struct ContactOfRadius {
+/// Contact of a scene whose form has these lengths. Springs and tree are reused for all other
+/// parameters.
+struct ContactOfForm {
     contact: Contact,
-    radius: f64,
+    lengths: Lengths,
 }
 
 /// Stiffness of the instrument in N/m, and number and choice of the points at which a curve is
@@ -87,10 +86,10 @@ impl<'a> Model<'a> {
 
     /// Returns the contact for these values of the parameters.
     fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
-        let radius = values[Parameter::Radius as usize];
+        let lengths = Lengths::of(values);
         let bare = match self.contact.take() {
-            Some(made) if made.radius == radius => made,
-            _ => self.contact_of_radius(radius)?,
+            Some(made) if made.lengths == lengths => made,
+            _ => self.contact_of_form(lengths)?,
         };
         let bare = self.contact.insert(bare);
         let works = [
@@ -102,16 +101,16 @@ impl<'a> Model<'a> {
         Ok(contact.works_of_adhesion(works).build()?)
     }
 
-    /// Creates the contact of the scene with another radius of its form.
-    fn contact_of_radius(&mut self, radius: f64) -> Result<ContactOfRadius, ExperimentError> {
+    /// Makes the contact of the scene with other lengths of its form.
+    fn contact_of_form(&mut self, lengths: Lengths) -> Result<ContactOfForm, ExperimentError> {
         let scene = self.scene.with(|scene| {
-            if let Some(of_form) = scene.form.as_mut().and_then(Form::radius_mut) {
-                *of_form = radius;
+            if let Some(form) = &mut scene.form {
+                lengths.put_into(form);
             }
         });
         self.scene = scene.map_err(RunError::from)?;
         let (contact, _) = self.simulation.contact(&self.scene)?;
-        Ok(ContactOfRadius { contact, radius })
+        Ok(ContactOfForm { contact, lengths })
     }
 
     /// Computes the forces in N at the points of the curve.
@@ -456,15 +455,8 @@ mod tests {
         curve.noise = made.noise;
         let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
         let radius = radius_of(&made.scene).unwrap();
-        let values = [
-            work,
-            work,
-            modulus,
-            0.0,
-            0.0,
-            stiffness(&made.scene),
-            radius,
-        ];
+        let stiffness = stiffness(&made.scene);
+        let values = [work, work, modulus, 0.0, 0.0, stiffness, radius, 0.0, 0.0];
         let mut simulation = Simulation::default();
         let mut model = Model::new(
             &curve,
@@ -494,14 +486,14 @@ mod tests {
             .each_mut()
             .map(|simulation| Model::new(&curve, document.scene(), simulation));
         let mut forces = |radius| {
-            one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius])
+            one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius, 0.0, 0.0])
                 .unwrap()
         };
         let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
         assert!(wide == again && wide != narrow);
         assert_eq!(
             fresh
-                .forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6])
+                .forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6, 0.0, 0.0])
                 .unwrap(),
             narrow
         );

@@ -26,6 +26,10 @@ pub enum Parameter {
     Stiffness,
     /// Radius R in m of the form of the scene, such as a sphere.
     Radius,
+    /// Radius R₂ of the second of two spheres on one probe, m.
+    SecondRadius,
+    /// Distance b of the apex of the second of two spheres behind that of the first one, m.
+    Behind,
 }
 
 impl Serialize for Parameter {
@@ -35,7 +39,7 @@ impl Serialize for Parameter {
 }
 
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
-pub(crate) type Values = [f64; 7];
+pub(crate) type Values = [f64; 9];
 
 /// Names, symbol and SI unit of a [`Parameter`].
 #[derive(Clone, Copy, Debug)]
@@ -52,10 +56,17 @@ pub struct ParameterRow {
 
 impl Parameter {
     /// All parameters, in the order in which tables list them.
-    pub const ALL: [Parameter; 7] = {
-        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
-        [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
-    };
+    pub const ALL: [Parameter; 9] = [
+        Parameter::Work,
+        Parameter::ClosingWork,
+        Parameter::Modulus,
+        Parameter::Offset,
+        Parameter::Zero,
+        Parameter::Stiffness,
+        Parameter::Radius,
+        Parameter::SecondRadius,
+        Parameter::Behind,
+    ];
 
     /// Returns names, symbol and SI unit of the parameter.
     ///
@@ -82,6 +93,10 @@ impl Parameter {
             Parameter::Zero => row("zero", "force before contact", "F₀", "N"),
             Parameter::Stiffness => row("stiffness", "loading stiffness", "k", "N/m"),
             Parameter::Radius => row("radius", "radius of the form", "R", "m"),
+            Parameter::SecondRadius => {
+                row("second_radius", "radius of the second sphere", "R₂", "m")
+            }
+            Parameter::Behind => row("behind", "distance of the second sphere behind", "b", "m"),
         }
     }
 
@@ -95,9 +110,13 @@ impl Parameter {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
-    /// Returns the smallest and the largest value that a scene allows for the parameter. Returns
-    /// `None` for a parameter without such limits, or with limits far from the values of any
-    /// search.
+    /// Returns true for a parameter of a body with two spheres alone.
+    pub(crate) fn is_of_two_spheres(self) -> bool {
+        matches!(self, Parameter::SecondRadius | Parameter::Behind)
+    }
+
+    /// Returns the least and the largest value that a scene may have for the parameter; `None` for a
+    /// parameter without such limits, or one that no search comes close to.
     pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
         let path = match self {
             Parameter::Modulus => "material.youngs_modulus",
@@ -115,14 +134,22 @@ impl Parameter {
         Some((factor * least, most))
     }
 
-    /// Returns true for a work of adhesion, which may be 0.
-    fn is_work(self) -> bool {
-        matches!(self, Parameter::Work | Parameter::ClosingWork)
+    /// Returns true for a parameter that may be 0 and not below it.
+    fn may_be_zero(self) -> bool {
+        matches!(
+            self,
+            Parameter::Work | Parameter::ClosingWork | Parameter::Behind
+        )
+    }
+
+    /// Returns true for a parameter whose coordinate is its value in a unit.
+    fn is_linear(self) -> bool {
+        self.is_signed() || self == Parameter::Behind
     }
 
     /// Returns true if the parameter can be searched in the range from `low` to `high`.
     fn allows(self, low: f64, high: f64) -> bool {
-        let is_allowed = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
+        let is_allowed = self.is_signed() || low > 0.0 || self.may_be_zero() && low == 0.0;
         is_allowed && low < high && low.is_finite() && high.is_finite()
     }
 
@@ -130,7 +157,7 @@ impl Parameter {
     fn ranges(self) -> String {
         let least = if self.is_signed() {
             ""
-        } else if self.is_work() {
+        } else if self.may_be_zero() {
             " of at least 0"
         } else {
             " above 0"
@@ -148,7 +175,9 @@ impl Parameter {
     /// assert_eq!(remedy, "the radius from an image of the form");
     /// ```
     pub fn remedy(first: Parameter, second: Parameter) -> &'static str {
-        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
+        use Parameter::{
+            Behind, ClosingWork, Modulus, Offset, Radius, SecondRadius, Stiffness, Work, Zero,
+        };
         if first == second {
             return "less noise, a larger preload, or its value from another measurement";
         }
@@ -170,6 +199,10 @@ impl Parameter {
             (Work, ClosingWork) => {
                 "turning points at several preloads, since γ₁ acts where the contact grows"
             }
+            (Work | Modulus | Radius, SecondRadius) => {
+                "one radius from an image of the probe, since the pull-off forces have γR and γR₂ alone"
+            }
+            (SecondRadius, Behind) => "a preload at which both spheres are in contact",
             (Offset, Zero) => "a longer part before contact for the zero of the force",
             (Modulus, Offset) | (Offset, Stiffness) => {
                 "a larger preload, or more points near first touch"
@@ -317,7 +350,7 @@ impl Coordinate {
                     1.0
                 }
             }
-            parameter if parameter.is_signed() => value / self.unit,
+            parameter if parameter.is_linear() => value / self.unit,
             _ => value.ln(),
         }
     }
@@ -330,7 +363,7 @@ impl Coordinate {
                 let (low, high) = self.range_on_closing(values);
                 low + coordinate.clamp(0.0, 1.0) * (high - low)
             }
-            parameter if parameter.is_signed() => coordinate * self.unit,
+            parameter if parameter.is_linear() => coordinate * self.unit,
             _ => coordinate.exp(),
         }
     }
@@ -346,9 +379,8 @@ impl Coordinate {
         if self.parameter == Parameter::ClosingWork {
             return (0.0, 1.0);
         }
-        // Only the coordinate of the work on closing depends on other parameters, so any values
-        // will do here.
-        let values = [1.0; 7];
+        // No other coordinate depends on other parameters.
+        let values = [1.0; 9];
         (
             self.of(self.range.0, &values),
             self.of(self.range.1, &values),
@@ -376,7 +408,7 @@ mod tests {
 
     #[test]
     fn values_come_back_from_their_coordinates() {
-        let mut values = [1.0; 7];
+        let mut values = [1.0; 9];
         values[Parameter::Work as usize] = 4.0;
         for (parameter, range, value, at) in [
             (Parameter::Work, (0.0, 10.0), 0.0, 0.0),
@@ -389,6 +421,8 @@ mod tests {
             (Parameter::Modulus, (1.0, 9.0), 5.0, 5.0_f64.ln()),
             (Parameter::Stiffness, (1.0, 9.0), 5.0, 5.0_f64.ln()),
             (Parameter::Radius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::SecondRadius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Behind, (0.0, 9.0), 5.0, 10.0),
         ] {
             let one = coordinate(parameter, range);
             assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
@@ -401,7 +435,7 @@ mod tests {
             (1.0, 4.0)
         );
         assert_eq!(
-            (closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])),
+            (closing.of(0.0, &[0.0; 9]), closing.value(0.5, &[0.0; 9])),
             (1.0, 0.0)
         );
         assert_eq!(closing.ends(), (0.0, 1.0));
@@ -428,6 +462,7 @@ mod tests {
         );
         assert_eq!(range("work=0..1"), Some((0.0, 1.0)));
         assert_eq!(range("closing_work=0..20mJ/m^2"), Some((0.0, 0.02)));
+        assert_eq!(range("behind=0..300nm"), Some((0.0, 3e-7)));
         assert_eq!(range("offset=-1um..0"), Some((-1e-6, 0.0)));
         for (text, said) in [
             (
@@ -442,6 +477,8 @@ mod tests {
                 "zero=2..1",
                 "allowed: two values, the first below the second, such as zero=1..2",
             ),
+            ("behind=-1..1", "allowed: two values of at least 0"),
+            ("second_radius=0..1", "allowed: two values above 0"),
             ("radius=1", "allowed: two values above 0"),
             ("work=1..x", "\"x\""),
             ("wrok", "\"wrok\" is not a parameter"),

@@ -1,6 +1,8 @@
 //! The members of a search: values of the parameters, with their residuals and costs.
 
-/// Smallest share of different members with which the extent of a population is meaningful.
+use asperity_data::{mean, standard_deviation};
+
+/// Share of different members below which the extent of a population is meaningless.
 const DISTINCT: f64 = 0.5;
 /// Share of different members from which on the copies made in a step have moved apart.
 const MOVED: f64 = 0.8;
@@ -62,7 +64,19 @@ impl Population {
         count
     }
 
-    /// Returns true if most members differ from each other, so that the next step can follow.
+    /// Returns the logarithm of the extent of the members, as a mean over the coordinates.
+    pub fn log_extent(&self) -> f64 {
+        let count = self.members.first().map_or(0, |member| member.place.len());
+        let mut sum = 0.0;
+        for index in 0..count {
+            let positions: Vec<f64> = self.members.iter().map(|one| one.place[index]).collect();
+            let deviation = standard_deviation(&positions, mean(&positions));
+            sum += deviation.max(f64::MIN_POSITIVE).ln();
+        }
+        sum / count.max(1) as f64
+    }
+
+    /// Returns true if most members differ, so that the next step can be taken.
     pub fn has_moved(&self) -> bool {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }

@@ -13,7 +13,9 @@ const CORRELATED: f64 = 0.95;
 /// Half the width of the 95 % interval of the logarithm of a parameter above which the parameter is
 /// undetermined.
 const FLAT: f64 = 1.0;
-/// Half the width of the 95 % interval of a normal distribution, in standard deviations.
+/// Distance, in standard errors, above which another place that is as good is another solution.
+const ELSEWHERE: f64 = 5.0;
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
 /// Probability distribution of the parameters after a search.
@@ -76,7 +78,13 @@ impl<'a> Posterior<'a> {
 
         let half_width = NORMAL * noise_error;
         let mut low = low.min(value - half_width);
-        let high = high.max(value + half_width);
+        let mut high = high.max(value + half_width);
+        for other in self.values_of(&self.result.alternatives, parameter) {
+            if (other - value).abs() > ELSEWHERE * noise_error {
+                low = low.min(other - half_width);
+                high = high.max(other + half_width);
+            }
+        }
         if !parameter.is_signed() {
             low = low.max(0.0);
         }

@@ -7,6 +7,7 @@ use crate::fit::model::Model;
 use crate::fit::parameter::{Parameter, Values};
 use asperity_data::{Note, Remedy, Warning, format_quantity, format_rounded, median};
 use asperity_scene::{CheckedScene, Simulation};
+use asperity_surface::Form;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
@@ -231,8 +232,12 @@ pub(crate) fn reason(
     if scene.seed().is_some() {
         return Ok(Reason::OtherProfile);
     }
+    let contacts = match scene.form {
+        Some(Form::TwoSpheres { .. }) => 2,
+        _ => 1,
+    };
     if scene.roughness.is_none()
-        && let Some(reason) = of_features(curve, free)
+        && let Some(reason) = of_features(curve, contacts, free)
     {
         return Ok(reason);
     }
@@ -249,11 +254,10 @@ pub(crate) fn reason(
     Ok(Reason::Form)
 }
 
-/// Returns the reason that follows from the features of the curve alone, for a smooth body; `None`
-/// if the features show none.
-fn of_features(curve: &MeasuredCurve, free: &[Parameter]) -> Option<Reason> {
+/// Returns the reason that the curve of a smooth body with this number of contacts shows by itself.
+fn of_features(curve: &MeasuredCurve, contacts: usize, free: &[Parameter]) -> Option<Reason> {
     let features = curve.features;
-    if features.jumps_in_one_motion > 1 {
+    if features.jumps_in_one_motion > contacts {
         return Some(Reason::SeveralContacts(features.jumps));
     }
     let hysteresis = features.hysteresis?;
@@ -459,7 +463,9 @@ impl<'a> Misfit<'a> {
         let range = Extent::of(self.curve.force.iter().copied()).width();
         let mut moved = *self.values;
         let unit = match parameter {
-            Parameter::Offset => self.curve.turns[0] - self.values[Parameter::Offset as usize],
+            Parameter::Offset | Parameter::Behind => {
+                self.curve.turns[0] - self.values[Parameter::Offset as usize]
+            }
             Parameter::Zero => range,
             _ => -self.values[parameter as usize],
         };

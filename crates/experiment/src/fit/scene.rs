@@ -3,6 +3,7 @@
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
+use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
 use asperity_data::{format_quantity, round_to};
 use asperity_scene::text::ron_float;
@@ -23,12 +24,14 @@ fn change(path: &str, value: f64) -> Change {
 /// of the scene.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
-    let mut values = [0.0; 7];
+    let mut values = [0.0; 9];
     values[Parameter::Work as usize] = work;
     values[Parameter::ClosingWork as usize] = governing.closing_work.unwrap_or(work);
     values[Parameter::Modulus as usize] = governing.effective_modulus;
     values[Parameter::Stiffness as usize] = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-    values[Parameter::Radius as usize] = radius_of(scene).unwrap_or(0.0);
+    if let Some(form) = &scene.form {
+        Lengths::of_form(form).put_into_values(&mut values);
+    }
     values
 }
 
@@ -95,8 +98,14 @@ pub(crate) fn with_values(
     if is_free(Parameter::Stiffness) {
         changes.push(change("loading_stiffness", value(Parameter::Stiffness)));
     }
-    if is_free(Parameter::Radius) {
-        changes.push(change("form.radius", value(Parameter::Radius)));
+    for (parameter, path) in [
+        (Parameter::Radius, "form.radius"),
+        (Parameter::SecondRadius, "form.second_radius"),
+        (Parameter::Behind, "form.behind"),
+    ] {
+        if is_free(parameter) {
+            changes.push(change(path, value(parameter)));
+        }
     }
     changes.push(curve.loading(value(Parameter::Offset)));
     document.set_all(&changes).map_err(wrong)
@@ -209,13 +218,15 @@ mod tests {
     use super::*;
     use crate::common::{on_rubber, read, rubber};
     use crate::read::options::Drift;
+    use asperity_surface::Form;
 
     #[test]
     fn values_found_are_written_where_they_belong() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let document = on_rubber(1e-3, 2e6);
-        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6];
-        let all = with_values(&document, &values, |_| true, &curve).unwrap();
+        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6, 4e-6, 1e-7];
+        let of_sphere = |one: Parameter| !one.is_of_two_spheres();
+        let all = with_values(&document, &values, of_sphere, &curve).unwrap();
         let scene = all.scene();
         let adhesion = scene.adhesion.unwrap();
         assert_eq!(
@@ -247,7 +258,18 @@ mod tests {
             (radius_of(scene), most_on_closing(scene)),
             (Some(7.5e-6), f64::INFINITY)
         );
-        // The material may be given by Young's modulus and Poisson's ratio.
+        let two = "TwoSpheres(radius: 7.5e-6, second_radius: 7.5e-6, behind: 0.0)";
+        let two = document.set("form", two).unwrap();
+        let found = with_values(&two, &values, |_| true, &curve).unwrap();
+        assert!(matches!(
+            found.scene().form,
+            Some(Form::TwoSpheres {
+                radius: 6e-6,
+                second_radius: 4e-6,
+                behind: 1e-7
+            })
+        ));
+        // The modulus of a material by Young's modulus and Poisson's ratio.
         let plane = [(
             "material".to_owned(),
             "(youngs_modulus: 1e6, poisson_ratio: 0.5)".to_owned(),

@@ -17,12 +17,14 @@
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
 use crate::fit::agreement::MISFIT;
+use crate::fit::descent::descend;
 use crate::fit::lines::Lines;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
 use crate::fit::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
 use crate::fit::space::Space;
 use crate::fit::statistics::scale;
+use crate::fit::two_spheres::exchanged;
 use asperity_contact::ContactError;
 use asperity_data::Remedy;
 use rand::rngs::ChaCha8Rng;
@@ -41,16 +43,20 @@ const FOR_EACH: usize = 8;
 const EFFECTIVE: f64 = 0.3;
 /// Largest number of moves of the population at each step.
 const MOVES: usize = 5;
-/// Number of moves of the population at the end. After each move all members are added to the
-/// samples.
+/// Largest number of rounds of such moves before the end, and mean growth of the logarithm of the
+/// extent of a coordinate in one round, up to which no further round follows.
+const ROUNDS: usize = 20;
+const GROWN: f64 = 0.05;
+/// Number of moves at the end, each of which adds all members to the samples.
 const LAST_MOVES: usize = 16;
 /// Share of the moves that are random steps along one parameter.
 const RANDOM: f64 = 0.02;
 /// Number of decades over which the lengths of random steps extend, from the whole range of a
 /// parameter downwards.
 const DECADES: f64 = 6.0;
-/// Noise, divided by the noise of the curve, above which forces are computed with low accuracy to
-/// save time.
+/// Number of decades below the whole range over which the distances of members from a start extend.
+const DECADES_OF_CLOUD: f64 = 4.0;
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
 const COARSE: f64 = 10.0;
 /// Factor by which the number of members is larger while the forces have low accuracy.
 const MORE: usize = 2;
@@ -73,7 +79,17 @@ const ATTEMPTS: usize = 3;
 /// Smallest difference by which the cost of the initial values must be below that of a population,
 /// for the population to have missed the minimum.
 const MISSED: f64 = 3.0;
-/// Largest noise in the search, divided by the noise of the curve.
+/// Step of the coordinates in the first simplex of a descent.
+const FIRST_STEP: f64 = 0.3;
+/// Factor of this step from one descent to the next.
+const SHORTER: f64 = 0.6;
+/// Largest number of descents, each at a lower noise.
+const DESCENTS: usize = 12;
+/// Share of the residual that must be left after a descent for another one to be tried.
+const NO_BETTER: f64 = 0.97;
+/// Number of curves in a descent for each coordinate.
+const CURVES: usize = 40;
+/// Largest noise divided by the noise of the curve.
 const LARGE: f64 = 1e6;
 /// Number of bisections that determine the next noise, on a logarithmic scale.
 const HALVINGS: usize = 12;
@@ -86,8 +102,8 @@ const SLOWEST: f64 = 0.99;
 const CLOSE: f64 = 2.5;
 /// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
-/// Bases of the sequences of evenly scattered points (Halton sequences), one for each coordinate.
-const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
+/// Bases of the sequences of evenly scattered points, one for each coordinate.
+const PRIMES: [usize; 9] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
 
 /// Result of a search.
 pub(crate) struct SearchResult {
@@ -101,6 +117,8 @@ pub(crate) struct SearchResult {
     pub noise: f64,
     /// Coordinates of the samples, which follow the probability distribution of the parameters.
     pub samples: Vec<Vec<f64>>,
+    /// Other places that are nearly as good as the best one, and may be far from it.
+    pub alternatives: Vec<Vec<f64>>,
     /// Costs of each sample for each block of the curve; empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
     /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no
@@ -245,6 +263,40 @@ impl Search<'_> {
         Ok(members)
     }
 
+    /// Returns the member to which the costs fall from the start. The noise falls with the residuals,
+    /// so that first all points count and in the end those at jumps count little. A descent is no
+    /// sample, but it follows a narrow valley that a population may miss.
+    pub fn descended(&mut self) -> Result<Member, ExperimentError> {
+        self.descended_from(self.space.start())
+    }
+
+    /// Does the same as [`Search::descended`] from another place.
+    fn descended_from(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
+        self.model.noise = 1.0;
+        let mut best = self.member(place)?;
+        let mut noise = self.misfit(&best, f64::INFINITY).clamp(1.0, LARGE);
+        let mut step = FIRST_STEP;
+        for _ in 0..DESCENTS {
+            let start = best.place.clone();
+            let most = CURVES * start.len();
+            let mut cost = |place: &[f64]| {
+                let member = self.member(self.space.inside(place))?;
+                Ok::<f64, ExperimentError>(self.cost(&member, noise))
+            };
+            let place = descend(&start, step, most, &mut cost)?;
+            best = self.member(self.space.inside(&place))?;
+            let misfit = self.misfit(&best, noise).clamp(1.0, LARGE);
+            let is_lowest = noise <= 1.0;
+            let has_improved = misfit < NO_BETTER * noise;
+            noise = misfit.min(0.5 * noise).max(1.0);
+            step *= SHORTER;
+            if is_lowest || (!has_improved && step < FIRST_STEP * SHORTER.powi(3)) {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
     /// Finds the member with the smallest residuals, and samples of the coordinates. Another
     /// population is drawn in three cases. First, the residuals exceed the noise: one population in
     /// thirty ends in a wrong minimum, and one in 200 does so twice. Second, the initial values
@@ -275,7 +327,14 @@ impl Search<'_> {
         mut generator: ChaCha8Rng,
     ) -> Result<SearchResult, ExperimentError> {
         self.model.noise = 1.0;
-        let start = self.member(self.space.start())?;
+        let mut start = self.member(self.space.start())?;
+        let mut rivals = self.rivals(&population.best)?;
+        for rival in &rivals {
+            let noise = population.noise;
+            if self.cost(rival, noise) < self.cost(&start, noise) {
+                start = rival.clone();
+            }
+        }
         for attempt in 1..ATTEMPTS {
             let is_poor = self.is_poor(&population.best)?;
             let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
@@ -299,7 +358,41 @@ impl Search<'_> {
             }
         }
         population.keep(&start, self.cost(&start, population.noise));
-        self.sample(population, &mut generator)
+        let mut result = self.sample(population, &mut generator)?;
+        rivals.extend(self.with_exchanged_spheres(&result.best)?);
+        let least = self.cost(&result.best, result.noise);
+        for rival in rivals {
+            if self.cost(&rival, result.noise) < least + MISSED {
+                result.alternatives.push(rival.place);
+            }
+        }
+        Ok(result)
+    }
+
+    /// Returns members that may be better than the best one of a population: by descents from starts
+    /// if its residuals exceed the noise, or if the body has two spheres, which may be exchanged.
+    fn rivals(&mut self, best: &Member) -> Result<Vec<Member>, ExperimentError> {
+        let has_two_spheres = !self.space.other_starts.is_empty();
+        let mut rivals = Vec::new();
+        if has_two_spheres || self.is_poor(best)? {
+            rivals.push(self.descended()?);
+        }
+        for values in &self.space.other_starts {
+            rivals.push(self.descended_from(self.space.place(values))?);
+        }
+        rivals.extend(self.with_exchanged_spheres(best)?);
+        Ok(rivals)
+    }
+
+    /// Returns the member to which the costs fall if two spheres are exchanged; `None` for another
+    /// body.
+    fn with_exchanged_spheres(&mut self, best: &Member) -> Result<Option<Member>, ExperimentError> {
+        if self.space.other_starts.is_empty() {
+            return Ok(None);
+        }
+        let values = exchanged(&self.space.values(&best.place));
+        let place = self.space.place(&values);
+        self.descended_from(place).map(Some)
     }
 
     /// Returns true if the residuals of a member, apart from points inside jumps, exceed the noise.
@@ -324,9 +417,7 @@ impl Search<'_> {
         let misfit = self.misfit(&population.best, population.noise);
         let noise = misfit.max(self.remaining_line(&population.best)).max(1.0);
         self.set_noise(&mut population, noise);
-        for _ in 0..MOVES {
-            self.move_all(&mut population, generator)?;
-        }
+        self.spread_out(&mut population, generator)?;
         let mut samples = Vec::new();
         let mut blocks = Vec::new();
         let parts = self.space.blocks(&population.best.in_contact);
@@ -355,9 +446,31 @@ impl Search<'_> {
             residuals,
             noise,
             samples,
+            alternatives: Vec::new(),
             blocks,
             without_adhesion,
         })
+    }
+
+    /// Moves the members of a population until its extent grows no more. After a step of the noise it
+    /// may be smaller than that of the distribution, above all if a start was copied.
+    fn spread_out(
+        &mut self,
+        population: &mut Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<(), ExperimentError> {
+        let mut extent = population.log_extent();
+        for _ in 0..ROUNDS {
+            for _ in 0..MOVES {
+                self.move_all(population, generator)?;
+            }
+            let before = extent;
+            extent = population.log_extent();
+            if extent <= before + GROWN {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Returns the smallest cost of a scene without adhesion minus the cost of the best member;
@@ -396,7 +509,7 @@ impl Search<'_> {
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
         self.model.noise = COARSE;
-        let mut population = self.first_members(attempt, start)?;
+        let mut population = self.first_members(attempt, start, generator)?;
         let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
         loop {
             let misfit = self.misfit(&population.best, population.noise);
@@ -424,14 +537,40 @@ impl Search<'_> {
         }
     }
 
-    /// Returns a population of scattered members and `start`, if given, with an infinite noise.
+    /// Returns members around a start, at distances of all sizes. Copies of the start alone would have
+    /// no extent.
+    fn cloud(
+        &mut self,
+        start: &Member,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<Vec<Member>, ExperimentError> {
+        let count = SCAN * start.place.len();
+        let mut members = Vec::with_capacity(count);
+        for _ in 0..count {
+            let scale = 10_f64.powf(-DECADES_OF_CLOUD * generator.random::<f64>());
+            let mut place = Vec::with_capacity(start.place.len());
+            for (coordinate, from) in self.space.coordinates.iter().zip(&start.place) {
+                let (low, high) = coordinate.ends();
+                let step = scale * (2.0 * generator.random::<f64>() - 1.0);
+                place.push((from + (high - low) * step).clamp(low, high));
+            }
+            members.push(self.member(place)?);
+        }
+        Ok(members)
+    }
+
+    /// Returns a population of scattered members and a start, at an infinite noise.
     fn first_members(
         &mut self,
         attempt: usize,
         start: Option<&Member>,
+        generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
         let mut members = self.scattered(attempt)?;
-        members.extend(start.cloned());
+        if let Some(start) = start {
+            members.extend(self.cloud(start, generator)?);
+            members.push(start.clone());
+        }
         let misfit = |member: &Member| self.misfit(member, f64::INFINITY);
         let best = members
             .iter()

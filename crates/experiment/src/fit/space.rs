@@ -10,16 +10,26 @@ use crate::fit::result::RangeEnd;
 use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::fit::start::{Known, Starts};
 use crate::fit::statistics::PARTS;
-use asperity_data::format_quantity;
+use crate::fit::two_spheres::TwoContacts;
+use asperity_contact::Contact;
+use asperity_data::{format_quantity, median};
+use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Scene, Simulation, Solver};
+use asperity_surface::Form;
 
 /// Ratio between the initial value and each end of a range that the user does not give.
 const FACTOR: f64 = 30.0;
-/// Smallest ratio of the upper to the lower end of a range, after the limits of scenes have been
-/// applied.
+/// This ratio for the radius of the second of two spheres.
+const FACTOR_OF_RADII: f64 = 5.0;
+/// Smallest ratio of the ends of a range that the limits of a scene leave.
 const NARROWEST: f64 = 2.0;
-/// Largest distance of a value from an end of its range, as a share of the range, at which the
-/// value counts as lying at the end.
+/// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
+/// the end counts as the highest point.
+const HIGHEST: f64 = 1e-3;
+/// Largest depth of the other end, and smallest median depth, of a hollow body.
+const HIGH: f64 = 0.25;
+const DEEP: f64 = 0.5;
+/// Share of a range within which a value counts as lying at the end of the range.
 const AT_END: f64 = 0.01;
 
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
@@ -29,6 +39,8 @@ pub(crate) struct Space<'a> {
     pub coordinates: Vec<Coordinate>,
     /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
+    /// Values at which further descents begin.
+    pub other_starts: Vec<Values>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -60,7 +72,41 @@ fn check_scene(scene: &Scene, free: &[Free]) -> Result<(), ExperimentError> {
     }
     if is_free(free, Parameter::Radius) && radius_of(scene).is_none() {
         let found = "radius: the form of the scene has none";
-        return refused(found, "form = Paraboloid, WavySphere or Punch");
+        let allowed = "form = Paraboloid, WavySphere, RoundedCone, TwoSpheres or Punch";
+        return refused(found, allowed);
+    }
+    let has_two_spheres = matches!(scene.form, Some(Form::TwoSpheres { .. }));
+    for Free { parameter, .. } in free {
+        if parameter.is_of_two_spheres() && !has_two_spheres {
+            let found = format!(
+                "{}: the form of the scene is no two spheres",
+                parameter.name()
+            );
+            return refused(found, "form = TwoSpheres");
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error for a body that is a measured line whose highest point lies at one of its ends.
+/// The contact would begin there, as it does if depths are taken for heights.
+fn check_apex(scene: &Scene, contact: &Contact) -> Result<(), ExperimentError> {
+    if scene.form.is_some() || !scene.measured_as_line() {
+        return Ok(());
+    }
+    let mut gaps = contact.gaps().to_vec();
+    let [Some(first), Some(last)] = [gaps.first().copied(), gaps.last().copied()] else {
+        return Ok(());
+    };
+    let deepest = Extent::of(gaps.iter().copied()).high;
+    let is_highest = first.min(last) <= HIGHEST * deepest;
+    let are_both_high = first.max(last) < HIGH * deepest;
+    let is_deep = median(&mut gaps).is_some_and(|gap| gap > DEEP * deepest);
+    if is_highest && are_both_high && is_deep {
+        let found =
+            "the highest point of the measured line lies at its end, so that the body is hollow";
+        let allowed = "heights, which grow outwards, and a line whose highest point is inside";
+        return refused(found, allowed);
     }
     Ok(())
 }
@@ -87,6 +133,38 @@ fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
         modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
         stiffness: unless_free(Parameter::Stiffness, stiffness),
     }
+}
+
+/// Returns the document with the lengths of two spheres at which a search begins, and what the jumps
+/// of the curve say about them. Without an answer the lengths of the scene stay.
+fn with_two_spheres(
+    document: &Document,
+    curve: &MeasuredCurve,
+    free: &[Free],
+) -> Result<(Document, TwoContacts), ExperimentError> {
+    let scene = document.scene();
+    let Some(Form::TwoSpheres { radius, .. }) = scene.form else {
+        return Ok((document.clone(), TwoContacts::default()));
+    };
+    let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    let contacts = TwoContacts::of(curve, stiffness);
+    let mut changes = Vec::new();
+    for (parameter, path, start) in [
+        (
+            Parameter::SecondRadius,
+            "form.second_radius",
+            contacts.ratio.map(|ratio| ratio * radius),
+        ),
+        (Parameter::Behind, "form.behind", contacts.behind),
+    ] {
+        let given = free.iter().find(|free| free.parameter == parameter);
+        if let (Some(start), Some(given)) = (start, given) {
+            let (low, high) = given.range.unwrap_or((0.0, f64::INFINITY));
+            changes.push((path.to_owned(), ron_float(start.clamp(low, high))));
+        }
+    }
+    let document = document.set_all(&changes).map_err(wrong)?;
+    Ok((document, contacts))
 }
 
 /// Data from which the coordinates of the free parameters follow.
@@ -169,6 +247,8 @@ impl Ranges<'_> {
             Parameter::Work => (0.0, start * FACTOR),
             Parameter::ClosingWork if is_free(self.free, Parameter::Work) => (0.0, work * FACTOR),
             Parameter::ClosingWork => (0.0, work),
+            Parameter::SecondRadius => (start / FACTOR_OF_RADII, start * FACTOR_OF_RADII),
+            Parameter::Behind => (0.0, self.starts.way.max(2.0 * start)),
             _ => (start / FACTOR, start * FACTOR),
         }
     }
@@ -200,8 +280,16 @@ impl<'a> Space<'a> {
         let scene = document.scene();
         check_scene(scene, free)?;
         check_turn(curve)?;
+        let (document, contacts) = with_two_spheres(&document, curve, free)?;
+        let scene = document.scene();
         let (contact, governing) = simulation.contact(scene)?;
-        let starts = Starts::of(curve, &contact, known(scene, &governing, free))?;
+        check_apex(scene, &contact)?;
+        let mut starts = Starts::of(curve, &contact, known(scene, &governing, free))?;
+        if let Some(radius) = radius_of(scene)
+            && let Some(work) = contacts.work(radius)
+        {
+            starts.work = work;
+        }
         let work = is_free(free, Parameter::Work).then_some(starts.work);
         let document = written_out(&document, &governing, work).map_err(wrong)?;
         let (_, governing) = simulation.contact(document.scene())?;
@@ -223,10 +311,18 @@ impl<'a> Space<'a> {
         };
         let mut base = ranges.start_values(values_of(document.scene(), &governing));
         let coordinates = ranges.coordinates(&mut base)?;
+        let is_of_two = free.iter().any(|free| free.parameter.is_of_two_spheres());
+        let other_starts = if is_of_two {
+            let way = ranges.starts.way;
+            contacts.other_starts(&base, way, |parameter| is_free(free, parameter))
+        } else {
+            Vec::new()
+        };
         let space = Space {
             base,
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
+            other_starts,
             curve,
             stop,
         };
@@ -255,6 +351,16 @@ impl<'a> Space<'a> {
         values
     }
 
+    /// Returns the place within all ranges that is nearest to a place.
+    pub fn inside(&self, place: &[f64]) -> Vec<f64> {
+        let coordinates = self.coordinates.iter().zip(place);
+        let inside = coordinates.map(|(coordinate, position)| {
+            let (low, high) = coordinate.ends();
+            position.clamp(low, high)
+        });
+        inside.collect()
+    }
+
     /// Returns true if a place lies within all ranges.
     pub fn contains(&self, place: &[f64]) -> bool {
         self.coordinates
@@ -277,7 +383,8 @@ impl<'a> Space<'a> {
         let mut is_wider = false;
         for (index, coordinate) in self.coordinates.iter().enumerate() {
             let parameter = coordinate.parameter;
-            let has_own_range = parameter.is_signed() || parameter == Parameter::ClosingWork;
+            let has_own_range = parameter.is_signed()
+                || matches!(parameter, Parameter::ClosingWork | Parameter::Behind);
             let is_given = given
                 .iter()
                 .any(|free| free.parameter == parameter && free.range.is_some());
@@ -312,7 +419,8 @@ impl<'a> Space<'a> {
         if value > high - room && !is_closing {
             return Some(RangeEnd::High);
         }
-        let may_be_low = is_closing || coordinate.is_work_from_zero();
+        let is_behind = coordinate.parameter == Parameter::Behind && coordinate.range.0 == 0.0;
+        let may_be_low = is_closing || is_behind || coordinate.is_work_from_zero();
         (value < low + room && !may_be_low).then_some(RangeEnd::Low)
     }
 
@@ -324,8 +432,16 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Divides the points in contact of each segment into consecutive parts. The residuals of
-    /// different parts depend on each other less than those of neighbouring points.
+    /// Returns the place within all ranges that is nearest to these values.
+    pub fn place(&self, values: &Values) -> Vec<f64> {
+        let of =
+            |coordinate: &Coordinate| coordinate.of(values[coordinate.parameter as usize], values);
+        let place: Vec<f64> = self.coordinates.iter().map(of).collect();
+        self.inside(&place)
+    }
+
+    /// Returns consecutive parts of the points of each segment that are in contact. Parts depend on
+    /// each other less than points do.
     pub fn blocks(&self, in_contact: &[bool]) -> Vec<Vec<usize>> {
         let mut blocks = Vec::new();
         let mut start = 0;

@@ -5,4 +5,6 @@ mod common;
 mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
+mod simple_curves;
 mod single_curves;
+mod two_spheres;

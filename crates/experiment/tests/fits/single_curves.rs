@@ -51,7 +51,7 @@ fn intervals_hold_the_truth_of_most_spheres() {
     .unwrap();
     let mut seconds = Vec::new();
     // Of smooth and of rough spheres by parameter.
-    let mut rows = [[Held::default(); 7]; 2];
+    let mut rows = [[Held::default(); Parameter::ALL.len()]; 2];
     for (seed, (made, curve, of_seed, first)) in (0..).zip(fits) {
         seconds.push(of_seed);
         // The zero of the reading is off by the mean of the noise before contact.

@@ -1,0 +1,60 @@
+//! The lengths of a form that a fit can search.
+
+use crate::fit::parameter::{Parameter, Values};
+use asperity_surface::Form;
+
+/// Lengths of a form in m; 0 for those that the form does not have.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Lengths {
+    pub radius: f64,
+    pub second_radius: f64,
+    pub behind: f64,
+}
+
+impl Lengths {
+    pub fn of(values: &Values) -> Self {
+        Lengths {
+            radius: values[Parameter::Radius as usize],
+            second_radius: values[Parameter::SecondRadius as usize],
+            behind: values[Parameter::Behind as usize],
+        }
+    }
+
+    pub fn of_form(form: &Form) -> Self {
+        let mut lengths = Lengths {
+            radius: form.clone().radius_mut().map_or(0.0, |radius| *radius),
+            ..Lengths::default()
+        };
+        if let Form::TwoSpheres {
+            second_radius,
+            behind,
+            ..
+        } = form
+        {
+            lengths.second_radius = *second_radius;
+            lengths.behind = *behind;
+        }
+        lengths
+    }
+
+    pub fn put_into(self, form: &mut Form) {
+        if let Some(radius) = form.radius_mut() {
+            *radius = self.radius;
+        }
+        if let Form::TwoSpheres {
+            second_radius,
+            behind,
+            ..
+        } = form
+        {
+            *second_radius = self.second_radius;
+            *behind = self.behind;
+        }
+    }
+
+    pub fn put_into_values(self, values: &mut Values) {
+        values[Parameter::Radius as usize] = self.radius;
+        values[Parameter::SecondRadius as usize] = self.second_radius;
+        values[Parameter::Behind as usize] = self.behind;
+    }
+}

@@ -1,0 +1,132 @@
+//! Values at which the fit of a body with two spheres begins. They follow from the jumps of the
+//! curve.
+//!
+//! On the approach each sphere snaps in when its apex touches. The body has then moved by the
+//! distance of both apices, and the instrument has bent by the force. On the retraction the spheres
+//! detach one after another. The last one carries the force alone before it detaches, which is the
+//! pull-off force 1.5 π γ R of a soft instrument (Johnson, Kendall and Roberts).
+
+use crate::curve::MeasuredCurve;
+use crate::curve::features::ForceJump;
+use crate::fit::parameter::{Parameter, Values};
+use std::f64::consts::PI;
+
+/// Share of the sum of both sizes that two jumps of one motion have at least.
+const LEAST_SHARE: f64 = 0.05;
+/// Ratios of both radii that further descents begin with.
+const RATIOS: [f64; 3] = [0.4, 1.0, 2.0];
+/// Distances behind, as shares of the way of the instrument, that they begin with if the curve does
+/// not show it.
+const SHARES: [f64; 3] = [0.0, 0.02, 0.1];
+/// Limits of the ratio of both radii at the start.
+const RATIO: [f64; 2] = [0.1, 10.0];
+
+/// What the jumps of a curve say about a body with two spheres.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TwoContacts {
+    /// Pull-off force of the first sphere alone, N, if the spheres detach one after the other.
+    pub pull_off: Option<f64>,
+    /// Radius of the second sphere divided by that of the first one.
+    pub ratio: Option<f64>,
+    /// Distance of the second apex behind the first one, m.
+    pub behind: Option<f64>,
+}
+
+impl TwoContacts {
+    /// `stiffness` is that of the instrument in N/m, infinite for a rigid one.
+    pub fn of(curve: &MeasuredCurve, stiffness: f64) -> Self {
+        let compliance = 1.0 / stiffness;
+        let of_body = |jump: &ForceJump| jump.displacement - compliance * jump.forces[0];
+        let way = |pair: [ForceJump; 2]| (of_body(&pair[1]) - of_body(&pair[0])).abs();
+        let snaps = largest_two(curve, 0);
+        let detachments = largest_two(curve, 1);
+        TwoContacts {
+            pull_off: detachments.map(|[_, first]| first.forces[0].abs()),
+            ratio: detachments.map(|[second, first]| {
+                let ratio = second.size() / first.forces[0].abs().max(first.size());
+                ratio.clamp(RATIO[0], RATIO[1])
+            }),
+            behind: snaps.or(detachments).map(way),
+        }
+    }
+
+    /// Returns the values of all parameters at which further descents begin: `start` with other
+    /// radii and distances, if these are free. A single detachment may be that of both spheres.
+    /// `way` is the way of the instrument in contact, m.
+    pub fn other_starts(
+        &self,
+        start: &Values,
+        way: f64,
+        is_free: impl Fn(Parameter) -> bool,
+    ) -> Vec<Values> {
+        let mut behinds = vec![start[Parameter::Behind as usize]];
+        if is_free(Parameter::Behind) && self.behind.is_none() {
+            behinds = SHARES.map(|share| share * way).to_vec();
+        }
+        let mut ratios = vec![1.0];
+        if is_free(Parameter::SecondRadius) {
+            ratios = RATIOS.to_vec();
+        }
+        let mut starts = Vec::new();
+        for behind in &behinds {
+            for ratio in &ratios {
+                let mut values = *start;
+                values[Parameter::Behind as usize] = *behind;
+                if is_free(Parameter::SecondRadius) {
+                    let radius = start[Parameter::Radius as usize];
+                    values[Parameter::SecondRadius as usize] = ratio * radius;
+                }
+                if is_free(Parameter::Work) && self.pull_off.is_none() {
+                    values[Parameter::Work as usize] /= 1.0 + ratio;
+                }
+                starts.push(values);
+            }
+        }
+        starts
+    }
+
+    /// Returns the work of adhesion in J/m² by the pull-off force of the first sphere, which has
+    /// this radius in m.
+    pub fn work(&self, radius: f64) -> Option<f64> {
+        let work = self.pull_off? / (1.5 * PI * radius);
+        (work > 0.0 && work.is_finite()).then_some(work)
+    }
+}
+
+/// Returns values at which both spheres have exchanged their pull-off forces and their ranges of
+/// adhesion. A curve without separate jumps hardly shows which sphere is ahead.
+pub(crate) fn exchanged(values: &Values) -> Values {
+    let ratio = values[Parameter::SecondRadius as usize] / values[Parameter::Radius as usize];
+    let mut exchanged = *values;
+    exchanged[Parameter::Work as usize] *= ratio;
+    exchanged[Parameter::ClosingWork as usize] *= ratio;
+    exchanged[Parameter::Modulus as usize] *= ratio.sqrt();
+    exchanged[Parameter::SecondRadius as usize] /= ratio * ratio;
+    exchanged
+}
+
+/// Returns the two largest jumps of the first motion that has two jumps, in the order of time.
+/// `parity` is 0 for approaches and 1 for retractions.
+fn largest_two(curve: &MeasuredCurve, parity: usize) -> Option<[ForceJump; 2]> {
+    let motions = curve
+        .jumps
+        .chunk_by(|jump, next| jump.segment == next.segment);
+    for motion in motions.filter(|motion| motion[0].segment % 2 == parity) {
+        let mut jumps = motion.to_vec();
+        jumps.sort_by(|jump, next| next.size().total_cmp(&jump.size()));
+        let &[first, second, ..] = &jumps[..] else {
+            continue;
+        };
+        if second.size() < LEAST_SHARE * (first.size() + second.size()) {
+            continue;
+        }
+        let is_in_order = first.displacement < second.displacement;
+        let ascends = parity == 0;
+        return Some(if is_in_order == ascends {
+            [first, second]
+        } else {
+            [second, first]
+        });
+    }
+    None
+}
