@@ -12,6 +12,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::theme::Appearance;
 use asperity_data::path_name;
 use asperity_report::LoopQuantities;
+use asperity_scene::Document;
 use asperity_study::maps::StudyMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -32,7 +33,8 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     }
     if let Some(measured) = measured {
         app.edit.begin_with(measured.clone());
-        show_measured(&mut app, measured);
+        let document = app.edit.document.clone();
+        show_measured(&mut app, measured, document, None);
     }
     app
 }
@@ -47,7 +49,7 @@ pub fn open(app: &mut App, opened: Opened) {
                 show_study(app, study_map);
             }
         }
-        Opened::Curve(measured) => show_measured(app, *measured),
+        Opened::Curve(measured) => open_measured(app, *measured),
         Opened::Question(question) => {
             let reason = question.reason.clone();
             app.ask_again(Purpose::Curve(*question), "", &reason);
@@ -82,9 +84,23 @@ fn set_roughness(app: &mut App, path: &Path) {
     }
 }
 
-/// Shows a measured curve together with the scene, and gives the scene the loading of the curve, in
-/// one edit.
-fn show_measured(app: &mut App, measured: Measured) {
+/// Shows a measured curve that the user has opened. If its file states the stiffness of the
+/// instrument, this stiffness replaces the stiffness of the scene.
+fn open_measured(app: &mut App, measured: Measured) {
+    match measured.curve.with_instrument_of_file(&app.edit.document) {
+        Ok((document, instrument)) => show_measured(app, measured, document, instrument),
+        Err(errors) => app.set_error(errors.to_string()),
+    }
+}
+
+/// Shows a measured curve together with the scene `document`, and gives the scene the loading of
+/// the curve, in one edit. `instrument` is a sentence on the stiffness of the instrument.
+fn show_measured(
+    app: &mut App,
+    measured: Measured,
+    document: Document,
+    instrument: Option<String>,
+) {
     let is_new = app.edit.measured.as_ref() != Some(&measured);
     let undone = if is_new {
         "u closes it"
@@ -92,7 +108,7 @@ fn show_measured(app: &mut App, measured: Measured) {
         "u returns to its own"
     };
     let name = measured.name.clone();
-    let loaded = measured.curve.load(&app.edit.document, measured.offset);
+    let loaded = measured.curve.load(&document, measured.offset);
     let (document, wrong) = match loaded {
         Ok(document) => (document, None),
         Err(errors) => (app.edit.document.clone(), Some(errors)),
@@ -105,9 +121,12 @@ fn show_measured(app: &mut App, measured: Measured) {
         },
     );
     match wrong {
-        None => app.set_done(format!(
-            "{name}: the scene has the loading of the measured curve; {undone}"
-        )),
+        None => {
+            let instrument = instrument.map_or_else(String::new, |text| format!(". {text}"));
+            app.set_done(format!(
+                "{name}: the scene has the loading of the measured curve; {undone}{instrument}"
+            ));
+        }
         Some(errors) => app.set_error(errors.to_string()),
     }
     app.view.curve.quantities = LoopQuantities::ForceDisplacement;

@@ -257,7 +257,7 @@ static TABLE: &[Entry] = &[
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the study, or the map of the scene", MAP),
     row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "next or previous preload of the study, or value of a further axis", MAP),
 
-    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, the folder of a study or a measured force curve", SCENE).words("load file preset example").rank(2),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load file preset example measured").rank(2),
     row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).words("write file store").rank(2),
     row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane as a table, a figure or text", SCENE).words("figure picture print image table data csv pdf"),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens this scene", SCENE),

@@ -1,7 +1,9 @@
 //! Choosing a scene from the library.
 
 use super::*;
+use asperity::explorer::action::Action;
 use asperity::explorer::openable::Openable;
+use asperity::explorer::opening::{Opened, Opening};
 use asperity::explorer::prompt::{Prompt, Purpose};
 use tempfile::TempDir;
 
@@ -224,4 +226,24 @@ fn a_curve_without_units_asks_for_them() {
     let measured = driver.app.edit.measured.as_ref();
     let measured = measured.unwrap_or_else(|| panic!("no curve\n{}", driver.text()));
     assert_eq!(measured.options.units, ["nm", "uN"]);
+}
+
+/// The stiffness that the file of an opened curve states replaces the stiffness of the scene, and a
+/// message says so.
+#[test]
+fn the_stiffness_of_an_opened_curve_replaces_that_of_the_scene() {
+    let (folder, mut driver) = opened_with_files();
+    let text = curve("# spring constant: 20 N/m\ndisplacement (nm),force (uN)\n");
+    fs::write(folder.path().join("stated.txt"), text).unwrap();
+    driver.press("Esc");
+    let stiff = driver.document().set("loading_stiffness", "500").unwrap();
+    driver.act(Action::Opened(
+        "stiff".to_owned(),
+        Ok(Opened::Scene(Box::new(Opening::from(stiff)))),
+    ));
+    driver.press("o `stated.txt` Enter");
+    assert_eq!(driver.document().scene().loading_stiffness, Some(20.0));
+    driver.shows("in place of 500 N/m of the scene");
+    driver.press("u");
+    assert_eq!(driver.document().scene().loading_stiffness, Some(500.0));
 }

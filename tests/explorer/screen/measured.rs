@@ -333,21 +333,13 @@ fn residuals_are_a_strip_in_units_of_the_noise() {
 
 /// Files in another place than theirs, and the line that names them.
 #[test]
-fn surfaces_and_broken_curves_are_named_where_a_path_is_opened() {
+fn broken_curves_are_named_where_a_path_is_opened() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    let heights: String = (0..64)
-        .map(|index| format!("{index} {}\n", (index * index) % 7))
-        .collect();
-    write("surface.txt", &format!("# units: um nm\n{heights}"));
     write("flat.csv", "displacement [nm],force [nN]\n1,2\n");
     write("empty.csv", "displacement [nm],force [nN]\n");
     write("words.txt", "neither a scene nor numbers\n");
     for (name, said) in [
-        (
-            "surface.txt",
-            "a surface; its name, typed on the row of the roughness",
-        ),
         (
             "flat.csv",
             "1 points with displacement and force; allowed: at least",

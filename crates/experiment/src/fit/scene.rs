@@ -158,6 +158,32 @@ impl MeasuredCurve {
         Ok((document.clone(), None))
     }
 
+    /// Returns the scene with the stiffness of the instrument that the file of the curve states, in
+    /// place of the stiffness of the scene. The second value is a sentence about the change; it is
+    /// `None` if nothing has changed. Without a stiffness in the file, the scene stays as it is.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow this stiffness.
+    pub fn with_instrument_of_file(
+        &self,
+        document: &Document,
+    ) -> Result<(Document, Option<String>), SceneErrors> {
+        let of_scene = document.scene().loading_stiffness;
+        let (Some((name, stated)), Some(of_scene)) = (&self.stiffness, of_scene) else {
+            return self.with_instrument(document);
+        };
+        if self.of_body.is_some() || (stated / of_scene - 1.0).abs() <= OTHER {
+            return self.with_instrument(document);
+        }
+        let stated_text = format_quantity(*stated, "N/m");
+        let of_scene = format_quantity(of_scene, "N/m");
+        let text = format!(
+            "Loading stiffness {stated_text} by the {name} of the file, in place of {of_scene} of the scene."
+        );
+        let document = with_stiffness(document, ron_float(*stated))?;
+        Ok((document, Some(text)))
+    }
+
     /// Returns the scene with two fields taken from the measured curve: the loading, and the
     /// stiffness of the instrument as in [`Self::with_instrument`]. `offset` is the measured
     /// displacement in m at which the bodies first touch.
