@@ -169,8 +169,9 @@ impl Contact {
         }
     }
 
-    /// Creates a builder for a contact with another modulus and the same profile and edge model.
-    /// The new contact has no adhesion and a rigid instrument unless the builder sets them.
+    /// Creates a builder for a contact with the same profile and edge model, but another modulus.
+    /// The edge model states where the edges of contact patches may lie. The new contact has no
+    /// adhesion and a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -227,7 +228,8 @@ impl Contact {
         &self.profile
     }
 
-    /// Returns the gap of each spring in m: the depth of the profile there below its highest point.
+    /// Returns the gap of each spring in m: how far the profile at this spring lies below the
+    /// highest point of the profile.
     pub fn gaps(&self) -> &[f64] {
         self.profile.gaps()
     }

@@ -29,16 +29,16 @@ pub enum Warning {
         /// Length of the profile in m.
         length: f64,
     },
-    /// The last unloading ends in contact before its pulling force has reached its largest value.
+    /// The last unloading ends in contact before its tensile force has reached its largest value.
     EndsInContact {
-        /// Largest pulling force in N that the rest of the unloading would reach; `None` if it is
-        /// not known.
+        /// Largest tensile force in N that a further unloading to separation would reach; `None` if
+        /// it is not known.
         further: Option<f64>,
     },
-    /// At no moment of the loading [`Warning::LEAST_SPRINGS_IN_CONTACT`] or more springs were in
-    /// contact.
+    /// Too few springs were in contact: fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] at every
+    /// moment of the loading.
     FewSpringsInContact {
-        /// Largest number of springs in contact.
+        /// Largest number of springs that were in contact at the same time.
         springs: u64,
     },
     /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`]
@@ -47,16 +47,16 @@ pub enum Warning {
         /// Number of springs on the shortest wave.
         springs: f64,
     },
-    /// The length is not a whole multiple of a stated wavelength. The wavelength that is used
-    /// differs from the stated one by more than [`Warning::LARGEST_CHANGE_OF_WAVE`].
+    /// The profile uses another wavelength than the stated one, because its length must be a whole
+    /// multiple of each wavelength. The difference exceeds [`Warning::LARGEST_CHANGE_OF_WAVE`].
     RoundedWaves {
         /// Longest and shortest wavelength in m as stated.
         stated: [f64; 2],
         /// Longest and shortest wavelength in m as used.
         used: [f64; 2],
     },
-    /// Fewer than [`Warning::LEAST_LONG_WAVES`] of the longest waves of a random roughness fit on
-    /// the length of a nominally flat body.
+    /// Too few of the longest waves of a random roughness fit on the length of a nominally flat
+    /// body: fewer than [`Warning::LEAST_LONG_WAVES`].
     FewLongWaves {
         /// Number of the longest waves that fit on the length of the profile.
         waves: f64,
@@ -89,8 +89,8 @@ pub enum Warning {
     /// The heights of a file or an array are used as the equivalent profile, although nobody has
     /// stated that they are the heights of an equivalent profile.
     HeightsAsProfile,
-    /// Heights that are used as the equivalent profile are smooth, and curved as a cut through a
-    /// round body would be.
+    /// Heights that are used as the equivalent profile look like a cut through a round body: they
+    /// are smooth and curved.
     CutLikeHeights {
         /// Radius in m of the sphere whose cut has these heights.
         radius: f64,

@@ -4,7 +4,7 @@ use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Smallest number of springs for which a second thread saves more time than it costs.
+/// Number of springs from which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
 /// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
@@ -36,18 +36,19 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in the subtree of the node, in m.
+    /// Smallest gap in m in the subtree of the node.
     pub lowest: f64,
     /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
     /// Number of nodes in the subtree of the node, including the node.
     pub size: u32,
-    /// Number of nodes in the right part of the subtree.
+    /// Number of nodes in the subtree to the right of the local maximum.
     pub right: u32,
 }
 
-/// Branch of the contact tree: one patch while the level rises, from the local minimum or the
-/// merger at which the patch appears up to the next merger.
+/// A branch of the contact tree: one patch on a range of levels. The level of a patch is the gap at
+/// which its edges lie. The branch begins at the local minimum or the merger at which the patch
+/// appears, and ends at the next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
@@ -64,8 +65,8 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the node at which the branch begins. If it begins at a local minimum, returns `Err`
-    /// with the index of the minimum among all minima.
+    /// Returns the node of the tree at which the branch begins. If the branch begins at a local
+    /// minimum of the gap, returns `Err` with the index of this minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -106,9 +107,9 @@ impl Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of the gaps `gaps`, with the sums that the edge model needs, and reuses the
-    /// memory of this tree. There must be 1 to 2^28 gaps, which are in m, finite and at least zero.
-    /// `deepest` is the largest gap.
+    /// Builds a new tree from `gaps` in the memory of the old tree `self`. `edges` states where the
+    /// edges of patches may lie, and so which sums the tree needs. There must be 1 to 2^28 gaps, in
+    /// m, finite and at least zero. `deepest` is the largest gap.
     pub(crate) fn rebuild(
         mut self,
         gaps: &[f64],
@@ -130,7 +131,7 @@ impl ContactTree {
         Ok(self)
     }
 
-    /// Returns the number of nodes, the local maxima of the gap inside the profile.
+    /// Returns the number of nodes: the local maxima of the gap inside the profile.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }

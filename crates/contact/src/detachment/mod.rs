@@ -18,7 +18,7 @@ use std::fmt::Debug;
 /// The rule that all contacts use.
 pub type ContactRule = HessRule;
 
-/// Relative margin by which bounds allow for rounding.
+/// Relative margin that bounds have for rounding errors.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Number of nodes of the numerical integration of squared stretches along a slide of the edges.
@@ -34,17 +34,18 @@ const MOST_DOUBLINGS: usize = 1000;
 pub struct Levels {
     /// Largest gap of the patch in m, the lowest level.
     pub gap: f64,
-    /// Length of the patch at the lowest level, in cells.
+    /// Length of the patch in cells when its edges lie at the largest gap of the patch.
     pub length: f64,
-    /// Growth of the length with the level in cells per metre.
+    /// Growth of the length in cells per metre of the level.
     pub growth: f64,
-    /// Highest level in m: the gap of the next spring to attach; infinite if the patch fills the
-    /// profile.
+    /// Highest level in m: the gap of the spring that attaches next. Infinite if the patch fills
+    /// the profile.
     pub top: f64,
 }
 
 impl Levels {
-    /// Returns the length in cells at the level `gap + rise` in m.
+    /// Returns the length of the patch in cells when its edges lie `rise` (m) above its largest
+    /// gap.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
@@ -198,9 +199,9 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
     }
 }
 
-/// Two rules of the same kind: one for attachment (`closing`) and one for detachment (`opening`).
-/// The rule for detachment allows at least the same stretch. At stretches between the two limits
-/// the edges of a patch do not move.
+/// Two rules of the same kind: `closing` for attachment and `opening` for detachment. The rule for
+/// detachment allows at least the stretch that the rule for attachment allows. If the stretch at
+/// the edges of a patch is between the two limits, the edges do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<R> {
     closing: R,
@@ -208,8 +209,9 @@ pub struct Rules<R> {
 }
 
 impl<R: DetachmentRule> Rules<R> {
-    /// Returns the rule for a direction. On unloading it limits the stretch before a spring
-    /// detaches, and on loading the stretch with which a spring attaches.
+    /// Returns the rule for a direction of motion. On loading the rule limits the stretch with
+    /// which a spring attaches. On unloading it limits the stretch that a spring bears before it
+    /// detaches.
     pub fn rule(&self, direction: Direction) -> R {
         match direction {
             Direction::Loading => self.closing,

@@ -52,9 +52,9 @@ impl Leg {
             .collect())
     }
 
-    /// Returns the energy in J that springs release on this leg at indentations above `low` and up
-    /// to `high` in m. [`LegRecord::released_energy`](crate::history::LegRecord::released_energy)
-    /// defines this energy.
+    /// Returns the energy in J that springs release on this motion at indentations above `low` and
+    /// up to `high` (m). It is the elastic energy that they release on detaching, minus the elastic
+    /// energy that they gain on attaching.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }

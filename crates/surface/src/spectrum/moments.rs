@@ -22,7 +22,11 @@ pub struct Moment {
     pub value: f64,
     /// Standard error of the value, from `statistical` and `method` together.
     pub error: f64,
-    /// Standard error that results from the finite number of measured waves.
+    /// Largest change of the value if the surface has shorter waves than the points resolve. These
+    /// waves are assumed to follow a power law down to a quarter of the shortest resolved
+    /// wavelength. The change is zero if the value already includes such waves
+    /// ([`End::Continues`](super::nodes::End::Continues)). It is also zero if the spectrum ends
+    /// within the resolved waves, so that no shorter waves are expected.
     pub statistical: f64,
     /// Standard error that results from the method of estimation.
     pub method: f64,

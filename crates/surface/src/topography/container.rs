@@ -155,8 +155,8 @@ fn chosen(
 }
 
 impl Measurement {
-    /// Returns the name of the file with the scaled heights, whose format is always NetCDF. If
-    /// there is no such file, returns the name of the file as it was measured.
+    /// Returns the name of the NetCDF file with the scaled heights or, if there is none, the name
+    /// of the original file of the measurement.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {

@@ -24,7 +24,7 @@ pub(super) struct Table {
     pub separator: Separator,
     pub decimal: Decimal,
     widths: Widths,
-    /// Numbers of all lines, one line after another. Each line has as many numbers as cells.
+    /// All numbers of the table, line by line. Each line has as many numbers as cells.
     pub values: Vec<f64>,
     /// For each column, true if at least one of its cells is not empty.
     is_filled: Vec<bool>,
