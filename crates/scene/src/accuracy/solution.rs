@@ -30,7 +30,8 @@ pub(super) struct Solution {
     pub adhesion_force: Option<f64>,
     /// Adhesion force in closed form in N, if the scene has one.
     pub closed_form: Option<f64>,
-    /// Adhesion forces in N at half and at twice the loads, if they were computed.
+    /// Adhesion forces in N with all target forces and indentations of the scene halved, and with
+    /// all of them doubled. Empty if these forces were not computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -124,10 +125,11 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 pub enum Target {
     /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
-    /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean
-    /// absolute difference between its forces and the exact forces at the same indentations,
-    /// divided by the largest absolute force in all stages. The error of the force curve is the
-    /// largest of the errors of its stages.
+    /// Force curve of a scene without a tensile force.
+    ///
+    /// The error of a loading stage is the mean absolute difference between its forces and the
+    /// exact forces at the same indentations, divided by the largest absolute force in all stages.
+    /// The error of the force curve is the largest error of a stage.
     Curve,
 }
 

@@ -112,8 +112,8 @@ impl Document {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
     }
 
-    /// Returns the text that is saved in a file of the user. A changed built-in scene has no title
-    /// in this file, because the name of the file identifies it.
+    /// Returns the text of the scene for a file of the user. If the scene is a changed built-in
+    /// scene, its title is left out, because the name of the file identifies the scene.
     pub fn text_for_own_file(&self) -> String {
         let text = self.indexed_text();
         let text = if self.is_changed_built_in() {

@@ -14,12 +14,11 @@ use super::written::differing;
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// Returns this document without the optional part `effect` of its scene. If the roughness is
-    /// removed, a work of adhesion replaces κ or e_el/γ, which need a roughness. If the unloading
-    /// is removed, one loading stage remains.
+    /// Returns this document without an optional part of its scene. If the roughness is removed, a
+    /// work of adhesion replaces κ or e_el/γ, because these parameters need a roughness. If the
+    /// unloading is removed, one loading stage remains.
     ///
-    /// # Errors
-    /// Returns an error if the scene is not valid without this part.
+    /// # Errors Returns an error if the scene is not valid without this part.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -54,13 +53,12 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the optional part `effect` in its scene. If [`Self::without`] has
-    /// removed the part before, it gets back its former values; otherwise it gets values that suit
-    /// the scene.
+    /// Returns this document with an optional part added to its scene. If [`Self::without`] has
+    /// removed the part before, the part gets its former values back. Otherwise it gets values that
+    /// suit the scene.
     ///
-    /// # Errors
-    /// Returns an error if the part is impossible in the scene, such as roughness on a single
-    /// spring.
+    /// # Errors Returns an error if the part is impossible in the scene, such as roughness on a
+    /// single spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -89,19 +87,18 @@ impl Document {
         effect.is_on(restored.scene()).then_some(restored)
     }
 
-    /// Returns this document with the values of `scene`. In the text, only values that differ are
+    /// Returns this document with the values of `scene`. Only the text of values that differ is
     /// replaced.
     ///
-    /// # Errors
-    /// Returns an error for each invalid value.
+    /// # Errors Returns an error for each invalid value.
     pub fn with_scene(&self, scene: &Scene) -> Result<Document, SceneErrors> {
         self.set_all(&overrides_to(self.scene(), scene))
     }
 
-    /// Returns this document with another adhesion, as [`Document::with_scene`] does.
+    /// Returns this document with another adhesion. Only the text of values that differ is
+    /// replaced.
     ///
-    /// # Errors
-    /// Returns an error if a value is invalid.
+    /// # Errors Returns an error if a value is invalid.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
         self.with_scene(&Scene {
             adhesion: Some(adhesion),
@@ -111,11 +108,10 @@ impl Document {
 
     /// Returns this document with the next choice ([`Range::Choice`]) of `field`, or with the
     /// previous choice if `forwards` is false. Choices that the scene does not allow are skipped.
-    /// If the field is an optional part ([`Effect`]), the RON text `None` is a further choice,
+    /// If the field is an optional part ([`Effect`]), a further choice is the RON text `None`,
     /// which removes the part. Returns `None` if there is no other choice.
     ///
-    /// # Errors
-    /// Returns an error if the scene allows none of the other choices.
+    /// # Errors Returns an error if the scene allows none of the other choices.
     pub fn with_next_choice(
         &self,
         field: &Field,

@@ -100,8 +100,8 @@ fn entries(scene: &Scene, fields: &[&Field]) -> Vec<String> {
     entries
 }
 
-/// Writes a scene as RON text. Fields that have their default are left out. Reading the text gives
-/// the same scene.
+/// Writes a scene as RON text. Fields that have their default values are left out. A reader of the
+/// text gets the same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let fields: Vec<&Field> = fields_inside("", None).collect();
     let mut text = "(\n".to_owned();
