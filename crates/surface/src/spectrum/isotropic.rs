@@ -32,7 +32,8 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     points.map(term).sum::<f64>() * wave_number / PI
 }
 
-/// Values of an [`IsotropicSpectrum`] at one of the wave numbers by which the spectrum is given.
+/// An [`IsotropicSpectrum`] at a node, which is one of the wave numbers at which the spectrum is
+/// given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
@@ -73,8 +74,9 @@ pub(super) struct Integral {
 }
 
 impl IsotropicSpectrum {
-    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is
-    /// constant below the first node and zero beyond the last wave number of the spectrum.
+    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. The
+    /// density is constant below the first node, and zero above the last wave number of the
+    /// spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -83,14 +85,14 @@ impl IsotropicSpectrum {
         }
     }
 
-    /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q
-    /// in rad/m.
+    /// Returns the power spectral density of the equivalent line in m³ at a wave number q in rad/m.
+    /// It is q C2D(q)/2.
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
-    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
-    /// number in rad/m.
+    /// Returns the power spectral density in m³ of a cut at a wave number in rad/m. A cut is a
+    /// profile measured across the surface.
     pub fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }

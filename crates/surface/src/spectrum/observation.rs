@@ -64,8 +64,8 @@ pub(super) struct Observation {
     /// Mean power spectral density of the band: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Weight of the band in moments. The contribution of the band to a moment of the equivalent
-    /// line is the mean power times this weight times a power of q, see [`Observation::moments`].
+    /// Weight of the band in moments of the equivalent line. The band contributes the mean power
+    /// times this weight times a power of q to a moment ([`Observation::moments`]).
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
@@ -220,9 +220,9 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this band, with the mean power `power`, to the moments ∫
-    /// q^(p+1) C2D dq/2π of the equivalent line, for p = 0, 1, 2. The moments of a cut are 1, 2/π
-    /// and 1/2 times these moments.
+    /// Computes the contribution of this band to three moments of the equivalent line, if the band
+    /// has the mean power `power`. The moments are ∫ q^(p+1) C2D dq/2π for p = 0, 1, 2. The moments
+    /// of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         let factors = match self.kind {
@@ -232,8 +232,9 @@ impl Observation {
         factors.map(|factor| factor * self.range * power)
     }
 
-    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes. It
-    /// includes aliases of waves that the points do not resolve.
+    /// Returns the terms whose sum is the expected mean power of this band. They refer to a
+    /// spectrum that is given at `nodes`. They include aliases: waves that look like the waves of
+    /// this band because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

@@ -8,11 +8,11 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of measured points of all surfaces together. Points with interpolated heights are
-    /// left out of all these statistics.
+    /// Number of measured points of all surfaces together. Points with interpolated heights count
+    /// neither here nor in the other statistics.
     pub points: usize,
-    /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
-    /// filter.
+    /// Root mean square height about the mean in m, without a filter. It is Pq for profiles and Sq
+    /// for maps.
     pub rms_height: f64,
     /// Root mean square slope of the surfaces along their rows, PΔq.
     pub rms_slope: f64,
@@ -57,8 +57,8 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the measured points of a surface. Their heights are taken relative to the mean of these
-    /// points. A slope between two points counts if both points were measured.
+    /// Adds the measured points of a surface. Heights are taken relative to the mean of the
+    /// measured points. A slope between two points counts only if both points were measured.
     pub fn add(&mut self, surface: &LevelledSurface) {
         let columns = surface.columns;
         let [along, between] = surface.distances;

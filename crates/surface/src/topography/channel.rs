@@ -27,8 +27,8 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns the channel that the options request. Returns an error if the options have both a
-    /// number and a name.
+    /// Returns the number or the name of the channel that the options request. Returns an error if
+    /// the options have both.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),
@@ -54,7 +54,7 @@ pub(super) struct Label {
     /// Unit of the values. `None` means that the unit is unknown; an empty text means that the file
     /// states that the values have no unit.
     pub unit: Option<String>,
-    /// In a text file, the number of the first line with numbers of the channel.
+    /// Number of the line with the first numbers of the channel, in a text file.
     pub line: Option<usize>,
     /// True for a channel of heights. Such a channel is read if the options name no channel.
     pub has_heights: bool,
