@@ -119,7 +119,7 @@ impl PowerLaw {
     }
 
     /// Returns the fit with its standard errors, multiplied by `scale`. Returns `None` if the Hurst
-    /// exponent is not between 0 and 1.
+    /// exponent is not between 0 and 1, or if the observations do not determine the errors.
     pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
         let parameters = self.parameters;
         let model = model.condensed();

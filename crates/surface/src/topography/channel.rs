@@ -27,8 +27,9 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns the number or the name of the channel that the options request. Returns an error if
-    /// the options have both.
+    /// Returns which channel the options request: the one with a number, the one with a name or, if
+    /// the options state neither, the only channel of heights. Returns an error if the options have
+    /// both a number and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),

@@ -311,7 +311,7 @@ impl Table {
         Err(refused(Place::Line(line), found, allowed))
     }
 
-    /// Returns the number of columns up to the last column that has a number in some line.
+    /// Returns the number of columns up to the last column in which some cell is not empty.
     pub fn columns(&self) -> usize {
         match self.is_filled.iter().rposition(|is_filled| *is_filled) {
             Some(last) => last + 1,
