@@ -158,8 +158,8 @@ impl Contact {
         }
     }
 
-    /// Copies the contact for the stepwise solver. In the copy, patches consist of whole springs,
-    /// and the instrument is rigid.
+    /// Returns a copy of the contact for the stepwise solver. In the copy, patches consist of whole
+    /// springs, and the instrument is rigid.
     pub(super) fn of_whole_springs(&self) -> Self {
         Contact {
             edges: Edges::Grid,
@@ -260,14 +260,15 @@ impl Contact {
         self.rules.is_some()
     }
 
-    /// Returns the rules of attachment and detachment. Without adhesion, the rules have a largest
-    /// stretch of zero.
+    /// Returns the rules of attachment and detachment. Without adhesion, the rules allow no
+    /// stretch.
     pub(super) fn rules(&self) -> Rules<ContactRule> {
         self.rules.unwrap_or(Rules::<ContactRule>::NO_ADHESION)
     }
 
-    /// Returns the closing thresholds for a loading from separation: the indentations at which the
-    /// nodes of the contact tree close. The first call computes them with `close` and stores them.
+    /// Returns the closing thresholds: the indentations at which the nodes of the contact tree
+    /// close on a loading from separation. They are computed with `close` at the first call, and
+    /// stored.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,

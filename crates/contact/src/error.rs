@@ -156,9 +156,8 @@ impl ContactError {
         }
     }
 
-    /// Returns an error of the stage with the index `index`, with this error as the reason. Errors
-    /// about memory, interruptions and defects remain unchanged because they concern the whole
-    /// loading.
+    /// Returns the error of a loading stage, with this error as its reason. Errors about memory,
+    /// interruptions and defects are returned unchanged, because they concern the whole loading.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

@@ -128,8 +128,8 @@ pub struct ContactTotals {
 }
 
 impl ContactTotals {
-    /// Computes the totals of one patch. If `slides` is true, the sums are over the cells between
-    /// its springs; otherwise over its springs.
+    /// Computes the sums over one patch. If `slides` is true, the sums are over the cells between
+    /// the springs of the patch; otherwise they are over the springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
@@ -147,8 +147,8 @@ impl ContactTotals {
         totals
     }
 
-    /// Returns the number of whole cells if `slides` is true, otherwise of springs. Each patch has
-    /// one whole cell less than springs.
+    /// Returns the number of whole cells in contact if `slides` is true, otherwise the number of
+    /// springs in contact. A patch has one whole cell less than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         if slides {

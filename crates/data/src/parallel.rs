@@ -23,10 +23,11 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
 }
 
 /// Runs `work` on each of `count` new threads of a scope. If the system refuses some threads,
-/// `work` runs on fewer. The functions of this module start no further threads inside `work`.
+/// `work` runs on fewer threads. Inside `work`, the functions of this module start no further
+/// threads.
 ///
-/// # Errors
-/// Returns the error of the system if `count` is at least 1 and no thread could be started.
+/// # Errors Returns the error of the system if `count` is at least 1 and no thread could be
+/// started.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,

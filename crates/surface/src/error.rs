@@ -272,8 +272,8 @@ impl SurfaceError {
         self.in_file_of("roughness.file", file)
     }
 
-    /// Returns the same error with a longer place: the field of the scene that names a file, the
-    /// path of the file, and the present place inside this file.
+    /// Returns the same error with a longer place: first the field of the scene that names a file,
+    /// then the path of the file, and then the present place inside this file.
     pub(crate) fn in_file_of(self, field: &'static str, file: &Path) -> Self {
         let file = file.display().to_string();
         self.within(|place| {

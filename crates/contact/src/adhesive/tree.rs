@@ -20,8 +20,8 @@ const LANES: usize = 64;
 // node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
-    /// Indices of the springs at the local minima and maxima of the gap, alternating from left to
-    /// right. The first and the last are minima.
+    /// Indices of the springs at the local minima and maxima of the gap, from left to right. Minima
+    /// and maxima alternate, and the first and the last are minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
     /// Prefix sums before each `BLOCK`-th spring, of the gaps in quanta and of their squares. If
@@ -176,7 +176,7 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns two sums, of the gaps and of their squares, over all springs to the left of
+    /// Returns the sum of the gaps and the sum of their squares over all springs to the left of
     /// `spring`. If `of_cells` is true, the sums are over the cells to the left of `spring`
     /// instead. The units are those of [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]

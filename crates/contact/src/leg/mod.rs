@@ -126,8 +126,8 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Adds the work for this leg to the work counts: the pass over the tree and the evaluations of
-    /// the rule of Hess.
+    /// Adds the computing work for this leg to the counts in `work`: the pass over the contact tree
+    /// and the evaluations of the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -154,9 +154,9 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring is in contact at indentations from its threshold in m
-    /// upwards. The threshold is −∞ for a spring that is always in contact, and +∞ for a spring
-    /// that is never in contact. The leg is known up to the indentation `end` in m.
+    /// Creates a leg on which each spring has a threshold: the smallest indentation in m at which
+    /// the spring is in contact. The threshold is −∞ for a spring that is always in contact, and +∞
+    /// for a spring that is never in contact. The leg is known up to the indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,

@@ -225,8 +225,8 @@ fn difference_under_load(
     difference(Target::AdhesionForce, &solution, own)
 }
 
-/// Estimates the errors of a solution with edges between springs, at the loads of the scene and at
-/// half and twice these loads.
+/// Estimates the errors of a solution whose patches have their edges between springs. The errors
+/// are estimated at the loads of the scene and at half and twice these loads.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,

@@ -46,8 +46,8 @@ impl Solution {
         }
     }
 
-    /// Returns those quantities of a result that [`Target::difference`] compares. If it compares
-    /// the adhesion force, the force curve is not copied.
+    /// Returns only the quantities of a result that [`Target::difference`] compares. If the
+    /// adhesion force is compared, the force curve is not copied.
     pub(super) fn of_target(scene: &Scene, outcome: &Outcome) -> Self {
         let own = Solution::without_curve(scene, outcome);
         match Target::of(&own) {
@@ -80,9 +80,9 @@ impl Solution {
         reference
     }
 
-    /// Returns the relative differences of this solution from a reference. For the adhesion force,
-    /// this is the largest difference among all loads at which both solutions have a force. An
-    /// error that changes its sign between two loads then does not seem small by chance.
+    /// Returns the relative differences of this solution from a reference. The difference of the
+    /// adhesion force is the largest one among all loads at which both solutions have a force. An
+    /// error that changes its sign between two loads therefore does not seem small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
             self.error_of_adhesion_force(reference),
@@ -175,7 +175,8 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// Returns the scene with this number of springs, this edge model and the exact solver.
+/// Returns the scene with other settings: this number of springs, these edges of patches and the
+/// exact solver.
 pub(super) fn refined(
     scene: &CheckedScene,
     points: u64,
@@ -205,7 +206,7 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
     loaded.checked().ok()
 }
 
-/// Returns true if a scene has targets that [`loaded`] multiplies.
+/// Returns true if a scene has target forces or indentations that [`loaded`] can multiply.
 pub(super) fn has_loads(scene: &Scene) -> bool {
     scene.loading.iter().any(|stage| match *stage {
         Move::ToForce(target) | Move::ToIndentation(target) => target > 0.0,

@@ -316,9 +316,9 @@ struct CostPoint {
     error: f64,
 }
 
-/// Returns the index of the first error after which no error exceeds a bound, in the order from
-/// coarse to fine. At least two finer errors must also be within the bound, because an error that
-/// changes its sign may be small by chance.
+/// Returns the index of the first error from which on all errors are at most `bound`. The errors
+/// are in the order from coarse to fine. At least two finer errors must also be within the bound,
+/// because an error that changes its sign may be small by chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

@@ -31,8 +31,8 @@ fn distance_at_depth(form: &Form, depth: f64, most: f64) -> f64 {
     low
 }
 
-/// Facts about the profile of a scene that follow from the measured surface and not from the
-/// fields.
+/// Facts about the profile of a scene with a measured surface. They follow from the surface and not
+/// from the fields of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MeasuredFacts {
     /// Length of the scan in m.

@@ -56,9 +56,9 @@ fn title_of_changed(name: &str) -> String {
 }
 
 impl Document {
-    /// Returns the text of this document with only those descriptions (title, notice and comments)
-    /// that are true for the present values. Returns `None` if no value has changed, or if the
-    /// scene is not a built-in scene, because its author has then written the descriptions.
+    /// Returns the text of this document without the title, notice and comments that are false for
+    /// the present values. Returns `None` if no value has changed. Also returns `None` if the scene
+    /// is not a built-in scene, because its author has then written the descriptions.
     pub(super) fn text_with_true_words(&self) -> Option<Text> {
         let opened = read(self.opened(), |_| Origin::Scene).ok()?;
         if !self.is_changed() || !is_built_in(&opened) {

@@ -138,8 +138,8 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` if there are errors. The function `origin` gives each error its origin, and a
-    /// long list is shortened.
+    /// Returns `Err` with the errors in the list, if there are any. The function `origin` gives
+    /// each error its origin. A long list is shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,

@@ -65,8 +65,8 @@ pub enum Step {
     Typed,
 }
 
-/// Returns the description of a required field. The range determines its unit and step, and its
-/// name is its path.
+/// Creates the description of a required field. Its unit and its step follow from the range, and
+/// its name is its path.
 pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field {
     let step = match range {
         Range::Real(..) => Step::Logarithmic,

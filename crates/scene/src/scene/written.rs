@@ -112,9 +112,9 @@ pub fn to_ron(scene: &Scene) -> String {
 }
 
 /// Returns the fields that differ between two scenes. A group of fields is compared field by field
-/// if two conditions hold: both scenes have the same choice for the group, and `splits` is true for
-/// each field. The arguments of `splits` are true if the first and the second scene state the
-/// field. Otherwise the whole group counts as one field.
+/// under two conditions: both scenes have the same choice for the group, and `splits` is true for
+/// each field. Otherwise the whole group counts as one field. The arguments of `splits` are true if
+/// the first and the second scene state the field.
 pub(super) fn differing(
     first: &Scene,
     second: &Scene,

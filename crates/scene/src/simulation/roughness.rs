@@ -67,8 +67,8 @@ pub(super) struct KeptSpectrum {
     pub surface: Arc<MeasuredRoughness>,
 }
 
-/// Makes the heights of roughnesses. The maker stores values that several roughnesses have in
-/// common, so that it computes them only once.
+/// Makes the heights of roughnesses. Values that several roughnesses have in common are stored, so
+/// that they are computed only once.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
     /// Folder to which the names of files in scenes are relative.

@@ -602,7 +602,7 @@ fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
     }
 }
 
-/// Returns the profile of a contact from a line and the form of the body.
+/// Returns the profile of a contact, made from the rigid line `line` and the form of the body.
 pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
     let placed = profile
@@ -611,8 +611,8 @@ pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profi
     Ok(placed.with_nominal_form(nominal_form))
 }
 
-/// Returns the form of the body of a scene. If measured heights are the profile itself, the form is
-/// unstated.
+/// Returns the form of the body that a profile states: flat or curved. If measured heights are used
+/// unchanged as the profile, the form is not stated.
 pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     match &scene.form {
         Some(form) if form.flat_end().is_none() => NominalForm::Curved,

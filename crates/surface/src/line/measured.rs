@@ -13,8 +13,8 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound, in bytes per point, of the memory of the Fourier transform and its arrays. It holds
-/// for an odd number of points too, which is transformed at twice its length.
+/// Upper bound, in bytes for each point, of the memory for the Fourier transform and its arrays. An
+/// odd number of points is transformed at twice its length; the bound holds for it too.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.

@@ -222,8 +222,8 @@ pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns a random generator whose next 64-bit words belong to the modes `first`, `first` + 1, …,
-/// for this seed.
+/// Returns a random generator for a seed. Its next 64-bit words belong to the modes `first`,
+/// `first` + 1, ….
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());

@@ -118,8 +118,8 @@ impl PartialEq for Rows {
 }
 
 impl FormTable {
-    /// Reads a table with two columns, radius and depth. The unit is the one that the file states,
-    /// or else `unit`, or else m.
+    /// Reads a table with two columns, radius and depth. Their unit is the unit that the file
+    /// states. If the file states none, it is `unit`, or m if `unit` is `None`.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,

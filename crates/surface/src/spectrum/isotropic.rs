@@ -18,8 +18,9 @@ const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 /// Number of pieces per unit of u into which the quadrature of [`cut`] divides its range.
 const CUT_PIECES: f64 = 8.0;
 
-/// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The
-/// spectrum ends at the wave number `end` in rad/m.
+/// Computes the power spectral density of a cut in m³: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The
+/// integral is computed with the substitution t = k sinh u. The spectrum C2D ends at the wave
+/// number `end` in rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -58,8 +59,8 @@ pub struct IsotropicSpectrum {
     pub(super) information: Cholesky,
     /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
     pub(super) method: [f64; 3],
-    /// Relative changes of these integrals if the surface has shorter waves than the points
-    /// resolve.
+    /// Relative changes of the integrals ∫ q^power C2D dq, for power = 1, 2, 3, if the surface has
+    /// shorter waves than the points resolve.
     pub(super) missing: [f64; 3],
     /// Ratio of the largest to the smallest rms height or rms gradient among several kinds of
     /// surfaces, such as profiles and maps, to which the spectrum is fitted together; 1 if chance
@@ -128,9 +129,9 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Changes ln C2D at the nodes by a random step times `share`. The step is drawn from the
-    /// normal distribution of the errors of the fit. `number` selects the step: equal numbers give
-    /// equal steps.
+    /// Returns the spectrum with a random error of the fit: ln C2D at the nodes is changed by
+    /// `share` times a step from the normal distribution of the errors. `number` selects the step:
+    /// equal numbers give equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
@@ -173,8 +174,8 @@ impl IsotropicSpectrum {
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences between the integrals of `other` and those of this
-    /// spectrum, see [`Self::integrals`].
+    /// Returns the relative differences of three integrals ([`Self::integrals`]) between `other`
+    /// and this spectrum.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();

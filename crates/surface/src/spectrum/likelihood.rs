@@ -10,7 +10,7 @@ const NODES_PER_DECADE: f64 = 6.0;
 /// Spacing in ln q of the grid of wave numbers to which [`Model::condensed`] moves terms.
 const GRID: f64 = 0.02;
 
-/// Observed powers, with the terms from which their expected means are computed for a given
+/// Model of the observed powers: their expected means are sums of terms, which depend on the
 /// spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],

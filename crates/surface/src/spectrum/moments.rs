@@ -99,8 +99,10 @@ pub struct LineMoments {
 
 /// Computes the moments of the equivalent line of several faces, the surfaces that touch each
 /// other. The spectrum of the line is the sum of the spectra of the faces, whose errors are
-/// independent. The waves of the line begin at half of the first wave number that is known for all
-/// faces, because wave 1 on a length represents all waves from ½ to 1½ periods.
+/// independent.
+///
+/// The waves of the line begin at half of the first wave number that is known for all faces,
+/// because the wave with one period over a length represents all waves from ½ to 1½ periods.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let integrals = LineIntegrals::new(faces);
     let [squared_height, energy, squared_gradient] = integrals.totals.map(|total| 0.5 / PI * total);

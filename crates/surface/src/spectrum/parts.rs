@@ -398,12 +398,14 @@ pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of the estimated to the expected variance of a mean that counts as
-/// chance. The estimate is made from the differences between `parts` parts, and exceeds this ratio
-/// by chance once in a thousand times: the ratio is a quantile of the χ² distribution (Wilson and
-/// Hilferty 1931). `variance` is the relative variance of one part that chance explains. A part is
-/// distributed like a sum of 1/`variance` exponentially distributed numbers; if these are few, the
-/// distribution is skewed and the estimate scatters more.
+/// Returns the largest ratio of two variances of a mean that counts as chance: the estimated
+/// variance divided by the expected one. The estimate is made from the differences between `parts`
+/// parts.
+///
+/// The estimate exceeds this ratio by chance once in a thousand times: the ratio is a quantile of
+/// the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance of one part
+/// that chance explains. A part is distributed like a sum of 1/`variance` exponentially distributed
+/// numbers. If these are few, the distribution is skewed and the estimate scatters more.
 pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     let parts = parts as f64;
     let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;

@@ -66,8 +66,8 @@ impl PointResults {
     }
 }
 
-/// Sums over the surfaces with the largest size. Sizes with a relative difference of at most
-/// [`SAME`] count as equal.
+/// Sums over those surfaces whose size, such as the length of a scan, is largest. Sizes with a
+/// relative difference of at most [`SAME`] count as equal.
 #[derive(Default)]
 pub(super) struct LargestSums {
     pub size: f64,

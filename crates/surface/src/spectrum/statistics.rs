@@ -119,9 +119,9 @@ impl Sums {
 /// of the tip (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
-/// Finds the reliability cut-off in m. Shorter waves may be artefacts of the tip. The cut-off is
-/// the smallest stencil length 2sΔx (s whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x +
-/// sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in m.
+/// Finds the reliability cut-off in m: shorter waves may be artefacts of the tip. It is the
+/// smallest length 2sΔx (s whole) over which the curvature of all rows is at least −1/(2R) for a
+/// tip radius R in m. The curvature at x is (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)².
 ///
 /// Returns `None` if the condition is already fulfilled at s = 1. If no s fulfils the condition, no
 /// wave is reliable, and half the length of a row is returned.

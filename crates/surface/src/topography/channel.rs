@@ -17,7 +17,7 @@ pub(super) fn names_heights(name: &str) -> bool {
     HEIGHTS.iter().any(|word| name.contains(word))
 }
 
-/// The channel that the user wants, according to the options.
+/// The channel that the options request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.

@@ -33,8 +33,8 @@ impl Cropped {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index of a point among all points of the file, including removed columns and
-    /// rows. `index` is the index of the point without these, in rows of `columns` points.
+    /// Returns the index of a point among all points of the file. `index` is its index after
+    /// columns and rows at the borders were removed; the rows then have `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let [columns_before, rows_before] = self.before;
         let [columns_left_out, _] = self.counts();
@@ -122,10 +122,11 @@ impl Topography {
     }
 
     /// Copies the heights in m. With `quarters` above zero, the copy is changed by about as much as
-    /// interpolation may have changed the original. For this purpose, as many measured points as
-    /// were missing are interpolated too: the points that are `quarters` quarters of the length and
-    /// of the width away from the missing points. A resampled profile also gets an estimate of the
-    /// short waves that resampling has removed.
+    /// interpolation may have changed the original.
+    ///
+    /// For this purpose, as many measured points as were missing are interpolated too. They are the
+    /// points `quarters` quarters of the length and of the width away from the missing points. A
+    /// resampled profile also gets an estimate of the short waves that resampling has removed.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if quarters == 0 {
