@@ -121,7 +121,8 @@ impl Body {
     /// Creates a body at an indentation in m within the motion `leg`. The body can continue this
     /// motion or turn back.
     ///
-    /// # Errors Returns [`ContactError::Stepwise`] if the motion was computed by the [stepwise
+    /// # Errors
+    /// Returns [`ContactError::Stepwise`] if the motion was computed by the [stepwise
     /// solver](crate::motion::Stepwise).
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
@@ -438,8 +439,9 @@ impl Body {
     /// the index of the target and the [`Reversal`]. [`Reversal::forces`] are computed at the
     /// indentations `points`, in m and in ascending order.
     ///
-    /// # Errors Returns an error for a target that the contact cannot reach, and for a target at
-    /// which the body is not in contact. Also returns the first error of `see`.
+    /// # Errors
+    /// Returns an error for a target that the contact cannot reach, and for a target at which the
+    /// body is not in contact. Also returns the first error of `see`.
     pub fn reversals(
         &mut self,
         targets: &[Move],

@@ -87,8 +87,9 @@ impl ContactState {
 
 /// Converts a number of springs or patches in contact to an unsigned number.
 ///
-/// # Panics Panics for a negative number. Such a number occurs only if the sums have a defect, and
-/// must not appear in a result.
+/// # Panics
+/// Panics for a negative number. Such a number occurs only if the sums have a defect, and must not
+/// appear in a result.
 pub fn counted(number: i64) -> u64 {
     assert!(
         number >= 0,

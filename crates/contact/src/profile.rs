@@ -92,8 +92,9 @@ impl Profile {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     ///
-    /// # Errors Returns [`ContactError::Value`] for a profile without points, for a spacing or a
-    /// gap out of its range, or if the smallest gap is not 0.
+    /// # Errors
+    /// Returns [`ContactError::Value`] for a profile without points, for a spacing or a gap out of
+    /// its range, or if the smallest gap is not 0.
     pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
         let gaps = gaps.into();
         let points = gaps.len();
@@ -159,7 +160,8 @@ impl Profile {
 
     /// Shifts the heights of the profile so that the height of its highest point is `summit` in m.
     ///
-    /// # Errors Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
+    /// # Errors
+    /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
         let is_allowed = summit.abs() <= LARGEST;
         let allowed = "from -1e50 to 1e50 m";
@@ -266,7 +268,8 @@ impl Profile {
     /// longer needed. Without this call, the first contact with adhesion builds the tree in new
     /// memory.
     ///
-    /// # Errors Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
     ///
     /// ```
     /// use asperity_contact::motion::ContactTree;

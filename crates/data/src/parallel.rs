@@ -26,8 +26,8 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
 /// `work` runs on fewer threads. Inside `work`, the functions of this module start no further
 /// threads.
 ///
-/// # Errors Returns the error of the system if `count` is at least 1 and no thread could be
-/// started.
+/// # Errors
+/// Returns the error of the system if `count` is at least 1 and no thread could be started.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
@@ -52,8 +52,9 @@ pub(crate) fn begin_threads<'scope>(
 /// results in the order of the numbers. Each thread calls `worker` once. The function that `worker`
 /// returns then computes the results of the thread.
 ///
-/// # Errors Returns an error if the computation of a result returns an error. If there are several
-/// errors, returns the error for the smallest number.
+/// # Errors
+/// Returns an error if the computation of a result returns an error. If there are several errors,
+/// returns the error for the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;

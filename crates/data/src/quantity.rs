@@ -75,11 +75,12 @@ impl QuantityError {
 ///
 /// * The text may omit the unit.
 /// * A single `m` after the number is the prefix milli. If `unit` is `m`, it is the unit metre
-/// instead, so `50m` means fifty metres.
+///   instead, so `50m` means fifty metres.
 /// * An angle may be in degrees, `30°` or `30 deg`.
 /// * If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
-/// # Errors Returns an error if the text is not a number, has another unit, or is not finite.
+/// # Errors
+/// Returns an error if the text is not a number, has another unit, or is not finite.
 ///
 /// ```
 /// use asperity_data::parse_quantity;

@@ -78,11 +78,9 @@ impl HeadLines {
     /// Returns the name, the meaning and the unit of each of `count` columns.
     ///
     /// * The names come from the last line that has a name for each column. If there is no such
-    ///   line, all
-    /// names are empty.
+    ///   line, all names are empty.
     /// * The units come from these names, or from a line of units below the names. `is_unit`
-    ///   returns true
-    /// for known units.
+    ///   returns true for known units.
     /// * A line may have up to `cells` cells. The cells beyond `count` are ignored.
     pub fn columns(
         &self,

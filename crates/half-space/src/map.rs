@@ -15,7 +15,8 @@ use std::f64::consts::TAU;
 /// are in m if `variance` returns m². With the same `seed` and more cells, the surface has the same
 /// waves and additional shorter waves.
 ///
-/// # Errors Returns an error if the heights do not fit into memory.
+/// # Errors
+/// Returns an error if the heights do not fit into memory.
 pub fn random_map(
     cells: usize,
     variance: impl Fn(f64) -> f64,

@@ -92,8 +92,7 @@ impl Operators {
     /// The pressures outside the contact are zero. The operator is P Eᵀ D E:
     ///
     /// * E extends the displacements smoothly beyond the contact, because zeros outside would act
-    ///   as a
-    /// wall at each edge.
+    ///   as a wall at each edge.
     /// * D multiplies each wave with the wave number q by E*|q|/2.
     /// * Eᵀ is the transpose of E, and P sets the pressures outside the contact to zero.
     ///

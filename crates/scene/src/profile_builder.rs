@@ -274,7 +274,8 @@ impl ProfileBuilder {
     /// Returns a scene with the profile of this builder, and with this modulus, adhesion and
     /// loading. [`CheckedScene::with`] can change the other fields of the scene.
     ///
-    /// # Errors Returns [`Error::Values`] if a value is out of its range.
+    /// # Errors
+    /// Returns [`Error::Values`] if a value is out of its range.
     pub fn scene(
         &self,
         modulus: Modulus,

@@ -194,7 +194,8 @@ impl Leg {
     /// Computes the motion in the opposite direction that begins at an indentation in m of this
     /// motion.
     ///
-    /// # Errors Returns [`ContactError::Stepwise`] if this motion was computed by the [stepwise
+    /// # Errors
+    /// Returns [`ContactError::Stepwise`] if this motion was computed by the [stepwise
     /// solver](crate::motion::Stepwise).
     pub fn turn(&self, indentation: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {

@@ -63,8 +63,8 @@ impl Choice {
     /// Returns `scene` with the chosen settings: the number of springs, the edge model and the
     /// exact solver.
     ///
-    /// # Errors Returns an error for each value of `scene` that is invalid with the chosen
-    /// settings.
+    /// # Errors
+    /// Returns an error for each value of `scene` that is invalid with the chosen settings.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
@@ -163,8 +163,9 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying`
 /// receives each number of springs before it is tried. The search ends if `stop` returns true.
 ///
-/// # Errors Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if
-/// the scene has the stepwise solver, if `stop` returned true, or if the scene cannot be computed.
+/// # Errors
+/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene
+/// has the stepwise solver, if `stop` returned true, or if the scene cannot be computed.
 ///
 /// ```
 /// use asperity_scene::discretisation::choose;

@@ -64,8 +64,7 @@ pub struct Estimate {
     ///
     /// * F_a of one of the two solutions differs from F_a of the outcome by more than 5 %.
     /// * The difference is at least three times smaller if the loads of this solution are 5 %
-    ///   smaller or
-    /// larger.
+    ///   smaller or larger.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,

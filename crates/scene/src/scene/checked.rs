@@ -68,7 +68,8 @@ impl CheckedScene {
     /// Returns this scene with changes that the function `change` makes. The changed scene is
     /// checked again.
     ///
-    /// # Errors Returns an error for each value that the change makes invalid.
+    /// # Errors
+    /// Returns an error for each value that the change makes invalid.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

@@ -143,16 +143,17 @@ impl Document {
     }
 
     /// Returns this document with fields changed one after the other. Each pair in `overrides` is
-    /// the path of a field and its new value in RON. A number may have an SI prefix and a unit: `50
-    /// mJ/m²`. The RON text `None` removes an optional part. The values are checked once, after all
-    /// changes.
+    /// the path of a field and its new value in RON. A number may have an SI prefix and a unit,
+    /// such as `50 mJ/m²`. The RON text `None` removes an optional part. The values are checked
+    /// once, after all changes.
     ///
     /// If a built-in scene is changed so that its solution differs, its title becomes the name of
     /// the scene with the word *changed*. Its notice, and the comments beside the changed values,
     /// are removed, because they would be false. A title, a notice or comments that the user has
     /// written stay.
     ///
-    /// # Errors Returns an error for each pair that cannot be read, and for each invalid value.
+    /// # Errors
+    /// Returns an error for each pair that cannot be read, and for each invalid value.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         Ok(self.overridden(overrides)?.with_true_words())
     }
@@ -221,7 +222,8 @@ impl Document {
     /// Returns this document with other loading stages. If a stage has an index, it keeps the text
     /// and the comments of the present stage with this index. A stage without an index is new.
     ///
-    /// # Errors Returns the same errors as [`Document::set`].
+    /// # Errors
+    /// Returns the same errors as [`Document::set`].
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
         let elements: Vec<_> = stages
             .iter()
@@ -348,7 +350,8 @@ impl Document {
     /// Returns this document with other names of measured files. `rename` receives each name and
     /// returns the new name. If a name changes, the text loses its comments.
     ///
-    /// # Errors Returns an error for each invalid value.
+    /// # Errors
+    /// Returns an error for each invalid value.
     pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(&self.scene);
         scene.rename_measured_files(rename);

@@ -294,10 +294,11 @@ impl Field {
     /// * A number may have an SI prefix and the unit of the field: `50 mJ/m²`, `16k`.
     /// * The text `none` omits an optional part.
     /// * A loading may be a list of stages in the notation of
-    /// [`loading_text`](crate::scene::stages::loading_text), such as `10 µN, separation`.
+    ///   [`loading_text`](crate::scene::stages::loading_text), such as `10 µN, separation`.
     ///
-    /// # Errors Returns an error for a number with another unit, a number too large for `f64`, or a
-    /// choice without its numbers.
+    /// # Errors
+    /// Returns an error for a number with another unit, a number too large for `f64`, or a choice
+    /// without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // Outputs show an omitted part as `none`.

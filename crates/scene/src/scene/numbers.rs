@@ -24,8 +24,9 @@ impl Scene {
     /// Sets the numerical value at a path without checking its range. If the scene has no such
     /// value yet, the value is added.
     ///
-    /// # Errors Returns an error if the scene cannot have a numerical value at this path, or if the
-    /// new value contradicts another value. The scene then stays unchanged.
+    /// # Errors
+    /// Returns an error if the scene cannot have a numerical value at this path, or if the new
+    /// value contradicts another value. The scene then stays unchanged.
     ///
     /// ```
     /// use asperity_scene::fields::NumberError;

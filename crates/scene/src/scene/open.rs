@@ -93,7 +93,8 @@ pub fn is_path(name: &str) -> bool {
 /// input. Any other argument is opened as by [`open`]. A pipe or a device is read to its end, so
 /// the function may wait for another program.
 ///
-/// # Errors Returns the same errors as [`open`].
+/// # Errors
+/// Returns the same errors as [`open`].
 pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
     if argument == "-" {
         return document_of(text_of_stream(io::stdin().lock()), "standard input");

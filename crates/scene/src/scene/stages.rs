@@ -215,7 +215,8 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 /// value of a stage. The kind of this stage is the item of [`StageKind::ALL`] with the index
 /// `usual`. If `usual` is `None`, the number is a force in N.
 ///
-/// # Errors Returns an error if the text is not a stage.
+/// # Errors
+/// Returns an error if the text is not a stage.
 ///
 /// ```
 /// use asperity_contact::Move;

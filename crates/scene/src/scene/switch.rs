@@ -18,7 +18,8 @@ impl Document {
     /// work of adhesion replaces κ or e_el/γ, because these parameters need a roughness. If the
     /// unloading is removed, one loading stage remains.
     ///
-    /// # Errors Returns an error if the scene is not valid without this part.
+    /// # Errors
+    /// Returns an error if the scene is not valid without this part.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -57,8 +58,9 @@ impl Document {
     /// removed the part before, the part gets its former values back. Otherwise it gets values that
     /// suit the scene.
     ///
-    /// # Errors Returns an error if the part is impossible in the scene, such as roughness on a
-    /// single spring.
+    /// # Errors
+    /// Returns an error if the part is impossible in the scene, such as roughness on a single
+    /// spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -90,7 +92,8 @@ impl Document {
     /// Returns this document with the values of `scene`. Only the text of values that differ is
     /// replaced.
     ///
-    /// # Errors Returns an error for each invalid value.
+    /// # Errors
+    /// Returns an error for each invalid value.
     pub fn with_scene(&self, scene: &Scene) -> Result<Document, SceneErrors> {
         self.set_all(&overrides_to(self.scene(), scene))
     }
@@ -98,7 +101,8 @@ impl Document {
     /// Returns this document with another adhesion. Only the text of values that differ is
     /// replaced.
     ///
-    /// # Errors Returns an error if a value is invalid.
+    /// # Errors
+    /// Returns an error if a value is invalid.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
         self.with_scene(&Scene {
             adhesion: Some(adhesion),
@@ -111,7 +115,8 @@ impl Document {
     /// If the field is an optional part ([`Effect`]), a further choice is the RON text `None`,
     /// which removes the part. Returns `None` if there is no other choice.
     ///
-    /// # Errors Returns an error if the scene allows none of the other choices.
+    /// # Errors
+    /// Returns an error if the scene allows none of the other choices.
     pub fn with_next_choice(
         &self,
         field: &Field,

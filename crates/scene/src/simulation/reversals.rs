@@ -26,8 +26,9 @@ impl Simulation {
     /// ascending order of the indentation. `see` receives the index of each stage in `ends` and its
     /// unloading. The unloading has forces at the ascending indentations `points` in m.
     ///
-    /// # Errors Returns an error if the scene has the stepwise solver, if the profile cannot be
-    /// computed, if the contact cannot reach the end of a stage, or if `stop` returned true.
+    /// # Errors
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if
+    /// the contact cannot reach the end of a stage, or if `stop` returned true.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -74,8 +75,9 @@ impl Simulation {
     /// If `preloads` is `None`, the first turning point is at first touch, and the last one at the
     /// preload of the scene.
     ///
-    /// # Errors Returns the same errors as [`Simulation::reverse`]. Also returns an error if the
-    /// loading never presses the bodies together.
+    /// # Errors
+    /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading
+    /// never presses the bodies together.
     ///
     /// ```
     /// use asperity_scene::{Simulation, open};

@@ -404,7 +404,8 @@ impl Simulation {
     /// Returns a warning for each premise of the model that a scene does not meet before its
     /// loading. The warnings concern the fields of the scene, its measured surface and its profile.
     ///
-    /// # Errors Returns the same errors as [`Self::make_line`].
+    /// # Errors
+    /// Returns the same errors as [`Self::make_line`].
     pub fn warnings(&mut self, scene: &CheckedScene) -> Result<Vec<Warning>, RunError> {
         let (.., governing) = self.line_of(scene)?;
         Ok(self.warnings_before_loading(scene, &governing)?)

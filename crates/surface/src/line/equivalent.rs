@@ -58,8 +58,9 @@ impl EquivalentLine {
     /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face), the surfaces
     /// that touch each other.
     ///
-    /// # Errors Returns [`SurfaceError`] for a face without a file, and for a file that holds no
-    /// surface or has no spectrum.
+    /// # Errors
+    /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or
+    /// has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut spectra = Vec::new();
         for face in faces {
@@ -71,8 +72,9 @@ impl EquivalentLine {
     /// Computes the heights in m of a random profile of the length `length` in m. The heights are
     /// at the middles of `points` equal cells. `seed` determines the random phases of the waves.
     ///
-    /// # Errors Returns an error if no wave of the spectrum fits the length and is resolved by the
-    /// points, or if the memory is too small.
+    /// # Errors
+    /// Returns an error if no wave of the spectrum fits the length and is resolved by the points,
+    /// or if the memory is too small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
         let modes = self.modes(length, points)?;
         check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
@@ -223,7 +225,8 @@ impl MeasuredRoughness {
     /// If [`MeasuredOptions::as_line`] is given and there is only one file, the profile in this
     /// file is the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
     ///
-    /// # Errors Returns an error if a file holds no surface, or if its surface has no spectrum.
+    /// # Errors
+    /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         if let [face] = faces
             && let [(path, content)] = &face[..]

@@ -23,11 +23,9 @@ pub struct MeasuredOptions {
     /// Use of the profile in the file as the rigid profile itself, after removal of a polynomial.
     ///
     /// * If a polynomial is given, the profile is already an equivalent line. The rigid profile is
-    ///   this
-    /// profile without the polynomial.
+    ///   this profile without the polynomial.
     /// * `None` means that the profile is a cut through a surface. The rigid profile is then an
-    ///   equivalent
-    /// line of this surface: a random profile with the measured spectrum.
+    ///   equivalent line of this surface: a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
@@ -147,7 +145,8 @@ impl MeasuredProfile {
     /// L = `length` in m, by linear interpolation. The positions are x = (i + ½ − `shift`)L/N from
     /// the beginning of the profile. A constant may be subtracted from all heights.
     ///
-    /// # Errors Returns an error if the profile is shorter than `length`.
+    /// # Errors
+    /// Returns an error if the profile is shorter than `length`.
     ///
     /// ```
     /// use asperity_surface::lines::{MeasuredOptions, MeasuredProfile};

@@ -35,8 +35,9 @@ impl Line {
     /// already be displaced by [`Form::shift`], so that they fit to the axis of the form. The
     /// profile of a punch has only the springs under its flat end ([`Form::springs_under`]).
     ///
-    /// # Errors Returns an error if the memory is too small, if a height is not finite, or if no
-    /// spring lies under a punch.
+    /// # Errors
+    /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies
+    /// under a punch.
     ///
     /// ```
     /// use asperity_surface::Form;

@@ -143,7 +143,8 @@ impl FormTable {
     /// Creates a body of revolution from its depths in m below the apex at two or more radii in m.
     /// The radii ascend from 0.
     ///
-    /// # Errors Returns an error that names the row at fault and the allowed values.
+    /// # Errors
+    /// Returns an error that names the row at fault and the allowed values.
     ///
     /// ```
     /// let cone = asperity_surface::FormTable::new(vec![0.0, 1e-6, 2e-6], &[0.0, 1e-7, 2e-7])?;

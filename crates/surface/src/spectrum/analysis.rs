@@ -95,9 +95,10 @@ impl Analysis {
 
 /// Analyses several surfaces of the same isotropic roughness together.
 ///
-/// # Errors Returns an error for a surface with uneven points, with too few points or without
-/// roughness. Also returns an error if [`AnalysisOptions::end`] lets the spectrum continue to a
-/// wave number that the points resolve already.
+/// # Errors
+/// Returns an error for a surface with uneven points, with too few points or without roughness.
+/// Also returns an error if [`AnalysisOptions::end`] lets the spectrum continue to a wave number
+/// that the points resolve already.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

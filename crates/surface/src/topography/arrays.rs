@@ -29,8 +29,9 @@ impl Topography {
     /// the distance in m between neighbouring points of a row, and the distance in m between
     /// neighbouring rows. A map of a single row or a single column is a profile.
     ///
-    /// # Errors Returns the errors of [`Topography::from_profile`], and an error for a number of
-    /// heights that is no multiple of `columns`.
+    /// # Errors
+    /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights
+    /// that is no multiple of `columns`.
     ///
     /// ```
     /// let map = asperity_surface::Topography::from_map(
@@ -60,8 +61,9 @@ impl Topography {
     /// replacement of outliers and interpolation of missing points. A height of NaN is a missing
     /// point. The other arguments are those of [`Topography::from_map`].
     ///
-    /// # Errors Returns the errors of [`Topography::from_map`], and an error for missing points
-    /// that the options do not interpolate.
+    /// # Errors
+    /// Returns the errors of [`Topography::from_map`], and an error for missing points that the
+    /// options do not interpolate.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, Topography};

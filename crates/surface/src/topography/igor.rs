@@ -176,8 +176,9 @@ pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
 impl<'a> IgorWave<'a> {
     /// Parses the content of a file with a binary wave.
     ///
-    /// # Errors Returns [`SurfaceError`] if the file is not a wave, is cut off, or does not contain
-    /// real numbers.
+    /// # Errors
+    /// Returns [`SurfaceError`] if the file is not a wave, is cut off, or does not contain real
+    /// numbers.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SurfaceError> {
         let Some(layout) = Layout::of(bytes) else {
             let found = "no headers of a binary wave of Igor";

@@ -110,7 +110,8 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
 
 /// Parses the content of a file that has a single measurement, and returns its surface.
 ///
-/// # Errors Returns the errors of [`read`], and an error for a file with several measurements.
+/// # Errors
+/// Returns the errors of [`read`], and an error for a file with several measurements.
 ///
 /// ```
 /// use asperity_surface::{ReadOptions, parse};

@@ -14,8 +14,9 @@ pub(in crate::scene) const NOT_ONE_VALUE: &str =
 impl Text {
     /// Returns the text with `value` in place of the present value at a path.
     ///
-    /// # Errors Returns an error if the text has no value at the path, or if `value` is not exactly
-    /// one value.
+    /// # Errors
+    /// Returns an error if the text has no value at the path, or if `value` is not exactly one
+    /// value.
     pub fn replace(&self, path: &str, value: &str) -> Result<Text, String> {
         let entry = self.span(path).ok_or("there is no such element")?;
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
@@ -25,8 +26,8 @@ impl Text {
     /// path means the whole text. `order` lists names in the order of their entries: the new entry
     /// comes after the entries whose names are before `name` in this list.
     ///
-    /// # Errors Returns an error if there is no group at the path, or if `value` is not exactly one
-    /// value.
+    /// # Errors
+    /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
     pub fn insert(
         &self,
         group: &str,
