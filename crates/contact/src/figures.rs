@@ -61,7 +61,7 @@ impl Figures {
     }
 
     /// Computes the figures of a history with two stages. The first stage loads the separated body
-    /// to the target `leg`. The second stage, `reversal`, unloads it back to separation.
+    /// to the target `leg`. The second stage is `reversal`, the unloading back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {

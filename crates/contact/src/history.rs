@@ -268,7 +268,7 @@ pub struct Work {
     pub random_phases: u64,
     /// Number of Fourier transforms over the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the points of the
+    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree). A node is a point of the
     /// profile at which two patches can merge.
     pub tree_nodes: u64,
     /// Number of times that the solver passed over the contact tree to compute a loading.

@@ -30,8 +30,8 @@ pub struct Piece<R> {
     pub to: f64,
 }
 
-/// Part of a motion between two indentations. It has the events inside, the indentations at which
-/// springs attach or detach.
+/// Part of a motion between two indentations, with the events inside this part. An event is an
+/// indentation at which springs attach or detach.
 pub struct Interval<R> {
     slides: bool,
     /// Number of springs parallel to the contact that represent the instrument; see

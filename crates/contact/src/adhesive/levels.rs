@@ -36,7 +36,7 @@ pub enum Edges {
 }
 
 impl Edges {
-    /// Returns the name of the edge model as scene files have it.
+    /// Returns the name by which scene files state where the edges of patches may lie.
     pub fn name(self) -> &'static str {
         match self {
             Edges::Grid => "Grid",
@@ -88,7 +88,8 @@ impl Span {
         }
     }
 
-    /// Returns this span extended by `wall`, the neighbouring spring that attaches next.
+    /// Returns this span extended by the neighbouring spring with the index `wall`, which attaches
+    /// next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let mut span = *self;
@@ -188,7 +189,7 @@ pub struct EdgeCell {
     /// Gap in m of the first spring outside. It is infinite if the patch reaches the end of the
     /// foundation, which is half a cell away from the last spring.
     outside: f64,
-    /// Share of the length of the cell whose gap is at most the level.
+    /// Share of the length of the cell on which the gap is at most the level of the edge.
     pub share: f64,
     /// Growth of the share with the level in 1/m. It is zero if the share is constant or jumps.
     growth: f64,
@@ -303,8 +304,8 @@ impl Levels {
     }
 
     /// Returns the indentation in m at which pinned edges of a patch begin to move, and how they
-    /// move: true if they slide, false if they jump. The edges are pinned `rise` (m) above the
-    /// largest gap of the patch.
+    /// move: true if they slide, false if they jump. Edges are pinned while they stay in place
+    /// although the body moves. `rise` is their height in m above the largest gap of the patch.
     #[inline]
     pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -315,7 +316,7 @@ impl Levels {
 }
 
 /// The two edge cells of a patch at all indentations at which the patch consists of the same
-/// springs. As the indentation changes, the edges either slide or remain pinned at the same gap.
+/// springs. As the indentation changes, the edges either slide, or are pinned and stay in place.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<R> {
     levels: Levels,
@@ -334,8 +335,8 @@ pub struct Slider<R> {
 
 impl<R: DetachmentRule> Slider<R> {
     /// Creates the two edge cells of a patch that consists of the springs of `span`. `pin` is
-    /// `None` if the edges slide. If the edges are pinned, `pin` is their height in m above the
-    /// largest gap of the patch.
+    /// `None` if the edges slide. If the edges are pinned and stay in place, `pin` is their height
+    /// in m above the largest gap of the patch.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);

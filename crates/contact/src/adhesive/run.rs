@@ -36,8 +36,8 @@ pub struct Run {
     /// Upper bound of the indentations of the run in m; the bound does not belong to the run. It is
     /// +∞ if the patch is already in contact when an unloading begins.
     pub to: f64,
-    /// Height of the edges of the patch above its largest gap in m, if the edges are pinned. NaN if
-    /// the edges are free to move.
+    /// Height in m of pinned edges above the largest gap of the patch. Pinned edges stay in place
+    /// although the body moves. NaN if the edges are free to move.
     pub pin: f64,
     /// First and last spring of the patch at its smallest, at the lower end of the range.
     pub bottom: [u32; 2],
@@ -52,8 +52,8 @@ pub struct HeldPatch {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height of the edges of the patch above its largest gap in m, if the edges are pinned. `None`
-    /// if the edges are free to move.
+    /// Height in m of pinned edges above the largest gap of the patch. Pinned edges stay in place
+    /// although the body moves. `None` if the edges are free to move.
     pub pin: Option<f64>,
 }
 
@@ -104,8 +104,8 @@ impl Run {
         }
     }
 
-    /// Returns the height of the edges above the largest gap in m, if the edges are pinned. Returns
-    /// `None` if the edges are free to move.
+    /// Returns the height in m of pinned edges above the largest gap of the patch. Pinned edges
+    /// stay in place although the body moves. Returns `None` if the edges are free to move.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -149,17 +149,18 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Returns the gap in m at which the edges of a patch lie, its level, at an indentation in m.
-    /// The patch consists of the springs of `span`. If the edges are pinned, `pin` is their height
-    /// in m above the largest gap of the patch; `None` if the edges are free to move.
+    /// Returns the gap in m at which the edges of a patch lie, at an indentation in m. The patch
+    /// consists of the springs of `span`. `pin` is the height in m of the edges above the largest
+    /// gap of the patch if they are pinned, which means that they stay in place. `pin` is `None` if
+    /// the edges are free to move.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
     /// Returns how far the edges of a patch lie above the largest gap of the patch, in m, at an
-    /// indentation in m. If the edges are pinned, `pin` is this height; `None` if the edges are
-    /// free to move.
+    /// indentation in m. `pin` is this height if the edges are pinned, which means that they stay
+    /// in place although the body moves. `pin` is `None` if the edges are free to move.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))

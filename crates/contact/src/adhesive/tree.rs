@@ -36,13 +36,14 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in m in the subtree of the node.
+    /// Smallest gap in m of the springs between the two ends of the patch that forms at this local
+    /// maximum.
     pub lowest: f64,
     /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
-    /// Number of nodes in the subtree of the node, including the node.
+    /// Number of local maxima in the subtree of this one, including this one.
     pub size: u32,
-    /// Number of nodes in the subtree to the right of the local maximum.
+    /// Number of local maxima in the right part of the subtree.
     pub right: u32,
 }
 
@@ -65,8 +66,8 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the node of the tree at which the branch begins. If the branch begins at a local
-    /// minimum of the gap, returns `Err` with the index of this minimum among all minima.
+    /// Returns the index of the local maximum at which the branch begins. If the branch begins at a
+    /// local minimum of the gap, returns `Err` with the index of this minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;

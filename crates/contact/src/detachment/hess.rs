@@ -120,7 +120,7 @@ impl DetachmentRule for HessRule {
 }
 
 impl Rules<HessRule> {
-    /// The rules of a contact without adhesion: no patch bears any stretch.
+    /// The rules of a contact without adhesion, which allow no stretch of the springs.
     pub const NO_ADHESION: Self = Rules {
         closing: HessRule { stretch: 0.0 },
         opening: HessRule { stretch: 0.0 },

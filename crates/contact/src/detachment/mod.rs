@@ -32,11 +32,11 @@ const MOST_DOUBLINGS: usize = 1000;
 /// springs, the level is between `gap` and `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
-    /// Largest gap of the patch in m, the lowest level.
+    /// Largest gap of the patch in m, which is its lowest level.
     pub gap: f64,
     /// Length of the patch in cells when its edges lie at the largest gap of the patch.
     pub length: f64,
-    /// Growth of the length in cells per metre of the level.
+    /// Growth of the length in cells for each metre of the level.
     pub growth: f64,
     /// Highest level in m: the gap of the spring that attaches next. Infinite if the patch fills
     /// the profile.

@@ -142,7 +142,7 @@ impl Leg {
         }
     }
 
-    /// Creates the leg of a motion in which the body touches no spring.
+    /// Creates a motion in which the body touches no spring.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {
             contact: contact.clone(),
@@ -182,7 +182,7 @@ impl Leg {
         }
     }
 
-    /// Computes the leg of a loading that begins with a separated body.
+    /// Computes the motion of a loading that begins with a separated body.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if !contact.has_adhesion() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
@@ -259,7 +259,7 @@ impl Leg {
         }
     }
 
-    /// Returns the contact to which the leg belongs.
+    /// Returns the contact whose motion this is.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
@@ -278,7 +278,7 @@ impl Leg {
         self.end
     }
 
-    /// Returns the memory in bytes that this leg uses, without the memory of its contact.
+    /// Returns the memory in bytes that this motion uses, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => {

@@ -1,4 +1,5 @@
-//! Search for the smallest number of springs that reaches a tolerance, with either edge model.
+//! Search for the smallest number of springs that reaches a tolerance. The edges of patches lie
+//! either between springs or so that patches consist of whole springs.
 
 use super::estimate::{Estimate, Evidence, own_errors};
 use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -60,8 +61,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Returns `scene` with the chosen settings: the number of springs, the edge model and the
-    /// exact solver.
+    /// Returns `scene` with the chosen number of springs, the chosen edges of patches and the exact
+    /// solver.
     ///
     /// # Errors
     /// Returns an error for each value of `scene` that is invalid with the chosen settings.

@@ -77,7 +77,8 @@ pub struct ErrorFigure {
     /// ([`CostReference::errors`]).
     pub resolved: bool,
     /// Order of convergence p from the previous row to this row: if the setting becomes r times
-    /// finer, the error becomes r^p times smaller. `None` unless `resolved` is true in both rows.
+    /// finer, the error becomes r^p times smaller. `None` unless the errors of both rows are large
+    /// enough to be measured (`resolved`).
     pub order: Option<f64>,
 }
 

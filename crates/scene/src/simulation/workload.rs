@@ -149,8 +149,8 @@ pub struct Workload {
     /// Approximate largest memory of a computation in bytes, without the program itself, measured
     /// files and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run` in bytes, including the program
-    /// itself.
+    /// Approximate largest resident memory, in bytes, of the command `asperity run`, including the
+    /// program itself.
     pub resident_bytes: u64,
     /// All parts of the computation, including those that are skipped.
     pub stages: Vec<PlannedStage>,

@@ -44,9 +44,8 @@ pub(super) struct ReadingChanges {
 }
 
 impl SpectrumFits {
-    /// Finds the range of the waves with significant power. If `end` lets the spectrum continue to
-    /// a wave number, returns an error unless this wave number is larger than those of the resolved
-    /// waves.
+    /// Finds the range of the waves with significant power. `end` may let the spectrum continue to
+    /// a wave number. Returns an error if the points already resolve this wave number.
     pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
         let range = powers.range(|waves| last_significant(waves, has_gaps));
         let resolved = powers.range(|waves| waves.len());
@@ -70,8 +69,8 @@ impl SpectrumFits {
         self.range.last
     }
 
-    /// Fits an isotropic spectrum C2D to the observed powers. The spectrum is given by its values
-    /// at nodes, which are wave numbers.
+    /// Fits an isotropic spectrum C2D to the observed powers. The fitted spectrum is given by its
+    /// values at several wave numbers, the nodes.
     pub fn isotropic(
         &self,
         observations: &[Observation],
@@ -123,7 +122,7 @@ impl SpectrumFits {
     }
 
     /// Returns the largest relative changes of the integrals ∫ q^p C2D dq, p = 1, 2, 3, if the
-    /// surface has waves beyond the last resolved wave.
+    /// surface has shorter waves than the points resolve.
     pub fn missing_waves(
         &self,
         observations: &[Observation],

@@ -38,7 +38,7 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
-    /// Wave number q of the node in rad/m.
+    /// Wave number q in rad/m.
     pub wave_number: f64,
     /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
@@ -76,8 +76,8 @@ pub(super) struct Integral {
 
 impl IsotropicSpectrum {
     /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. The
-    /// density is constant below the first node, and zero above the last wave number of the
-    /// spectrum.
+    /// density is constant below the first wave number at which the spectrum is given (its first
+    /// node). It is zero above the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -98,8 +98,8 @@ impl IsotropicSpectrum {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the wave number in rad/m of the last node, which is the shortest wave that the
-    /// measured points resolve.
+    /// Returns the largest wave number in rad/m at which the spectrum is given, its last node. It
+    /// is that of the shortest wave that the measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
@@ -116,7 +116,8 @@ impl IsotropicSpectrum {
         shorter
     }
 
-    /// Returns the spectrum and its error at each node, in the order of the wave numbers.
+    /// Returns the spectrum and its error at each wave number at which the spectrum is given, in
+    /// ascending order.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);

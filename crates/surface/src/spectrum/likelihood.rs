@@ -20,8 +20,8 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Creates a model for observations in a range of wave numbers. The spectrum of the model is
-    /// given at nodes over this range.
+    /// Creates a model for observations in a range of wave numbers. The model gives a spectrum by
+    /// its values at wave numbers in this range, the nodes.
     pub fn new(observations: &'a [Observation], range: WaveRange, end: End) -> Self {
         let nodes = Nodes::new(range, NODES_PER_DECADE, end);
         let terms = observations
@@ -85,7 +85,8 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes.
+    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes, the wave
+    /// numbers at which the spectrum is given.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

@@ -32,8 +32,8 @@ pub(super) struct MapPower {
 }
 
 impl MapPower {
-    /// Computes the power spectrum of a map. If each row was levelled, waves that run across the
-    /// rows are left out, because levelling changes these waves.
+    /// Computes the power spectrum of a map. If each row was levelled, the waves across the rows
+    /// are left out, because levelling changes these waves.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);

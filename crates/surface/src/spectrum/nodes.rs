@@ -6,11 +6,11 @@ use super::quadrature::{GaussPoint, gauss};
 /// Whether a spectrum continues beyond the shortest wave that the measured points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// The surface has no waves shorter than the last resolved one.
+    /// The surface has no waves shorter than the shortest wave that the points resolve.
     #[default]
     Ends,
     /// The surface has shorter waves, up to this wave number in rad/m. Their spectrum is a power
-    /// law, which continues the spectrum between the last two nodes.
+    /// law, which continues the last part of the measured spectrum.
     Continues(f64),
 }
 
@@ -37,7 +37,8 @@ pub(super) struct Nodes {
 /// Place of a wave number between two neighbouring nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
-    /// Index of the node at or below the wave number.
+    /// Index of the node (a wave number at which the spectrum is given) at or below the wave
+    /// number.
     pub index: usize,
     /// Distance from this node in ln q, divided by the distance between two nodes.
     pub share: f64,
@@ -73,8 +74,9 @@ impl Piece {
 }
 
 impl Nodes {
-    /// Creates nodes over a range of wave numbers, with `per_decade` nodes per decade. `end` states
-    /// whether the spectrum continues beyond this range.
+    /// Creates nodes, the wave numbers at which a spectrum is given. They cover `range` with
+    /// `per_decade` nodes per decade. `end` states whether the spectrum continues beyond this
+    /// range.
     pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
         let ratio = range.last / range.first;
         let pieces = (per_decade * ratio.log10()).ceil().max(2.0);
@@ -151,7 +153,8 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// Returns the value of the term. `values` is ln C2D at the nodes.
+    /// Returns the value of the term. `values` is ln C2D at the nodes, the wave numbers at which
+    /// the spectrum is given.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * self.place.interpolate(values).exp()
     }
