@@ -66,8 +66,9 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the index of the local maximum at which the branch begins. If the branch begins at a
-    /// local minimum of the gap, returns `Err` with the index of this minimum among all minima.
+    /// Returns the index of the node, a local maximum of the gap, at which the branch begins. If
+    /// the branch begins at a local minimum of the gap, returns `Err` with the index of this
+    /// minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
