@@ -42,8 +42,8 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: the [`Leg`] of the motion and the range of indentations that the
-/// body passed.
+/// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Leg`] of
+/// the motion, which gives the contact at each of them.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -63,7 +63,7 @@ pub struct Body {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Motion {
-    /// Leg of the motion, which gives the contact at each indentation of the motion.
+    /// Contact at each indentation of the motion.
     pub leg: Leg,
     /// Smallest indentation in m that the body passed on the motion.
     pub low: f64,
@@ -118,12 +118,12 @@ impl Body {
         Self::on(leg, ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at this indentation in m of the motion `leg`. The body can continue the
+    /// Creates a body at an indentation in m within the motion `leg`. The body can continue this
     /// motion or turn back.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the
-    /// [stepwise solver](crate::motion::Stepwise).
+    /// Returns [`ContactError::Stepwise`] if the motion was computed by the [stepwise
+    /// solver](crate::motion::Stepwise).
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -434,10 +434,10 @@ impl Body {
     }
 
     /// Computes the unloading to separation from several turning points. Each turning point is the
-    /// point at which a loading from separation reaches one of the targets. `see` is called with
-    /// the index of each target and its [`Reversal`], in ascending order of the indentation at the
-    /// turning point. [`Reversal::forces`] are computed at the indentations `points`, which are in
-    /// m and in ascending order.
+    /// point at which a loading from separation reaches one of the targets. `see` is called for
+    /// each target in ascending order of the indentation at the turning point. Its arguments are
+    /// the index of the target and the [`Reversal`]. [`Reversal::forces`] are computed at the
+    /// indentations `points`, in m and in ascending order.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach, and for a target at which the
@@ -480,10 +480,10 @@ impl Body {
         Ok(indentation)
     }
 
-    /// Returns two adhesion forces in N: F_a(d=0) after a loading that ends at first touch, and
-    /// F_a(F=0) after a loading that ends where the force is back at zero. An adhesion force is
-    /// `None` if the force of the unloading stays above zero. F_a(F=0) is also `None` if the
-    /// loading never returns to zero force.
+    /// Returns two adhesion forces in N. The first, F_a(d=0), follows a loading that ends at first
+    /// touch. The second, F_a(F=0), follows a loading that ends where the force has returned to
+    /// zero. An adhesion force is `None` if the force of the unloading stays above zero. F_a(F=0)
+    /// is also `None` if the force of the loading never returns to zero.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -604,15 +604,15 @@ pub struct Reversal {
     pub dissipated_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the loading.
     pub reaches_ends: bool,
-    /// Forces in N on unloading, at the argument `indentations` of [`Contact::reversals`].
+    /// Forces in N on unloading, at the indentations that were passed to [`Contact::reversals`].
     /// Indentations above the turning point are left out. At indentations below `separation` the
     /// force is 0.
     pub forces: Vec<f64>,
 }
 
 impl Reversal {
-    /// Returns the adhesion force F_a in N: the smallest force with the opposite sign. Returns
-    /// `None` if the smallest force is above zero.
+    /// Returns the adhesion force F_a in N: the smallest force of the unloading, with the opposite
+    /// sign. Returns `None` if the smallest force is above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
         // 0.0 − F instead of −F, because −F would be −0 for a force of zero.
         let adhesion_force = 0.0 - self.smallest.force;

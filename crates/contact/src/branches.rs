@@ -64,7 +64,8 @@ impl Branch {
         branches
     }
 
-    /// Returns the last branch that unloads a body in contact; `None` if no branch does.
+    /// Returns the last branch that moves a body in contact away from the foundation. Returns
+    /// `None` if no branch does so.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
         let mut branches = Branch::all(legs).into_iter();
         branches.rfind(|branch| {
@@ -81,8 +82,8 @@ impl Branch {
         stages_in_contact(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the preload, the point of the largest force on loading before the last unloading, and
-    /// the index of its stage. Only the loading since the last separation counts.
+    /// Finds the point of the preload, and the index of its stage. The preload is the largest force
+    /// on loading before the last unloading; only the loading since the last separation counts.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
@@ -126,12 +127,13 @@ impl Branch {
         largest.max_by(|(_, point), (_, other)| point.force.total_cmp(&other.force))
     }
 
-    /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of
-    /// its stage. Returns `None` in three cases:
+    /// Finds the point of the pull-off, and the index of its stage. The pull-off is the smallest
+    /// force of the last unloading. Returns `None` in three cases:
     ///
     /// * the smallest force is above zero;
     /// * the unloading ends in contact while the force is still falling;
-    /// * the unloading ends in contact, and its rest up to separation has a smaller force.
+    /// * the unloading ends in contact, and a further unloading to separation would pass a smaller
+    ///   force.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;
         let (stage, least) = unloading.smallest(legs)?;
@@ -147,9 +149,8 @@ impl Branch {
         (least.force <= 0.0 && is_passed).then_some((stage, least))
     }
 
-    /// Returns a warning if the last unloading ends in contact and a further unloading would pull
-    /// with a larger force. Returns `None` if the pull-off force has been passed, or if no force
-    /// pulls.
+    /// Returns a warning if the last unloading ends in contact before the largest tensile force is
+    /// reached. Returns `None` if the pull-off force has been passed, or if no tensile force acts.
     pub fn ends_in_contact(legs: &[LegRecord]) -> Option<Warning> {
         let unloading = Branch::last_unloading(legs)?;
         let (_, least) = unloading.smallest(legs)?;

@@ -158,8 +158,8 @@ impl Contact {
         }
     }
 
-    /// Copies the contact for the stepwise solver. In the copy, patches consist of whole springs,
-    /// and the instrument is rigid.
+    /// Returns a copy of the contact for the stepwise solver. In the copy, patches consist of whole
+    /// springs, and the instrument is rigid.
     pub(super) fn of_whole_springs(&self) -> Self {
         Contact {
             edges: Edges::Grid,
@@ -169,8 +169,9 @@ impl Contact {
         }
     }
 
-    /// Creates a builder for a contact with another modulus and the same profile and edge model.
-    /// The new contact has no adhesion and a rigid instrument unless the builder sets them.
+    /// Creates a builder for a contact with the same profile and edge model, but another modulus.
+    /// The edge model states where the edges of contact patches may lie. The new contact has no
+    /// adhesion and a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -227,7 +228,8 @@ impl Contact {
         &self.profile
     }
 
-    /// Returns the gap of each spring in m: the depth of the profile there below its highest point.
+    /// Returns the gap of each spring in m: how far the profile at this spring lies below the
+    /// highest point of the profile.
     pub fn gaps(&self) -> &[f64] {
         self.profile.gaps()
     }
@@ -258,14 +260,15 @@ impl Contact {
         self.rules.is_some()
     }
 
-    /// Returns the rules of attachment and detachment. Without adhesion, the rules have a largest
-    /// stretch of zero.
+    /// Returns the rules of attachment and detachment. Without adhesion, the rules allow no
+    /// stretch.
     pub(super) fn rules(&self) -> Rules<ContactRule> {
         self.rules.unwrap_or(Rules::<ContactRule>::NO_ADHESION)
     }
 
-    /// Returns the closing thresholds for a loading from separation: the indentations at which the
-    /// nodes of the contact tree close. The first call computes them with `close` and stores them.
+    /// Returns the closing thresholds: the indentations at which the nodes of the contact tree
+    /// close on a loading from separation. They are computed with `close` at the first call, and
+    /// stored.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,

@@ -56,10 +56,10 @@ impl ContactState {
         }
     }
 
-    /// Adds the instrument as `springs` springs that lie parallel to the contact and are compressed
-    /// by the indentation d. The common force of contact and instrument is then F + k d, where k is
-    /// the stiffness of the instrument. The instrument at the displacement D holds the body where
-    /// this force equals k D.
+    /// Returns the state of the contact together with the instrument. The instrument is represented
+    /// by `springs` springs that lie parallel to the contact and are compressed by the indentation
+    /// d. The common force is then F + k d, where k is the stiffness of the instrument. An
+    /// instrument at the displacement D holds the body where the common force equals k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
         if springs == 0.0 {
@@ -88,7 +88,7 @@ impl ContactState {
 /// Converts a number of springs or patches in contact to an unsigned number.
 ///
 /// # Panics
-/// Panics for a negative number. Only a defect of the sums can cause such a number, which must not
+/// Panics for a negative number. Such a number occurs only if the sums have a defect, and must not
 /// appear in a result.
 pub fn counted(number: i64) -> u64 {
     assert!(
@@ -132,8 +132,8 @@ impl Tally {
         }
     }
 
-    /// Returns the range of indentations in m for which [`Tally::place`] returns the index `place`:
-    /// above the first returned value and up to the second.
+    /// Returns the range of indentations in m for which [`Tally::place`] returns the index `place`.
+    /// The first value does not belong to the range; the second does.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = match place {
@@ -144,23 +144,24 @@ impl Tally {
         (below, at_most)
     }
 
-    /// Adds whole springs or cells that are in contact at the point `place` and at all later
-    /// points.
+    /// Adds whole springs or cells that are in contact at the point with the index `place` and at
+    /// all later points of the grid.
     #[inline]
     pub fn begin(&mut self, place: usize, totals: ContactTotals) {
         self.changes[place] += totals;
     }
 
-    /// Adds whole springs or cells that are in contact at the points `carries` of the grid.
+    /// Adds whole springs or cells that are in contact at the points of the grid with the indices
+    /// `carries`.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
         self.changes[carries.start] += totals;
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds the edge cells of a patch, which are partly in contact at the points `carries` of the
-    /// grid. Their lengths and compressions differ from point to point, so they are computed at
-    /// each point.
+    /// Adds the edge cells of a patch, the cells at its ends that are only partly in contact. They
+    /// bear load at the points of the grid with the indices `carries`. Their lengths and
+    /// compressions differ from point to point, so they are computed at each point.
     #[inline]
     pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
@@ -184,8 +185,8 @@ impl Tally {
     }
 }
 
-/// Returns those intervals between neighbouring points of a sampled motion for which `may_lie` is
-/// true. The arguments of `may_lie` are the contacts at the two ends of the interval.
+/// Returns the intervals between neighbouring points of a sampled motion in which a searched point
+/// may lie. The function `may_lie` decides this from the contacts at the two ends of an interval.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -202,10 +203,11 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true if `state` is more extreme than `best`: if it has a smaller force in a search
-    /// for the smallest force, or a larger force in a search for the largest. If both forces are
-    /// equal, the smaller indentation counts in the first case, and the larger indentation in the
-    /// second. The result of a search then does not depend on its order.
+    /// Returns true if the force of `state` is more extreme than the force of `best`. In a search
+    /// for the smallest force, more extreme means smaller; in a search for the largest force it
+    /// means larger. If both forces are equal, the smaller indentation counts in the first case,
+    /// and the larger one in the second. The result of a search then does not depend on the order
+    /// of its steps.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let order = (state.compression, state.indentation);
         let order_of_best = (best.compression, best.indentation);
@@ -227,8 +229,8 @@ impl Extreme {
         best
     }
 
-    /// Returns true if the bounds of the force between two indentations allow a force that is more
-    /// extreme than the force of `best`.
+    /// Returns true if the force between the indentations of `low` and `high` may be more extreme
+    /// than the force of `best`. The bounds of the force between the two indentations decide this.
     pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
         match self {
             Extreme::Smallest => lower_bound(low, high) < best.compression,
@@ -255,8 +257,8 @@ fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// Ascending indentations. They are either given points, or evenly spaced between two exact ends;
-/// the last interval may be shorter than the others.
+/// Ascending indentations in m. They are either points given by the caller, or evenly spaced
+/// between two exact ends. In the second case the last interval may be shorter than the others.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -311,8 +313,8 @@ impl Grid {
         }
     }
 
-    /// Returns true if the points are evenly spaced. Returns false for given points, and for two
-    /// ends without points between them.
+    /// Returns true if the points are evenly spaced. Returns false for points given by the caller,
+    /// and for a grid that has only its two ends.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
     }

@@ -69,8 +69,9 @@ impl<'a> LoadOptions<'a> {
         }
     }
 
-    /// Sets a function that is called before each stage with the index of the stage, from 0. If the
-    /// function returns false, the loading ends with [`ContactError::Interrupted`].
+    /// Sets a function that is called before each stage with the index of the stage, from 0. The
+    /// function returns true to continue. If it returns false, the loading ends with
+    /// [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
         LoadOptions {

@@ -49,7 +49,7 @@ pub enum ContactError {
         /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
-    /// A loading stage cannot be computed; the fields state which one and why.
+    /// A loading stage cannot be computed.
     #[error("stage {}: {}", index + 1, reason.in_words(*target))]
     Stage {
         /// Index of the stage, from 0.
@@ -94,7 +94,7 @@ pub enum ContactError {
         "a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver"
     )]
     Stepwise,
-    /// The program has a defect. The field describes the state that should not occur.
+    /// The program has a defect. The field describes the impossible state that was found.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
     /// The computation ended because a function of the caller requested this, such as the function
@@ -114,8 +114,8 @@ impl ContactError {
         }
     }
 
-    /// Returns the smallest force in N that the contact can bear, if the error is a target force
-    /// below it; `None` for other errors.
+    /// Returns the smallest force in N that the contact can bear, if the target is a smaller force.
+    /// Returns `None` for other errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() {
             Some(*smallest)
@@ -156,9 +156,8 @@ impl ContactError {
         }
     }
 
-    /// Returns an error of the stage with the index `index`, with this error as the reason. Errors
-    /// about memory, interruptions and defects remain unchanged because they concern the whole
-    /// loading.
+    /// Returns the error of a loading stage, with this error as its reason. Errors about memory,
+    /// interruptions and defects are returned unchanged, because they concern the whole loading.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

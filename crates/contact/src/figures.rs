@@ -31,15 +31,14 @@ pub struct Figures {
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign.
-    /// `None` if the smallest force is above zero, or if the unloading ends in contact while the
-    /// force is still falling.
+    /// `None` if this force is above zero, or if the unloading ends in contact while the force is
+    /// still falling.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n. `None` if F_a is `None`, or if the preload is not a positive
     /// force.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is
-    /// `None`. Its relative deviation from the exact value is larger than the relative deviation of
-    /// the adhesion force.
+    /// Indentation in m at the smallest force of the last unloading. `None` if `adhesion_force` is
+    /// `None`. This indentation is less accurate than the adhesion force.
     pub pull_off_indentation: Option<f64>,
     /// Energy in J dissipated in the contact during all stages together; `None` if the last stage
     /// ends in contact.
@@ -61,8 +60,8 @@ impl Figures {
         Figures::of_points(preload, pull_off, energy)
     }
 
-    /// Computes the figures of two stages: a loading from separation to the target `leg`, and the
-    /// unloading `reversal` from there back to separation.
+    /// Computes the figures of a history with two stages. The first stage loads the separated body
+    /// to the target `leg`. The second stage is `reversal`, the unloading back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {
@@ -153,7 +152,7 @@ pub enum Mark {
     /// Point at which the preload acts, as [`Branch::preload`] finds it.
     Preload,
     /// Point at which the pull-off force acts, as [`Branch::pull_off`] finds it. The mark exists
-    /// only if the force is tensile.
+    /// only if the pull-off force is tensile.
     PullOff,
     /// Last point in contact of the last unloading, before the body jumps out of contact. The mark
     /// exists only if the force at this point is tensile, but less tensile than the pull-off force.

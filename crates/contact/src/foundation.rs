@@ -27,9 +27,10 @@ impl Foundation {
         }
     }
 
-    /// Returns half the distance between the outermost edges of the contact in m; zero in
-    /// separation. `patches` and `point` must belong to the same state. The distance is the contact
-    /// length plus the length of the springs between the patches that are not in contact.
+    /// Returns half the distance in m between the outermost edges of the contact; zero in
+    /// separation. The distance is the contact length plus the length of the springs between the
+    /// patches that are not in contact. `patches` and `point` must belong to the same state of the
+    /// body.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let separated_springs = match patches {
             [] => 0,

@@ -45,14 +45,14 @@ pub struct LegRecord {
     pub attached: u64,
     /// Number of springs that detached in this stage.
     pub detached: u64,
-    /// Elastic energy in J that springs release when they detach, minus the elastic energy that
-    /// springs gain when they attach. For a closed loop, the sum of this energy over all stages is
-    /// the dissipated energy.
+    /// Energy in J that springs lose when they attach or detach with a stretch: the elastic energy
+    /// released on detaching minus the elastic energy gained on attaching. For a closed loop, the
+    /// sum over all stages is the dissipated energy.
     pub released_energy: f64,
     /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The
     /// sum of `released_energy` and `jump_energy` over all stages is the loop area ∮F dD of the
-    /// history. A jump may begin in one stage and continue in the next stage of the same direction.
-    /// Each of the two stages then has its own part of the energy.
+    /// history. If a jump begins in one stage and continues in the next stage of the same
+    /// direction, each of the two stages has its own part of the energy.
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
@@ -77,12 +77,12 @@ pub(super) struct Extremes {
 }
 
 impl LegRecord {
-    /// Largest number of points of [`LegRecord::curve`] besides the regularly spaced points: the
-    /// point of the smallest force, the point at which an instrument loses the contact, and two
-    /// points of a jump at the beginning or the end of the motion.
+    /// Largest number of points of [`LegRecord::curve`] that are added to the regularly spaced
+    /// points: the point of the smallest force, the point at which an instrument loses the contact,
+    /// and two points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
-    /// Creates the record of a motion that ends where it begins.
+    /// Creates the record of a motion in which the body stays in place.
     pub fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
@@ -268,15 +268,15 @@ pub struct Work {
     pub random_phases: u64,
     /// Number of Fourier transforms over the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the points of the
+    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree). A node is a point of the
     /// profile at which two patches can merge.
     pub tree_nodes: u64,
     /// Number of times that the solver passed over the contact tree to compute a loading.
     pub loading_passes: u64,
     /// Number of times that the solver passed over the contact tree to compute an unloading.
     pub unloading_passes: u64,
-    /// Number of times that the solver passed over the contact tree to compute the forces of
-    /// [`Body::adhesion_without_preload`](crate::motion::Body::adhesion_without_preload).
+    /// Number of times that the solver passed over the contact tree to compute the two adhesion
+    /// forces of [`Body::adhesion_without_preload`](crate::motion::Body::adhesion_without_preload).
     pub passes_without_preload: u64,
     /// Number of times that the rule of Hess was evaluated for a patch.
     pub hess_evaluations: u64,

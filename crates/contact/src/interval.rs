@@ -21,8 +21,8 @@ struct Step {
     totals: ContactTotals,
 }
 
-/// Edge cells of one patch, and the range of indentations in m in which the patch consists of the
-/// same springs. An edge cell lies at one end of the patch and is only partly in contact.
+/// The edge cells of one patch, and the range of indentations in m in which the patch consists of
+/// the same springs. The edge cells lie at the ends of the patch and are only partly in contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<R> {
     pub slider: Slider<R>,
@@ -30,7 +30,8 @@ pub struct Piece<R> {
     pub to: f64,
 }
 
-/// Part of a motion between two indentations, with the events inside.
+/// Part of a motion between two indentations, with the events inside this part. An event is an
+/// indentation at which springs attach or detach.
 pub struct Interval<R> {
     slides: bool,
     /// Number of springs parallel to the contact that represent the instrument; see
@@ -50,8 +51,9 @@ pub struct Interval<R> {
 pub struct Intervals<R>(Vec<Interval<R>>);
 
 impl<R: DetachmentRule> Intervals<R> {
-    /// Creates one interval for each pair of `ends`, the contact at the lower and at the upper end.
-    /// `instrument` is the number of springs parallel to the contact that represent the instrument.
+    /// Creates one interval for each item of `ends`, the contacts at the lower and at the upper end
+    /// of the interval. `instrument` is the number of springs parallel to the contact that
+    /// represent the instrument.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let mut intervals = Vec::with_capacity(ends.len());
         for &[low, high] in ends {
@@ -89,8 +91,8 @@ impl<R: DetachmentRule> Intervals<R> {
         first..end.max(first)
     }
 
-    /// Adds two events: springs or cells attach at the indentation `from` and detach at `to`, both
-    /// in m.
+    /// Adds two events to the intervals: springs or cells attach at the indentation `from` and
+    /// detach at the indentation `to`, both in m.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
             // At most one interval contains the threshold, because an event at the lower end of an
@@ -102,7 +104,8 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Adds edge cells to all intervals that overlap the range of indentations of the edge cells.
+    /// Adds the edge cells of a patch to all intervals in which the patch consists of the same
+    /// springs.
     pub fn add_piece(&mut self, piece: Piece<R>) {
         let range = self.between(piece.from, piece.to);
         for interval in &mut self.0[range] {
@@ -110,8 +113,8 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Sorts the events of all intervals and returns the intervals. Adds the number of sorted
-    /// events to `sorted`.
+    /// Sorts the events of all intervals, and returns the intervals. An event is an indentation at
+    /// which springs attach or detach. Adds the number of sorted events to `sorted`.
     pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval<R>> {
         for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
@@ -241,9 +244,9 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Replaces `best` by the contact of the extreme force inside the interval, if this force is
-    /// more extreme than the force of `best`. The forces at both ends must not be more extreme than
-    /// `best`.
+    /// Searches the interval for a more extreme force than that of `best`. If there is one,
+    /// replaces `best` by the contact with this force. The forces at both ends of the interval must
+    /// not be more extreme than the force of `best`.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -270,9 +273,10 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Computes ∫ (E − C) dd over the indentation d, in cells times m², for those parts of the
-    /// interval that a loading passes in jumps of the instrument. C is the compression of contact
-    /// and instrument together, and E the largest C so far. A jump begins where C falls below E.
+    /// Computes ∫ (E − C) dd, in cells times m², over the parts of the interval that a loading with
+    /// an instrument passes in jumps. C(d) is the compression of contact and instrument together at
+    /// the indentation d, and E(d) is its largest value up to d. A loading jumps where C < E.
+    /// `largest` is E at the lower end of the interval, and is replaced by E at the upper end.
     pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.below(middle).jumped_on_loading(largest);
@@ -300,10 +304,11 @@ impl<R: DetachmentRule> Interval<R> {
         level * (back - from) - self.work(from, back)
     }
 
-    /// Computes ∫ (C − E) dd over the indentation d, in cells times m², for those parts of the
-    /// interval that an unloading passes in jumps of the instrument. C is the compression of
-    /// contact and instrument together, and E the smallest C so far. A jump begins where C rises
-    /// above E.
+    /// Computes ∫ (C − E) dd, in cells times m², over the parts of the interval that an unloading
+    /// with an instrument passes in jumps. C(d) is the compression of contact and instrument
+    /// together at the indentation d, and E(d) is its smallest value on the unloading down to d. An
+    /// unloading jumps where C > E. `smallest` is E at the upper end of the interval, and is
+    /// replaced by E at the lower end.
     pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.above(middle).jumped_on_unloading(smallest);

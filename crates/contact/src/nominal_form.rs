@@ -35,7 +35,8 @@ const SMOOTH: f64 = 1e-3;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NominalForm {
-    /// Nobody has stated the form, or that the heights are those of an equivalent profile.
+    /// The form is not stated. It is also not known whether the heights are those of an equivalent
+    /// profile.
     #[default]
     Unstated,
     /// The body is nominally flat. Its contact may reach the ends of the profile.
@@ -45,9 +46,9 @@ pub enum NominalForm {
     Curved,
 }
 
-/// Returns true if the mean gaps of 16 parts of a profile grow like those of a curved body: from
-/// the part with the smallest mean gap to both ends, and near the ends almost as fast as on
-/// average.
+/// Returns true if a profile falls to both ends as a curved body does. For this decision the
+/// profile is divided into 16 parts. Their mean gaps must grow from the part with the smallest mean
+/// gap to both ends, and near the ends almost as fast as on average.
 pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     let part = gaps.len() / PARTS;
     if part == 0 {
@@ -80,8 +81,9 @@ fn falls_to_end(means: &[f64]) -> bool {
     always_grow && last - before >= LEAST_FALL_AT_ENDS * mean_growth
 }
 
-/// Returns the radius R in m of the sphere whose cut x²/2R has these gaps in m. Neighbouring points
-/// have the distance `spacing` in m. Returns `None` for rough gaps and for gaps of another form.
+/// Returns the radius R in m of a sphere whose cut has these gaps: x²/(2R). The gaps are in m, and
+/// neighbouring points have the distance `spacing` in m. Returns `None` for rough gaps and for gaps
+/// of another form.
 pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     let [offset, slope, bend] = parabola(gaps)?;
     let middle = 0.5 * (gaps.len() - 1) as f64;

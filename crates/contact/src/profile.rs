@@ -45,8 +45,8 @@ pub struct Profile {
     nominal_form: NominalForm,
 }
 
-/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge
-/// model. A tree is built when a contact first needs it.
+/// The gaps under a profile, and its contact trees. A tree depends only on the gaps and on where
+/// the edges of patches may lie. It is built when a contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
@@ -80,9 +80,9 @@ impl Profile {
     }
 
     /// Creates a profile from the gaps in m of an equivalent line. Neighbouring points have the
-    /// distance `spacing` in m. A gap is the depth of a point below the highest point, so at least
-    /// one gap is 0. The gaps of a sphere of the radius R are x²/R, twice the depths of a cut
-    /// through the sphere.
+    /// distance `spacing` in m. A gap is the depth of a point of the equivalent line below its
+    /// highest point, so at least one gap is 0. The equivalent line of a sphere of the radius R has
+    /// the gaps x²/R. They are twice the depths x²/(2R) of a cut through the sphere.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -158,8 +158,7 @@ impl Profile {
         })
     }
 
-    /// Shifts the heights of the profile so that its highest point lies at the height `summit` in
-    /// m.
+    /// Shifts the heights of the profile so that the height of its highest point is `summit` in m.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
@@ -170,8 +169,8 @@ impl Profile {
         Ok(Profile { summit, ..self })
     }
 
-    /// States the form of the body. [`Cycle::warnings`](crate::Cycle::warnings) depends on it;
-    /// forces and energies do not.
+    /// Sets the form of the body behind the profile. [`Cycle::warnings`](crate::Cycle::warnings)
+    /// depends on this form; forces and energies do not.
     #[must_use]
     pub fn with_nominal_form(self, nominal_form: NominalForm) -> Self {
         Profile {
@@ -185,11 +184,12 @@ impl Profile {
         self.nominal_form
     }
 
-    /// Returns true if the body is curved, so that its contact should end inside the profile. If
-    /// [`Profile::with_nominal_form`] has not stated the form, the heights decide. For this
-    /// decision the profile is divided into 16 parts. The body counts as curved if the mean gap
-    /// grows from the part with the smallest mean gap to both ends of the profile, and near the
-    /// ends at least 0.75 times as fast as on average.
+    /// Returns true if the body is curved, so that its contact should end inside the profile. The
+    /// form set by [`Profile::with_nominal_form`] decides. If no form is set, the heights decide:
+    /// the profile is divided into 16 parts, and the body counts as curved if two conditions hold.
+    ///
+    /// * The mean gap grows from the part with the smallest mean gap to both ends of the profile.
+    /// * Near the ends the mean gap grows at least 0.75 times as fast as on average.
     pub fn is_curved(&self) -> bool {
         match self.nominal_form {
             NominalForm::Curved => true,
@@ -229,7 +229,8 @@ impl Profile {
         self.length
     }
 
-    /// Returns the gap of each point in m: its depth below the highest point, at least 0.
+    /// Returns the gap of each point in m, at least 0: how far the point lies below the highest
+    /// point.
     pub fn gaps(&self) -> &[f64] {
         &self.springs.gaps
     }
@@ -262,9 +263,10 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) for the edge model `edges` and reuses the memory of
-    /// `memory`, a tree that is no longer needed. Without this call, the first contact with
-    /// adhesion builds the tree in new memory.
+    /// Builds the [contact tree](ContactTree) of the profile. `edges` states where the edges of
+    /// contact patches may lie. The tree is built in the memory of `memory`, a tree that is no
+    /// longer needed. Without this call, the first contact with adhesion builds the tree in new
+    /// memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
@@ -284,9 +286,9 @@ impl Profile {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can
-    /// reuse. The returned tree is empty if no tree has been built, or if a clone of the profile or
-    /// a contact still uses the tree.
+    /// Consumes the profile and returns its contact tree, so that [`Profile::build_tree`] can reuse
+    /// the memory. The returned tree is empty if no tree has been built, or if a clone of the
+    /// profile or a contact still uses the tree.
     pub fn into_tree(self) -> ContactTree {
         let Some(springs) = Arc::into_inner(self.springs) else {
             return ContactTree::default();
@@ -308,12 +310,13 @@ impl PartialEq for Profile {
 }
 
 impl Springs {
-    /// Returns the fixed-point scale of exact sums over the gaps.
+    /// Returns the scale by which the gaps are converted to integers, so that their sums are exact.
     pub fn scale(&self) -> GapScale {
         GapScale::for_gaps_up_to(self.deepest)
     }
 
-    /// Returns the contact tree of the gaps for an edge model.
+    /// Returns the contact tree of the gaps. `edges` states where the edges of contact patches may
+    /// lie.
     pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
         self.tree_in(ContactTree::default(), edges)
     }

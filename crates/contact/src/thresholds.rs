@@ -19,7 +19,8 @@ use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
-/// Springs with the smallest indentation at which each spring is in contact.
+/// The springs of a contact in which each spring attaches on its own. Each spring has the smallest
+/// indentation at which it is in contact, its threshold.
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
@@ -42,7 +43,7 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// Computes the contact at each indentation of a grid.
+    /// Computes the contact at each point of a grid of indentations.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points.len();
@@ -78,8 +79,8 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the springs that attach, and the cells in partial contact, to the intervals in which a
-    /// crossing of the force is searched.
+    /// Adds the springs that attach, and the cells in partial contact, to `intervals`. These are
+    /// the parts of a motion in which a crossing of the force is searched.
     pub fn search(&self, intervals: &mut Intervals<ContactRule>) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {

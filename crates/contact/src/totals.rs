@@ -1,12 +1,12 @@
 //! Totals of the springs in contact: the numbers of springs and patches, and the sums of gaps. The
 //! sums are integers, so no digits cancel.
 
-/// Fixed-point scale of the gaps of one profile. Its unit, the quantum, is 2⁻⁶² of the smallest
-/// power of two above the largest gap.
+/// Scale that converts the gaps of one profile to integers. Its unit, the quantum, is 2⁻⁶² of the
+/// smallest power of two above the largest gap.
 ///
-/// Sums of quanta are integers, so they do not depend on the order of the springs, and a spring
-/// that attaches and detaches again changes no bit. If a loading and an unloading lead to the same
-/// contact, their forces are therefore equal bit for bit.
+/// A sum of integers does not depend on the order of the springs, and a spring that attaches and
+/// detaches again changes no bit. If a loading and an unloading lead to the same contact, their
+/// forces are therefore equal bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapScale {
     quanta_per_metre: f64,
@@ -50,13 +50,15 @@ impl GapScale {
         }
     }
 
-    /// Returns a gap in m as a number of quanta, rounded down.
+    /// Returns a gap in m as a whole number of quanta, the unit of this scale. The number is
+    /// rounded down.
     #[inline]
     pub fn quanta(&self, gap: f64) -> i64 {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// Returns the size of a quantum in m. In a sum, each gap is rounded by less than a quantum.
+    /// Returns the size in m of a quantum, the unit of this scale. In a sum, each gap is rounded by
+    /// less than a quantum.
     #[cfg(test)]
     pub fn quantum(&self) -> f64 {
         self.quantum
@@ -67,8 +69,8 @@ impl GapScale {
 /// squares fit into an `i128`.
 const SQUARE_BITS: u32 = 28;
 
-/// Sums the gaps and their squares over at most four springs, or over at most four cells (five
-/// springs), in the units of [`ContactTotals`].
+/// Returns the sum of the gaps and the sum of their squares over at most four springs, or over at
+/// most four cells, which have five springs. The units are those of [`ContactTotals`].
 ///
 /// The sum of four gaps, each below 2^62 quanta, fits into 64 bits, and the sum of their squares
 /// into 128 bits. The profile is straight between springs. The mean square along a cell is
@@ -117,16 +119,17 @@ pub struct ContactTotals {
     pub springs: i64,
     /// Number of patches.
     pub patches: i64,
-    /// Sum of the gaps of the springs, or of the mean gaps of the cells between them, in quanta of
-    /// a [`GapScale`].
+    /// Sum of the gaps of the springs in contact, or of the mean gaps of the cells between them.
+    /// The unit is the quantum of a [`GapScale`].
     pub quanta: i128,
-    /// Sum of the squared gaps. The unit is 2^28 squared quanta.
+    /// Sum of the squared gaps of the springs, or of the cells between them. The unit is 2^28
+    /// squared quanta.
     pub squares: i128,
 }
 
 impl ContactTotals {
-    /// Computes the totals of one patch. If `slides` is true, the sums are over the cells between
-    /// its springs; otherwise over its springs.
+    /// Computes the sums over one patch. If `slides` is true, the sums are over the cells between
+    /// the springs of the patch; otherwise they are over the springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
@@ -144,8 +147,8 @@ impl ContactTotals {
         totals
     }
 
-    /// Returns the number of whole cells if `slides` is true, otherwise of springs. Each patch has
-    /// one whole cell less than springs.
+    /// Returns the number of whole cells in contact if `slides` is true, otherwise the number of
+    /// springs in contact. A patch has one whole cell less than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         if slides {
@@ -155,14 +158,14 @@ impl ContactTotals {
         }
     }
 
-    /// Computes the compression Σ (d − c_i) in m of `count` springs with the gaps c_i, or ∫ (d − c)
-    /// dx in cells times metres of `count` cells, at the indentation d. The compression is the
-    /// force divided by the stiffness of one spring.
+    /// Computes the compression in m at the indentation d, which is the force divided by the
+    /// stiffness of one spring. For `count` springs with the gaps c_i, the compression is Σ (d −
+    /// c_i). For `count` cells with the gap c, it is ∫ (d − c) dx, where x is in cells.
     ///
-    /// For n springs and a largest gap below 2^e, the error is at most 2u |result| plus n 2^(e−62),
-    /// where u = 2⁻⁵³ is the unit roundoff. The gaps are summed exactly, n d is an exact product of
-    /// two numbers, and only the difference of both is rounded. If the largest gap is below about
-    /// 2^−938 m, the quantum is 2^−1000 m and not smaller.
+    /// For n springs and a largest gap below 2^e m, the error is at most 2u |result| plus n
+    /// 2^(e−62), where u = 2⁻⁵³ is the unit roundoff. The gaps are summed exactly, n d is an exact
+    /// product of two numbers, and only the difference of the product and the sum is rounded. If
+    /// the largest gap is below about 2^−938 m, the quantum is 2^−1000 m and not smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
@@ -219,8 +222,8 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit of sums of squared stretches. The unit is coarser than the quantum of the gaps if an
-/// indentation is much larger than all gaps.
+/// Unit in which sums of squared stretches are integers. It is usually the quantum of the gaps,
+/// squared. The unit is coarser if an indentation is much larger than all gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -230,8 +233,8 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Creates the unit for gaps with this scale and indentations from `−largest` to `largest` in
-    /// m.
+    /// Creates the unit for gaps with this scale, and for indentations from `−largest` to `largest`
+    /// in m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let mut squares = SquareScale {
             quanta_per_metre: scale.quanta_per_metre,
@@ -246,8 +249,8 @@ impl SquareScale {
         squares
     }
 
-    /// Computes Σ (c − θ)² over `count` springs or cells with the gaps c at the indentation θ in m.
-    /// Returns the sum as an integer in this unit and a remainder in m².
+    /// Computes Σ (c − θ)² over `count` springs or cells with the gaps c, where θ is an indentation
+    /// in m. The sum has two parts: an integer in this unit, and a remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let gaps = totals.quanta.checked_shr(self.coarser).unwrap_or(0);
         let squared_gaps = totals.squares.checked_shr(2 * self.coarser).unwrap_or(0);

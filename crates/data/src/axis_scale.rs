@@ -29,9 +29,10 @@ impl AxisScale {
         }
     }
 
-    /// Returns the place of `number` among ascending `values` on this scale, as a fractional index.
+    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index.
     /// For example, 1.5 means the middle between the values with the indices 1 and 2. Outside the
-    /// values, the index is extrapolated. If there are fewer than two values, the index is 0.
+    /// range of the values, the index is extrapolated. If there are fewer than two values, the
+    /// index is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let coordinates: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let coordinate = self.coordinate(number);
@@ -47,7 +48,7 @@ impl AxisScale {
         }
     }
 
-    /// Returns the number that has this coordinate.
+    /// Returns the number whose coordinate on this scale is `coordinate`.
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic {
             10_f64.powf(coordinate)

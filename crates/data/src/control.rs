@@ -64,8 +64,8 @@ impl<'a, P> Control<'a, P> {
     }
 
     /// Returns settings for a part of this computation, with the same number of threads and the
-    /// same stop function. The progress of the part may have another type, and no function receives
-    /// it yet.
+    /// same stop function. The progress of the part may have another type. At first, no function
+    /// receives the progress of the part.
     pub fn of_part<'part, Q>(&self) -> Control<'part, Q>
     where
         'a: 'part,

@@ -24,8 +24,8 @@ pub struct CountedWarning {
 }
 
 impl CountedWarning {
-    /// Counts one more profile with this warning. `counted` is the list of all premises found so
-    /// far.
+    /// Counts one more profile that has the warning `warning`. `counted` is the list of all
+    /// premises that were found not to be met so far.
     pub fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
         match counted
             .iter_mut()

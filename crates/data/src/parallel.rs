@@ -23,7 +23,8 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
 }
 
 /// Runs `work` on each of `count` new threads of a scope. If the system refuses some threads,
-/// `work` runs on fewer. The functions of this module start no further threads inside `work`.
+/// `work` runs on fewer threads. Inside `work`, the functions of this module start no further
+/// threads.
 ///
 /// # Errors
 /// Returns the error of the system if `count` is at least 1 and no thread could be started.
@@ -48,12 +49,12 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the
-/// results in the order of the numbers. Each thread first calls `worker`, which returns a function.
-/// With this function, the thread computes its results.
+/// results in the order of the numbers. Each thread calls `worker` once. The function that `worker`
+/// returns then computes the results of the thread.
 ///
 /// # Errors
 /// Returns an error if the computation of a result returns an error. If there are several errors,
-/// it returns the error for the smallest number.
+/// returns the error for the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -99,8 +100,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Returns the number of threads for a computation. It is the number of cores, but 1 inside
-/// [`on_this_thread`] and on threads that this module has started.
+/// Returns the number of threads for a computation: the number of cores of the processor. Inside
+/// [`on_this_thread`], and on threads that this module has started, the number is 1.
 pub fn threads() -> usize {
     if ONE_OF_MANY.get() {
         return 1;
@@ -108,9 +109,9 @@ pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
-/// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true and a
-/// second thread can be started, the functions run at the same time, with `first` on the second
-/// thread. Otherwise one function runs after the other.
+/// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true, both
+/// run at the same time, with `first` on a second thread. If `is_worth` is false, or if no second
+/// thread can be started, one runs after the other.
 pub fn in_parallel<A: Send, B>(
     is_worth: bool,
     first: impl FnOnce() -> A + Send,

@@ -73,10 +73,11 @@ impl QuantityError {
 /// Parses a typed number and converts it to the SI unit `unit`. For example, `50m` for J/m² gives
 /// 0.05, and `10um` for m gives 1.0e-5.
 ///
-/// The text may omit the unit. A single `m` after the number is the prefix milli, but if `unit` is
-/// `m`, it is the unit metre: `50m` then means fifty metres. An angle may be in degrees, `30°` or
-/// `30 deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of
-/// 1024.
+/// * The text may omit the unit.
+/// * A single `m` after the number is the prefix milli. If `unit` is `m`, it is the unit metre
+///   instead, so `50m` means fifty metres.
+/// * An angle may be in degrees, `30°` or `30 deg`.
+/// * If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -330,8 +331,8 @@ pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
     ])
 }
 
-/// Joins the two formatted ends of a range to one text. If both ends have the same unit, the unit
-/// is written once.
+/// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. If both ends have
+/// the same unit, the unit is written once.
 pub fn one_unit(ends: [String; 2]) -> String {
     let [low, high] = ends;
     if low == high {

@@ -47,8 +47,8 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading. For a pipe, a terminal or another device, it returns an error
-/// at once.
+/// Opens a regular file for reading. Returns an error at once for a pipe, a terminal or another
+/// device.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer. Therefore the
     // kind of the file is checked before it is opened.

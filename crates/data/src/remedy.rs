@@ -21,11 +21,11 @@ pub enum Remedy {
     HeightUnit(String),
     /// State the distance between points.
     Spacing,
-    /// Fill missing points from their neighbours.
+    /// Fill missing points of a measured surface from neighbouring points.
     Interpolate,
     /// Interpolate an uneven profile at even distances.
     Resample,
-    /// Replace heights that are far from all others.
+    /// Replace heights that differ much from all others.
     Robust,
     /// Take account of a tip with this radius, such as `10nm`.
     TipRadius(String),
@@ -33,9 +33,10 @@ pub enum Remedy {
     Columns,
     /// State the units of displacement and force.
     Units,
-    /// State the force in N that the value 1 in the column of forces means.
+    /// State the factor of the forces: the force in N for the value 1 in the column of forces.
     ForceOfOne,
-    /// State the distance over which the forces of a curve without displacements are evenly spaced.
+    /// State the length of the ramp: the distance over which the forces of a curve without
+    /// displacements are evenly spaced.
     Ramp,
     /// Reverse the sign of the displacement.
     NegateDisplacement,
@@ -43,9 +44,9 @@ pub enum Remedy {
     NegateForce,
     /// Reverse no sign.
     NegateNone,
-    /// State the number of points without contact.
+    /// State how many points of a measured curve are without contact.
     FreePoints,
-    /// Use one segment of the curve alone: 1 is its approach, 2 its retraction.
+    /// Use one segment of the measured curve alone: 1 is the approach, 2 the retraction.
     Segment(usize),
     /// Subtract a drift, a straight line over time, from the force.
     RemoveDrift,
@@ -53,7 +54,7 @@ pub enum Remedy {
     RemoveTilt,
     /// State the noise of the force.
     Noise,
-    /// Fit a parameter with this name.
+    /// Fit also the parameter with this name.
     Free(String),
     /// Search a parameter in another range.
     FreeRange,
@@ -67,9 +68,9 @@ pub enum Remedy {
     MoreProfiles,
     /// Use only the profile of the scene, without random profiles.
     NoProfiles,
-    /// State the errors of a random roughness.
+    /// State the standard errors of the parameters of a random roughness.
     RoughnessErrors,
-    /// State no errors of the roughness.
+    /// State no standard errors of the parameters of a roughness.
     NoRoughnessErrors,
     /// Compute square surfaces on an elastic half-space with this number of cells along a side.
     Grid(usize),
@@ -81,7 +82,7 @@ pub enum Remedy {
     Tolerance,
     /// Press the body before it is pulled.
     Preload,
-    /// State the range of a search.
+    /// State the range in which a value is searched.
     Range,
     /// State a form, such as a paraboloid, in a scene whose roughness is a measured surface.
     FormOfScene,

@@ -37,8 +37,8 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// Table to which columns can still be added. [`Table::of`] begins it, and [`TableOf::done`]
-/// returns the finished [`Table`].
+/// A table that is being built: columns can still be added. [`Table::of`] begins the table, and
+/// [`TableOf::done`] returns the finished [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -47,7 +47,7 @@ pub struct TableOf<'a, T> {
 
 impl<'a> Table<'a> {
     /// Begins a table that has no columns yet. Each call of `rows` must return an iterator over all
-    /// rows.
+    /// rows of the table.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf {
             rows: Rc::new(move || Box::new(rows())),
@@ -58,8 +58,8 @@ impl<'a> Table<'a> {
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column. For each row, `value` returns the entry of the column. A missing entry is
-    /// empty in CSV, `null` in JSON and NaN in a NumPy array.
+    /// Adds a column. For each row, `value` returns the value in the column. A missing value is
+    /// written as an empty cell in CSV, as `null` in JSON and as NaN in a NumPy array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -71,12 +71,12 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self
     }
 
-    /// Adds a column of real numbers. For each row, `value` returns the entry of the column.
+    /// Adds a column of real numbers. For each row, `value` returns the number in the column.
     pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
-    /// Adds a column of integers of at least 0. For each row, `value` returns the entry of the
+    /// Adds a column of integers of at least 0. For each row, `value` returns the integer in the
     /// column.
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
@@ -109,8 +109,8 @@ impl Table<'_> {
         (self.rows)()
     }
 
-    /// Writes the table as CSV. The lines of `provenance`, which say how the table was made, come
-    /// first as comments.
+    /// Writes the table as CSV. First the lines of `provenance`, which say how the table was made,
+    /// are written as comments.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         for line in provenance.lines() {
             writeln!(out, "# {line}")?;

@@ -61,8 +61,8 @@ pub fn rounded_up(value: f64) -> f64 {
     }
 }
 
-/// Returns true for a character that could change how other text is displayed, such as a control
-/// character, a bidirectional control character or an invisible character.
+/// Returns true for a character that could change how other text is displayed. Examples are control
+/// characters, bidirectional control characters and invisible characters.
 pub fn is_control(c: char) -> bool {
     let bidirectional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let invisible = matches!(
@@ -189,8 +189,8 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Breaks a text into lines of at most `width` characters, between words if possible. A line has at
-/// least one character, also for a width of 0.
+/// Breaks a text into lines of at most `width` characters, between words if possible. Even for a
+/// width of 0, each line has at least one character.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let mut lines = Vec::new();
@@ -223,8 +223,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which [`shown`] cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Returns text from a file or a user in the form in which messages repeat it. The text is on one
-/// line and cut after 80 characters, and control characters are replaced as by [`printable`].
+/// Returns a text as messages repeat it, if it comes from a file or a user. The text is on one line
+/// and cut after 80 characters. Control characters are replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

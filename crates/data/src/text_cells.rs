@@ -11,11 +11,11 @@ impl Separator {
     /// White space: any number of blanks and tabs separates two columns.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator in a line of numbers. The separator is the first of the following marks
-    /// that the line contains outside quotation marks: a semicolon, a tab, a comma. If the line
-    /// contains none of these marks, the separator is white space. White space is also the
-    /// separator if every word between blanks is a number and a comma occurs only inside numbers,
-    /// as in `0,5 1,25`.
+    /// Finds the separator of the columns in a line of numbers. It is the first of the following
+    /// marks that the line contains outside quotation marks: a semicolon, a tab, a comma. If the
+    /// line contains none of these marks, the separator is white space. The separator is also white
+    /// space if the words between blanks are all numbers and commas occur only inside them, as in
+    /// `0,5 1,25`.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -101,8 +101,8 @@ const MISSING: [&str; 9] = [
     "bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*",
 ];
 
-/// Text that says which decimal marks and thousands separators are allowed in a text table. It is
-/// part of the error message for [`TextCell::OtherMark`].
+/// Part of an error message: which decimal marks and thousands separators are allowed in a text
+/// table. The message is that for [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
@@ -111,9 +111,9 @@ const GROUPING: [char; 8] = [
     ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
 ];
 
-/// Reader of the numbers in a text table. The first number with a decimal mark determines the
-/// decimal mark of the table, and the first number with a thousands separator determines this
-/// separator.
+/// Reader of the numbers in a text table. It learns two marks from the numbers: the first number
+/// with a decimal mark determines the decimal mark of the table, and the first number with a
+/// thousands separator determines this separator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark; `None` as long as no number has one.
@@ -188,8 +188,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if the commas in the numbers read so far can be decimal marks as well as
-    /// thousands separators, as in `1,234`.
+    /// Returns an error if the commas in the numbers read so far are ambiguous. For example, the
+    /// comma in `1,234` can be a decimal mark or a thousands separator.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful {

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 /// known unit.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column in a text file, according to the name of the column.
+/// Meaning of a column in a text file, which is found from the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// The name of the column has no known meaning.
@@ -20,9 +20,9 @@ pub enum Role {
     Y,
     /// Heights.
     Height,
-    /// Indices of the points, in the order of the file.
+    /// Numbers that only count the points, in the order of the file.
     Number,
-    /// Validity: 0 for a point that was not measured.
+    /// Flags of validity: 0 for a point that was not measured.
     Valid,
 }
 
@@ -60,8 +60,8 @@ pub struct TextColumn {
 /// Number of lines before the table of numbers that are searched for names of columns.
 const LAST_LINES: usize = 64;
 
-/// The last lines (at most 64) of a text file before its table of numbers. One of these lines may
-/// name the columns.
+/// The last lines of a text file before its table of numbers, at most 64 lines. One of these lines
+/// may state the names of the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadLines(VecDeque<String>);
 
@@ -76,10 +76,11 @@ impl HeadLines {
     }
 
     /// Returns the name, the meaning and the unit of each of `count` columns.
+    ///
     /// * The names come from the last line that has a name for each column. If there is no such
     ///   line, all names are empty.
-    /// * The units come from these names, or from a line of units below them. `is_unit` returns
-    ///   true for known units.
+    /// * The units come from these names, or from a line of units below the names. `is_unit`
+    ///   returns true for known units.
     /// * A line may have up to `cells` cells. The cells beyond `count` are ignored.
     pub fn columns(
         &self,

@@ -29,16 +29,16 @@ pub enum Warning {
         /// Length of the profile in m.
         length: f64,
     },
-    /// The last unloading ends in contact before its pulling force has reached its largest value.
+    /// The last unloading ends in contact before its tensile force has reached its largest value.
     EndsInContact {
-        /// Largest pulling force in N that the rest of the unloading would reach; `None` if it is
-        /// not known.
+        /// Largest tensile force in N that a further unloading to separation would reach; `None` if
+        /// it is not known.
         further: Option<f64>,
     },
-    /// At no moment of the loading [`Warning::LEAST_SPRINGS_IN_CONTACT`] or more springs were in
-    /// contact.
+    /// Too few springs were in contact: fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] at every
+    /// moment of the loading.
     FewSpringsInContact {
-        /// Largest number of springs in contact.
+        /// Largest number of springs that were in contact at the same time.
         springs: u64,
     },
     /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`]
@@ -47,16 +47,16 @@ pub enum Warning {
         /// Number of springs on the shortest wave.
         springs: f64,
     },
-    /// The length is not a whole multiple of a stated wavelength. The wavelength that is used
-    /// differs from the stated one by more than [`Warning::LARGEST_CHANGE_OF_WAVE`].
+    /// The profile uses another wavelength than the stated one, because its length must be a whole
+    /// multiple of each wavelength. The difference exceeds [`Warning::LARGEST_CHANGE_OF_WAVE`].
     RoundedWaves {
         /// Longest and shortest wavelength in m as stated.
         stated: [f64; 2],
         /// Longest and shortest wavelength in m as used.
         used: [f64; 2],
     },
-    /// Fewer than [`Warning::LEAST_LONG_WAVES`] of the longest waves of a random roughness fit on
-    /// the length of a nominally flat body.
+    /// Too few of the longest waves of a random roughness fit on the length of a nominally flat
+    /// body: fewer than [`Warning::LEAST_LONG_WAVES`].
     FewLongWaves {
         /// Number of the longest waves that fit on the length of the profile.
         waves: f64,
@@ -89,14 +89,14 @@ pub enum Warning {
     /// The heights of a file or an array are used as the equivalent profile, although nobody has
     /// stated that they are the heights of an equivalent profile.
     HeightsAsProfile,
-    /// Heights that are used as the equivalent profile are smooth, and curved as a cut through a
-    /// round body would be.
+    /// Heights that are used as the equivalent profile look like a cut through a round body: they
+    /// are smooth and curved.
     CutLikeHeights {
         /// Radius in m of the sphere whose cut has these heights.
         radius: f64,
     },
     /// A measured surface is longer than the profile, so the profile lacks the longest waves of the
-    /// surface. Its rms height differs from the rms height of the surface by more than
+    /// surface. The rms heights of profile and surface differ by more than
     /// [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
     ScanLongerThanLength {
         /// Length of the scan in m.
@@ -106,7 +106,7 @@ pub enum Warning {
         /// Rms heights in m of the surface and of the profile.
         rms_heights: [f64; 2],
     },
-    /// A measured surface is shorter than the profile, which therefore lacks the longest waves.
+    /// A measured surface is shorter than the profile, so the profile lacks its longest waves.
     /// Waves longer than a quarter of the scan contribute more than [`Warning::MANY_LONG_WAVES`] of
     /// the mean squared height.
     ScanShorterThanLength {
@@ -128,8 +128,9 @@ pub enum Warning {
         /// of JKR.
         jkr_factor: f64,
     },
-    /// The equivalent profile of a form given by a table does not rise everywhere from the axis
-    /// outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts.
+    /// The equivalent profile of a form given by a table falls somewhere, instead of rising
+    /// everywhere from the axis outwards. The rule of Hess then differs from the theory of Johnson,
+    /// Kendall and Roberts.
     FallingProfile {
         /// Distance from the axis in m at which the profile falls.
         from: f64,
@@ -141,16 +142,17 @@ pub enum Warning {
         /// Description of the property, with its place in the file if the property has a place.
         property: Note,
     },
-    /// Measured surfaces that count as samples of one roughness have very different rms heights.
+    /// Several measured surfaces of one roughness have very different rms heights.
     SurfacesFarApart {
         /// Name and rms height of the surface with the smallest rms height.
         flattest: NamedHeight,
         /// Name and rms height of the surface with the largest rms height.
         roughest: NamedHeight,
     },
-    /// Odd rows of a map are displaced along the even rows, as the two directions of a scan may be.
+    /// Odd rows of a map are displaced along the even rows. A scan that alternates its direction
+    /// may cause this.
     DisplacedRows {
-        /// Displacement in m.
+        /// Distance in m by which odd rows are displaced.
         distance: f64,
     },
     /// Waves longer than a quarter of the scan contribute much of the mean squared height.
@@ -165,7 +167,7 @@ pub enum Warning {
         /// Ratio of the largest to the smallest rms gradient of the parts.
         ratio: f64,
     },
-    /// Measured surfaces that count as samples of one roughness differ more than chance explains.
+    /// Several measured surfaces of one roughness differ more than chance explains.
     SurfacesDiffer {
         /// Ratio of the largest to the smallest rms height of the surfaces, or of their rms
         /// gradients.
@@ -178,8 +180,8 @@ pub enum Warning {
         /// Kurtosis of the heights; 3 for normal heights.
         kurtosis: f64,
     },
-    /// A measured surface is longer or rougher than any surface whose roughness instruments
-    /// measure, so its unit is probably wrong.
+    /// A measured surface is longer or rougher than instruments for roughness can measure. The
+    /// stated unit is therefore probably wrong.
     ImprobableLengths {
         /// Name of the file.
         file: String,
@@ -188,7 +190,8 @@ pub enum Warning {
         /// Rms height in m.
         rms_height: f64,
     },
-    /// The moments of a measured surface come from fewer than [`Warning::MANY_PROFILES`] profiles.
+    /// The rms height, gradient and curvature of a measured surface come from few profiles: fewer
+    /// than [`Warning::MANY_PROFILES`].
     FewMeasuredProfiles {
         /// Number of profiles.
         profiles: u64,
@@ -198,9 +201,11 @@ pub enum Warning {
     /// Rows or columns of a map are offset in height against each other, or were levelled one by
     /// one.
     OffsetRows,
-    /// Waves along one axis of a map differ in height from waves in neighbouring directions.
+    /// Waves along one axis of a map are higher or lower than waves of the same length in
+    /// neighbouring directions.
     WavesApart {
-        /// Difference between these waves and their neighbours, as a share of the squared gradient.
+        /// Difference between the waves along the axis and the waves beside it, as a share of the
+        /// squared gradient.
         share: f64,
     },
     /// Short waves of a scan may be artefacts of the tip.
@@ -236,12 +241,12 @@ impl Warning {
     /// there is no warning.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
-    /// Largest ratio of the length of a profile to the length of the scan for which the scan lacks
-    /// only few waves of the profile.
+    /// Largest length of a profile, divided by the length of the scan, at which the scan lacks only
+    /// few waves of the profile.
     pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.5;
 
-    /// Smallest number of the longest waves on the length of a nominally flat body with which the
-    /// results of random profiles scatter little (docs/learn.md).
+    /// Smallest number of the longest waves on the length of a nominally flat body for which the
+    /// results of different random profiles are similar (docs/learn.md).
     pub const LEAST_LONG_WAVES: f64 = 4.0;
 
     /// Largest rms gradient of the roughness, and largest slope of the form of the body, that count
@@ -256,15 +261,17 @@ impl Warning {
     /// computes.
     pub const JKR_TABOR_NUMBER: f64 = 5.0;
 
-    /// Number of measured profiles from which moments are as accurate as from a map.
+    /// Number of measured profiles from which the rms height, gradient and curvature are as
+    /// accurate as from a map.
     pub const MANY_PROFILES: u64 = 100;
 
-    /// Share of the mean squared height of a scan from long waves, above which the rms height
-    /// depends on the length of the scan.
+    /// Share of long waves in the mean squared height of a scan above which the rms height depends
+    /// on the length of the scan. Long waves are longer than a quarter of the scan.
     pub const MANY_LONG_WAVES: f64 = 0.3;
 
-    /// Share of the mean squared height of a scan from long waves, above which these waves probably
-    /// come from the form of the body or from a bow of the scanner.
+    /// Share of long waves in the mean squared height of a scan above which these waves probably
+    /// come from the form of the body or from a bow of the scanner. Long waves are longer than a
+    /// quarter of the scan.
     pub const FORM_OF_SCAN: f64 = 0.9;
 
     /// Ratio of the rms gradients of parts of one surface above which a warning reports the
@@ -290,16 +297,16 @@ impl Warning {
     /// Largest ratio of the rms heights of two surfaces that can be samples of one roughness.
     pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
 
-    /// Smallest and largest factor by which adhesion near its boundary varies between single
-    /// measured profiles (docs/surface-estimate.md).
+    /// Smallest and largest factor by which the adhesion near the limit of adhesion varies between
+    /// single measured profiles (docs/surface-estimate.md).
     pub const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
     /// Ratio λ²/(AR) below which the equivalent profile of a wavy sphere falls somewhere.
     pub const LEAST_WAVE_RATIO: f64 = 12.391;
 
     /// Returns a warning if a body has few springs in contact. `springs` is the largest number of
-    /// springs in contact during the loading; a body that never touches, with zero springs, has no
-    /// warning.
+    /// springs in contact during the loading. A body that never touches has zero springs and gets
+    /// no warning.
     pub fn of_springs_in_contact(springs: u64) -> Option<Warning> {
         let is_few = (1..Self::LEAST_SPRINGS_IN_CONTACT).contains(&springs);
         is_few.then_some(Warning::FewSpringsInContact { springs })
@@ -311,16 +318,16 @@ impl Warning {
         is_few.then_some(Warning::FewSpringsPerWave { springs })
     }
 
-    /// Returns a warning if the wavelengths in m that are used differ from the stated wavelengths.
-    /// Both arguments contain the longest and the shortest wavelength.
+    /// Returns a warning if the wavelengths that a profile uses differ from the stated wavelengths.
+    /// Both arguments are the longest and the shortest wavelength in m.
     pub fn of_waves(stated: [f64; 2], used: [f64; 2]) -> Option<Warning> {
         let change = |stated: f64, used: f64| (used / stated - 1.0).abs();
         let largest = change(stated[0], used[0]).max(change(stated[1], used[1]));
         (largest > Self::LARGEST_CHANGE_OF_WAVE).then_some(Warning::RoundedWaves { stated, used })
     }
 
-    /// Returns a warning if a nominally flat random roughness has few of its longest waves on the
-    /// length of the profile.
+    /// Returns a warning if too few of the longest waves of a nominally flat random roughness fit
+    /// on the profile. `waves` is the number of these waves on the length of the profile.
     pub fn of_long_waves(waves: f64) -> Option<Warning> {
         (waves < Self::LEAST_LONG_WAVES).then_some(Warning::FewLongWaves { waves })
     }
@@ -340,7 +347,8 @@ impl Warning {
         (slope > Self::LARGEST_GRADIENT).then_some(Warning::SteepForm { slope })
     }
 
-    /// Returns a warning if attraction of this Tabor number has too long a range for the model.
+    /// Returns a warning if the range of the attraction is too long for the model. A small Tabor
+    /// number means a long range.
     pub fn of_tabor_number(tabor_number: f64) -> Option<Warning> {
         if tabor_number < Self::LEAST_TABOR_NUMBER {
             return Some(Warning::LongRangedAttraction { tabor_number });
@@ -363,9 +371,9 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if a profile is longer than the scan of its surface and the missing long
-    /// waves matter. `share` is the share of the mean squared height that waves longer than a
-    /// quarter of the scan contribute.
+    /// Returns a warning if a profile is longer than the scan of its surface, and if the missing
+    /// long waves matter. `share` is the share of waves longer than a quarter of the scan in the
+    /// mean squared height.
     pub fn of_short_scan(scan: f64, length: f64, share: f64) -> Option<Warning> {
         let is_shorter = length > Self::LONGEST_PROFILE_OF_SCAN * scan;
         let lacks_waves = is_shorter && share > Self::MANY_LONG_WAVES;
@@ -376,14 +384,15 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), with
-    /// wavelength λ, amplitude A and sphere radius R. `jkr_factor` is the factor by which the waves
-    /// raise the pull-off force according to the theory of Johnson, Kendall and Roberts (JKR).
+    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), with the
+    /// wavelength λ, the amplitude A and the radius R of the sphere. `jkr_factor` is the factor by
+    /// which the waves raise the pull-off force according to the theory of Johnson, Kendall and
+    /// Roberts (JKR).
     pub fn of_wave_ratio(ratio: f64, jkr_factor: f64) -> Option<Warning> {
         (ratio < Self::LEAST_WAVE_RATIO).then_some(Warning::SteepWaves { ratio, jkr_factor })
     }
 
-    /// Returns a warning if the rms heights of two surfaces differ too much for two samples of one
+    /// Returns a warning if the rms heights of two surfaces differ too much for samples of the same
     /// roughness.
     pub fn of_rms_heights(flattest: NamedHeight, roughest: NamedHeight) -> Option<Warning> {
         let ratio = roughest.rms_height / flattest.rms_height;
@@ -431,8 +440,8 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if `profiles`, the number of measured profiles, is too small for accurate
-    /// moments.
+    /// Returns a warning if the number of measured profiles is too small for an accurate rms
+    /// height, gradient and curvature.
     pub fn of_measured_profiles(profiles: u64) -> Option<Warning> {
         (profiles < Self::MANY_PROFILES).then_some(Warning::FewMeasuredProfiles { profiles })
     }
@@ -440,14 +449,15 @@ impl Warning {
 
 /// Effects of the warnings on stated errors.
 impl Warning {
-    /// Returns true if the results do not belong to the stated body, so that their errors are
-    /// unknown.
+    /// Returns true if the warning means that the results belong to another body than the stated
+    /// one. The errors of the results are then unknown.
     pub fn leaves_errors_unknown(&self) -> bool {
         matches!(self, Warning::ContactAtEnds { .. })
     }
 
-    /// Returns true if forces may be wrong by more than the errors due to the number of springs,
-    /// the sample of profiles and the measured spectrum together.
+    /// Returns true if the warning means that forces may be wrong by more than the stated errors.
+    /// The stated errors are those due to the number of springs, the sample of profiles and the
+    /// measured spectrum.
     pub fn exceeds_errors(&self) -> bool {
         matches!(
             self,

@@ -70,8 +70,8 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe,
-/// the function waits until another program reads from it.
+/// Writes a regular file, a pipe or a device. A regular file is written as [`write_new_file`] does.
+/// For a pipe, the function waits until another program reads from it.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -115,8 +115,8 @@ pub fn write_new_file(
     sync_folder(folder_of(&target.path)).map_err(failed)
 }
 
-/// Removes temporary files that killed processes have left in a folder. These are the temporary
-/// files that are older than a minute and on which no process holds a lock. Files that cannot be
+/// Removes temporary files that killed processes have left in a folder. Only temporary files that
+/// are older than a minute, and on which no process holds a lock, are removed. Files that cannot be
 /// removed stay.
 pub fn remove_abandoned(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {

@@ -49,7 +49,8 @@ pub struct AdhesiveState {
     pub elastic_energy: f64,
 }
 
-/// A rigid rough square that adheres to an elastic half-space. Prescribed indentations move it.
+/// A rigid rough square that adheres to an elastic half-space. The square moves from one prescribed
+/// indentation to the next.
 pub struct AdhesiveSquare {
     grid: Grid,
     /// Number of cells along a side of the body. Around the body there is a ring of cells that

@@ -54,8 +54,9 @@ impl<T: FftNum + Default> Convolution<T> {
     /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
-    /// Returns the number of bytes of a planned convolution, including the memory that its planning
-    /// needs.
+    /// Returns the memory in bytes of a planned convolution, including the memory that its planning
+    /// needs. `cells` is the side of the grid and `padded` the side of the padded grid, both in
+    /// cells.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
         let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * Self::apart(padded);
@@ -74,9 +75,9 @@ impl<T: FftNum + Default> Convolution<T> {
         padded + Self::TOGETHER
     }
 
-    /// Plans the convolution with a kernel that is given by its transform. `transform` gets the
-    /// wave numbers (k_x, k_y), in waves on the padded grid. Wave numbers above half of the number
-    /// of padded cells mean negative wave numbers.
+    /// Plans the convolution with a kernel that is given by its Fourier transform. The arguments of
+    /// `transform` are the wave numbers (k_x, k_y): numbers of waves on the side of the padded
+    /// grid. A wave number above half of the number of padded cells means a negative wave number.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -92,8 +93,9 @@ impl<T: FftNum + Default> Convolution<T> {
         Ok(planned)
     }
 
-    /// Plans the convolution with a kernel that is given at the distances (x, y) in cells. The
-    /// padded grid must be at least twice as large as the grid.
+    /// Plans the convolution with a kernel that is given by its values. The arguments of `kernel`
+    /// are the distances (x, y) in cells. The side of the padded grid, `padded`, must be at least
+    /// twice the side of the grid, `cells`.
     pub fn by_kernel(
         cells: usize,
         padded: usize,
@@ -164,8 +166,9 @@ impl<T: FftNum + Default> Convolution<T> {
         })
     }
 
-    /// Convolves a grid: `from` writes each row of the grid, and `to` reads each row of the result.
-    /// Both functions get `context`, so that a row is made and used while it is in the cache.
+    /// Convolves a grid row by row. `from` writes the row of the grid with the given index, and
+    /// `to` reads the row of the result with the given index. Both functions receive `context`. A
+    /// row is thus made and used while it is in the cache of the processor.
     pub fn apply<C>(
         &mut self,
         context: &mut C,

@@ -19,7 +19,7 @@ pub enum HalfSpaceError {
         /// The number of heights that is allowed.
         allowed: usize,
     },
-    /// A value is out of its range: a value of the square, its load, its adhesion or the tolerance.
+    /// A value of the square, its load, its adhesion or the tolerance is out of its range.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
         /// Name of the refused value, such as `tolerance`.

@@ -8,8 +8,8 @@ use asperity_data::check_room;
 /// Largest number of cells along a side.
 const FINEST: usize = 8192;
 
-/// A rigid rough square above an elastic half-space. It is divided into equal square cells, with
-/// the same number of cells along each side.
+/// A rigid rough square above an elastic half-space. The square is divided into equal square cells,
+/// with the same number of cells along each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Square<'a> {
     /// Height of each cell in m, row by row. The highest cell touches first.
@@ -26,8 +26,9 @@ pub enum Load {
     /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of
     /// the repeated squares.
     Force(f64),
-    /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`],
-    /// because the displacement of a periodic half-space has no zero.
+    /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`]. With
+    /// [`Boundary::Periodic`] the mean displacement of the half-space is not determined, so a force
+    /// must be prescribed.
     Indentation(f64),
 }
 
@@ -36,8 +37,8 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap between the square and the half-space at each cell in m. On the contact it should be
-    /// zero; [`Pressed::residual`] states how far it deviates.
+    /// Gap between the square and the half-space at each cell in m. In a cell in contact the gap
+    /// should be zero; [`Pressed::residual`] is a measure of the deviation.
     pub gap: Vec<f64>,
     /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is
     /// positive.
@@ -47,21 +48,20 @@ pub struct Pressed {
     pub indentation: f64,
     /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
-    /// Largest deviation of the gap of any cell, divided by the rms height of the square. The
-    /// deviation is the absolute value of the gap for a cell in contact, and the depth of
-    /// penetration for any other cell. A flat square has an rms height of zero. For such a square
-    /// the deviation is divided by the given indentation, or by F/(E* L) for a given force F and
-    /// the side L.
+    /// Largest deviation of the gap of any cell, divided by the rms height of the square. For a
+    /// cell in contact the deviation is the absolute value of the gap. For any other cell it is the
+    /// depth of penetration. A flat square has the rms height zero. Its deviation is divided by the
+    /// prescribed indentation instead, or by F/(E* L) for a prescribed force F and the side L.
     pub residual: f64,
-    /// True if `residual` is at most the required tolerance and no pressure is negative. False if
-    /// the solver has used all its steps before it reached the tolerance.
+    /// True if the solver has reached its goal: `residual` is at most the required tolerance, and
+    /// no pressure is negative. False if the solver has used all its steps before.
     pub is_reached: bool,
-    /// Number of convolutions that the solver computed on the finest grid, whose cells are those of
-    /// the square. It is a measure of the computing work.
+    /// Number of convolutions that the solver computed on its finest grid, a measure of the
+    /// computing work. The cells of the finest grid are those of the square.
     pub convolutions: u64,
 }
 
-/// Solver for contacts of squares that have a fixed number of cells.
+/// Solver for contacts of squares that all have the same number of cells.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.

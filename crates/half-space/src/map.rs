@@ -8,10 +8,12 @@ use rand::{Rng, SeedableRng};
 use std::f64::consts::TAU;
 
 /// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by
-/// row. The surface is a sum of waves with k_x periods along one side and k_y periods along the
-/// other. Such a wave contributes `variance`(k) to the mean square height, with k = √(k_x² + k_y²).
-/// Heights are in m if `variance` returns m². With more cells and the same `seed`, the surface has
-/// the same waves and additional shorter waves.
+/// row.
+///
+/// The surface is a sum of waves with k_x periods along one side and k_y periods along the other. A
+/// wave contributes `variance`(k) to the mean square height, where k = √(k_x² + k_y²). The heights
+/// are in m if `variance` returns m². With the same `seed` and more cells, the surface has the same
+/// waves and additional shorter waves.
 ///
 /// # Errors
 /// Returns an error if the heights do not fit into memory.

@@ -18,22 +18,22 @@ pub enum Boundary {
     Periodic,
 }
 
-/// Displacement of the middle of a square cell by a pressure of E* on this cell, in units of the
-/// side of the cell: (4/π) ln(1+√2).
+/// Displacement of the middle of a square cell on which a pressure of E* acts, in units of the side
+/// of the cell: (4/π) ln(1+√2).
 pub const OWN_DISPLACEMENT: f64 = 1.122_199_7;
 
-/// Operators of one grid.
+/// The linear operators of one grid, such as the displacements that pressures cause.
 pub struct Operators {
     cells: usize,
     displacement: Convolution<f64>,
     stiffness: Convolution<f32>,
-    /// Number of convolutions so far.
+    /// Number of convolutions computed so far, a measure of the computing work.
     pub convolutions: u64,
     sweeps: Sweeps,
 }
 
 impl Operators {
-    /// Returns the number of bytes of the operators of a grid.
+    /// Returns the memory in bytes of the operators of a grid with `cells` cells along a side.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         let padded = PaddedSides::of(cells, boundary);
         let sweeps = size_of::<f32>() * Sweeps::numbers(cells);
@@ -75,8 +75,9 @@ impl Operators {
         })
     }
 
-    /// Computes the displacements that pressures cause. The two functions write the pressures and
-    /// read the displacements row by row.
+    /// Computes the displacements that pressures cause, row by row. `pressure` writes the pressures
+    /// of the row with the given index. `displacement` reads the displacements of the row with the
+    /// given index.
     pub fn displace<C>(
         &mut self,
         context: &mut C,
@@ -87,12 +88,12 @@ impl Operators {
         self.displacement.apply(context, pressure, displacement);
     }
 
-    /// Computes approximate pressures on a contact that cause given displacements of the contact;
-    /// elsewhere the pressures are zero. The operator is P Eᵀ D E:
+    /// Computes approximate pressures on the contact that cause given displacements of the contact.
+    /// The pressures outside the contact are zero. The operator is P Eᵀ D E:
     ///
     /// * E extends the displacements smoothly beyond the contact, because zeros outside would act
     ///   as a wall at each edge.
-    /// * D multiplies each wave by E*|q|/2, with its wave number q.
+    /// * D multiplies each wave with the wave number q by E*|q|/2.
     /// * Eᵀ is the transpose of E, and P sets the pressures outside the contact to zero.
     ///
     /// The operator is symmetric. Since it is only approximate, single precision is enough.

@@ -35,10 +35,11 @@ pub enum Given {
     Indentation(f64),
 }
 
-/// Result of a solution: the residual that is left, and the computing work.
+/// Result of the solver: the residual that is left, and the computing work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
-    /// Largest violation of the conditions of contact, in rms heights of the surface.
+    /// Largest violation of the conditions of contact, divided by the rms height of the surface. A
+    /// violation is a gap of a cell in contact, or the penetration of any other cell.
     pub residual: f64,
     /// True if the residual is within the required tolerance.
     pub is_reached: bool,
@@ -48,20 +49,20 @@ pub struct Ended {
     pub convolutions: u64,
 }
 
-/// State and memory of one grid. All lengths are in units of the side, all pressures in units of
-/// E*.
+/// State and memory of the solver on one grid. All lengths are in units of the side of the square,
+/// and all pressures in units of the effective modulus E*.
 pub struct Grid {
     pub cells: usize,
     pub operators: Operators,
     /// Depth of each cell of the rigid surface below the highest point.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// Sum of displacement and depth of each cell. In the solution it has one value on the whole
-    /// contact.
+    /// Displacement of the half-space plus depth of the rigid surface, for each cell. In the
+    /// solution, this sum has the same value in all cells in contact.
     pub levels: Vec<f64>,
     /// 1 for a cell off the contact, 0 for a cell on the contact.
     pub outside: Vec<f32>,
-    /// Sum of displacement and depth that the solution has on the contact.
+    /// Value that `levels` has in all cells in contact when the solution is found.
     pub level: f64,
     /// Number of cells in contact.
     count: f64,
@@ -92,7 +93,8 @@ struct Step {
     violations: Violations,
 }
 
-/// Sums over the contact of products with the gradient of a step.
+/// Sums over the cells in contact that determine the next search direction of the conjugate
+/// gradients.
 struct GradientSums {
     /// Scalar product of gradient and residual.
     with_residual: f64,
@@ -101,7 +103,8 @@ struct GradientSums {
     total: f64,
 }
 
-/// Sums over the contact of products with the direction of a step.
+/// Sums over the cells in contact that determine the length of a conjugate gradient step. They are
+/// sums of the search direction and of its image, the displacements that it causes as a pressure.
 struct DirectionSums {
     /// Scalar product of direction and residual.
     with_residual: f64,
@@ -119,7 +122,7 @@ struct DirectionRows<'a> {
 }
 
 impl Grid {
-    /// Returns the number of bytes of a grid and its operators.
+    /// Returns the memory in bytes of a grid with `cells` cells along a side, and of its operators.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         Operators::bytes(cells, boundary) + (5 * 8 + 4 * 4) * (cells * cells) as u64
     }
@@ -144,7 +147,8 @@ impl Grid {
         })
     }
 
-    /// Sets each depth to the mean depth of the four cells of the finer grid that the cell covers.
+    /// Sets the depth of each cell from the finer grid: the mean depth of the four finer cells in
+    /// the cell.
     pub fn coarsen(&mut self, finer: &Grid) {
         let cells = self.cells;
         let fine = finer.cells;
@@ -156,9 +160,9 @@ impl Grid {
         }
     }
 
-    /// Sets the contact with which the coarsest grid begins. Under a force, all cells are in
-    /// contact. At an indentation, those cells are in contact that penetrate the undeformed
-    /// half-space.
+    /// Sets the cells in contact with which the solution on the coarsest grid begins. If a force is
+    /// prescribed, all cells are in contact. If an indentation is prescribed, the cells that
+    /// penetrate the undeformed half-space are in contact.
     pub fn begin(&mut self, given: Given) {
         match given {
             Given::MeanPressure(mean) => {
@@ -174,8 +178,9 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of the coarser grid `coarse`. The edge of the contact lies where
-    /// the interpolated [signed pressure](Grid::signed_pressure) changes its sign.
+    /// Sets the pressures and the cells in contact from the solution on the coarser grid `coarse`.
+    /// The edge of the contact lies where the interpolated [signed pressure](Grid::signed_pressure)
+    /// changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;
         let half = coarse.cells;
@@ -239,7 +244,7 @@ impl Grid {
         self.displace();
     }
 
-    /// Computes the displacements that the pressures cause.
+    /// Computes the displacements that the pressures cause, and sets `levels`.
     pub fn displace(&mut self) {
         let Grid {
             cells,
@@ -327,8 +332,8 @@ impl Grid {
         is_clipped
     }
 
-    /// Solves the contact on this grid until its violations are at most `tolerance` times the rms
-    /// height `height`.
+    /// Solves the contact on this grid. The solver ends when no cell violates the conditions of
+    /// contact by more than `tolerance` times the rms height `height`.
     pub fn solve(
         &mut self,
         given: Given,
@@ -380,9 +385,9 @@ impl Grid {
         }
     }
 
-    /// Solves the contact at the indentation `depth` for the present cells in contact, whose
-    /// pressures may pull. Ends when each displacement on the contact deviates by at most
-    /// `tolerance`.
+    /// Solves for the pressures at the indentation `depth` while the cells in contact do not
+    /// change. The pressures may be negative, so that cells pull. The solver ends when each
+    /// displacement on the contact deviates from the required one by at most `tolerance`.
     pub fn solve_fixed(
         &mut self,
         depth: f64,
@@ -645,7 +650,8 @@ impl<const N: usize> Sums<N> {
     }
 }
 
-/// Solves a contact on nested grids. The last grid is the finest one, and its depths must be set.
+/// Solves a contact on nested grids, from the coarsest to the finest. The finest grid is the last
+/// of `grids`, and its depths must be set.
 pub fn press(
     grids: &mut [Grid],
     boundary: Boundary,

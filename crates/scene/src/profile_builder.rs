@@ -50,8 +50,8 @@ pub struct ProfileBuilder {
     seed: u64,
 }
 
-/// Changes a member of the self-affine roughness. If the builder has no roughness yet, the macro
-/// first adds one without members.
+/// Sets one field of the self-affine roughness. If the builder has no roughness yet, the macro
+/// first adds a roughness without values.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
@@ -271,8 +271,8 @@ impl ProfileBuilder {
         Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
-    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] can
-    /// change the other fields of the scene.
+    /// Returns a scene with the profile of this builder, and with this modulus, adhesion and
+    /// loading. [`CheckedScene::with`] can change the other fields of the scene.
     ///
     /// # Errors
     /// Returns [`Error::Values`] if a value is out of its range.

@@ -30,11 +30,10 @@ pub fn closed_form(
     })
 }
 
-/// Returns the adhesion force in N of a smooth body after a preload in N, by a formula. `form` is
-/// `None` for a flat body, and `length` is the apparent diameter in m. The works of adhesion on
-/// closing and on opening are in J/m².
+/// Returns the adhesion force in N of a smooth body after a preload in N, by a formula.
 ///
-/// Returns `None` in three cases:
+/// `form` is `None` for a flat body. `length` is the apparent diameter in m. `works_of_adhesion`
+/// are the works on closing and on opening in J/m². Returns `None` in three cases:
 ///
 /// * the form is a wavy sphere or a table;
 /// * the contact at pull-off is longer than the profile;

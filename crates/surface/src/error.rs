@@ -11,8 +11,8 @@ const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, Ne
                        Park TIFF, Zygo DAT, VK4, or these in gzip; others saved as GWY or X3P in \
                        Gwyddion";
 
-/// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count
-/// from 0, after decompression.
+/// Place of a fault in a file, a surface or a scene. Lines and points are counted from 1. Bytes are
+/// counted from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -35,11 +35,11 @@ pub enum Place {
     /// Place in one of several surfaces that are analysed together, with the index of the surface
     /// from 0.
     Surface(usize, Box<Place>),
-    /// Place in a file that a field of the scene names.
+    /// Place in a file that a field of a scene names.
     FileOf(Box<PlaceInFile>),
 }
 
-/// Place in a file that a field of the scene names.
+/// Place in a file, and the field of a scene that names this file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlaceInFile {
     /// Path of the field in the scene, such as `roughness.file`.
@@ -79,7 +79,7 @@ impl Place {
     }
 }
 
-/// How one of several surfaces of a file is chosen.
+/// How the user chooses one of several surfaces in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChosenBy {
     /// The user chooses by the number or the name of a channel.
@@ -89,7 +89,7 @@ pub enum ChosenBy {
 }
 
 /// Reason why a surface, a form or a profile cannot be read, made or analysed. The message names
-/// the file only if the place is a [`Place::FileOf`].
+/// the file only if a scene names it ([`Place::FileOf`]).
 ///
 /// ```
 /// use asperity_data::{Remedied, Remedy};
@@ -111,7 +111,7 @@ pub enum SurfaceError {
         found: String,
         /// What is allowed there, in words.
         allowed: String,
-        /// Steps with which the file can be read; none if no option helps.
+        /// Options that the user can give so that the file is read; empty if no option helps.
         remedies: Vec<Remedy>,
     },
     /// The format of a file is known, but this crate has no reader for it.
@@ -148,7 +148,7 @@ pub enum SurfaceError {
         /// Unit of the positions, if the file states this unit but none for the heights.
         unit_of_positions: Option<String>,
     },
-    /// The file has no channel or surface that fits the options, or several.
+    /// The options do not determine one channel or surface of the file: none fits, or several fit.
     #[error("{place}{fault}: {}; allowed: {allowed}", channels.join(", "))]
     Channel {
         /// Place of the error, which is the file as a whole.
@@ -159,7 +159,7 @@ pub enum SurfaceError {
         channels: Vec<String>,
         /// What is allowed, in words.
         allowed: &'static str,
-        /// How the user chooses one of the channels or surfaces.
+        /// How the user chooses a channel or a surface.
         chosen_by: ChosenBy,
     },
     /// The operating system cannot read a file.
@@ -213,8 +213,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all
-    /// surfaces together.
+    /// Returns the index of the surface with the fault, from 0. Returns `None` if the fault
+    /// concerns all surfaces together.
     pub fn surface(&self) -> Option<usize> {
         self.find(|place| match place {
             Place::Surface(index, _) => Some(*index),
@@ -222,8 +222,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the field of the scene with the fault, such as `roughness.file`; `None` for a
-    /// surface that belongs to no scene.
+    /// Returns the path of the field of a scene that causes the fault, such as `roughness.file`.
+    /// Returns `None` for a surface that belongs to no scene.
     pub fn field(&self) -> Option<&'static str> {
         self.find(|place| match place {
             Place::Field(name) => Some(*name),
@@ -232,7 +232,7 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the path of the file with the fault, if a scene names this file.
+    /// Returns the path of the file with the fault; `None` if no scene names this file.
     pub fn file(&self) -> Option<String> {
         self.find(|place| match place {
             Place::FileOf(inside) => Some(inside.file.clone()),
@@ -240,7 +240,7 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the same error with a further step with which the file can be read.
+    /// Returns the same error with a further step that the user can take so that the file is read.
     pub fn with(mut self, remedy: Remedy) -> Self {
         if let SurfaceError::Refused { remedies, .. } = &mut self {
             remedies.push(remedy);
@@ -248,7 +248,8 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the same error with a longer place, which `outer` makes from the present place.
+    /// Returns the same error with a longer place. The function `outer` makes the longer place from
+    /// the present place.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -265,14 +266,14 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the same error with a longer place: the field `roughness.file` of the scene, the
-    /// path `file`, and the present place inside this file.
+    /// Returns the same error with a longer place: first the field `roughness.file` of the scene,
+    /// then the path `file`, and then the present place inside this file.
     pub fn in_measured(self, file: &Path) -> Self {
         self.in_file_of("roughness.file", file)
     }
 
-    /// Returns the same error with a longer place: the field of the scene that names a file, the
-    /// path of the file, and the present place inside this file.
+    /// Returns the same error with a longer place: first the field of the scene that names a file,
+    /// then the path of the file, and then the present place inside this file.
     pub(crate) fn in_file_of(self, field: &'static str, file: &Path) -> Self {
         let file = file.display().to_string();
         self.within(|place| {

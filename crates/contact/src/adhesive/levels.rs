@@ -36,7 +36,7 @@ pub enum Edges {
 }
 
 impl Edges {
-    /// Returns the name of the edge model as scene files have it.
+    /// Returns the name by which scene files state where the edges of patches may lie.
     pub fn name(self) -> &'static str {
         match self {
             Edges::Grid => "Grid",
@@ -58,8 +58,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// Extends the span by neighbouring springs with gaps up to `level` in m, but not beyond the
-    /// two springs of `limits`, the leftmost and the rightmost one that the span may contain.
+    /// Returns the span extended by all neighbouring springs whose gaps are at most `level` in m.
+    /// `limits` are the leftmost and the rightmost spring that the extended span may contain.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, limits: [u32; 2]) -> Self {
         let [leftmost, rightmost] = limits;
@@ -74,9 +74,9 @@ impl Span {
         span
     }
 
-    /// Returns the index of the wall: the spring beside the span that attaches next. Of the two
-    /// springs beside the span, the wall is the one with the smaller gap. Returns `None` if the
-    /// span fills the profile.
+    /// Returns the index of the wall, the spring beside the span that attaches next. It is the
+    /// spring with the smaller gap of the two beside the span. Returns `None` if the span fills the
+    /// profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         let left = self.first.checked_sub(1);
@@ -88,7 +88,8 @@ impl Span {
         }
     }
 
-    /// Returns this span extended by the spring `wall`, the spring beside it that attaches next.
+    /// Returns this span extended by the neighbouring spring with the index `wall`, which attaches
+    /// next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let mut span = *self;
@@ -180,14 +181,15 @@ impl EdgeSum {
     }
 }
 
-/// Part of an edge cell that lies below the level of the edge. An edge cell lies between the
-/// outermost spring of a patch and the first spring outside.
+/// An edge cell of a patch, and the part of the cell that lies below the level of the edge. The
+/// cell lies between the outermost spring of the patch and the first spring outside. The level is
+/// the gap at which the edge lies.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
     /// Gap in m of the first spring outside. It is infinite if the patch reaches the end of the
     /// foundation, which is half a cell away from the last spring.
     outside: f64,
-    /// Share of the cell that lies at or below the level.
+    /// Share of the length of the cell on which the gap is at most the level of the edge.
     pub share: f64,
     /// Growth of the share with the level in 1/m. It is zero if the share is constant or jumps.
     growth: f64,
@@ -200,9 +202,9 @@ pub struct EdgeCell {
 }
 
 impl EdgeCell {
-    /// Returns the left and the right edge cell of a patch whose edges lie at the gap `level` in m.
-    /// The level must lie between the largest gap of the patch and the gap of the spring that
-    /// attaches next.
+    /// Returns the left and the right edge cell of a patch with the springs of `span`. The edges of
+    /// the patch lie at the gap `level` in m, which must be between the largest gap of the patch
+    /// and the gap of the spring that attaches next.
     #[inline]
     pub fn of_span(gaps: &[f64], span: &Span, level: f64) -> [Self; 2] {
         let before = if span.first > 0 {
@@ -255,17 +257,17 @@ impl EdgeCell {
         }
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the cell below the level t, where
-    /// c is the gap and θ = t − `above` an indentation in m.
+    /// Computes ∫ (c − θ)² dx in cells times m², where c is the gap. The integral is over the part
+    /// of the cell below the level t of the edge. θ = t − `above` is an indentation in m.
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Returns the length of a patch as a function of its level, the gap at which its edges lie.
-    /// The profile is straight between springs. Also returns the two edge cells at the lowest
-    /// level.
+    /// Returns the length of a patch as a function of its level, and the two edge cells of the
+    /// patch at its lowest level. The level is the gap at which the edges of the patch lie. The
+    /// profile is straight between springs.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of_span(gaps, span, span.gap);
@@ -279,8 +281,8 @@ impl Levels {
         (levels, cells)
     }
 
-    /// Returns the height in m of the edges of a patch above its largest gap, at an indentation in
-    /// m.
+    /// Returns how far the edges of a patch lie above the largest gap of the patch, in m, at an
+    /// indentation in m.
     #[inline]
     pub fn rise<R: DetachmentRule>(&self, rule: R, indentation: f64) -> f64 {
         if self.growth <= 0.0 {
@@ -301,9 +303,9 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Returns the indentation in m at which pinned edges begin to move, and true if they then
-    /// slide or false if they jump. The edges are pinned at the height `rise` in m above the
-    /// largest gap.
+    /// Returns the indentation in m at which pinned edges of a patch begin to move, and how they
+    /// move: true if they slide, false if they jump. Edges are pinned while they stay in place
+    /// although the body moves. `rise` is their height in m above the largest gap of the patch.
     #[inline]
     pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -313,8 +315,8 @@ impl Levels {
     }
 }
 
-/// The two edge cells of a patch, for all indentations at which the patch consists of the same
-/// springs. The edges either slide with the indentation or are pinned at one level.
+/// The two edge cells of a patch at all indentations at which the patch consists of the same
+/// springs. As the indentation changes, the edges either slide, or are pinned and stay in place.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<R> {
     levels: Levels,
@@ -332,8 +334,9 @@ pub struct Slider<R> {
 }
 
 impl<R: DetachmentRule> Slider<R> {
-    /// Creates the edge cells of a patch that consists of the springs of `span`. If the edges are
-    /// pinned, `pin` is their height in m above the largest gap; if they slide, `pin` is `None`.
+    /// Creates the two edge cells of a patch that consists of the springs of `span`. `pin` is
+    /// `None` if the edges slide. If the edges are pinned and stay in place, `pin` is their height
+    /// in m above the largest gap of the patch.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -356,9 +359,9 @@ impl<R: DetachmentRule> Slider<R> {
         slider
     }
 
-    /// Creates the cell between two springs with the gaps `left` and `right` in m. The contact
-    /// grows from the smaller gap to the larger one by the rule `no_stretch`, which allows no
-    /// stretch.
+    /// Creates the cell between two neighbouring springs with the gaps `left` and `right` in m. The
+    /// contact in this cell grows from the smaller gap to the larger one. The rule `no_stretch`
+    /// allows no stretch.
     #[inline]
     pub fn of_cell(left: f64, right: f64, no_stretch: R) -> Self {
         let gap = smaller(right, left);
@@ -411,18 +414,18 @@ impl<R: DetachmentRule> Slider<R> {
         }
     }
 
-    /// Returns ∫ Δl² dℓ in cells times m², from zero length to the length of the patch at an
-    /// indentation in m. Δl is the largest stretch of a patch of length ℓ, so the integral is the
-    /// sum of the squared stretches with which springs attached at the moving edges. It equals
-    /// twice the surface energy of the patch divided by the stiffness of a spring.
+    /// Returns ∫ Δl² dℓ in cells times m², where Δl is the largest stretch that a patch of the
+    /// length ℓ bears. The integral goes from zero to the length of the patch at an indentation in
+    /// m. It is the sum of the squared stretches with which springs attached at the moving edges.
+    /// It equals twice the surface energy of the patch divided by the stiffness of a spring.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.cells + self.edge_cells(indentation).length;
         self.rule.squares_up_to(length)
     }
 
-    /// Returns the derivative of the compression of the edge cells with respect to the indentation
-    /// (m), in cells. The derivative never falls while the indentation grows, so the force is
-    /// convex between events.
+    /// Returns the derivative of the compression of both edge cells with respect to the
+    /// indentation, in cells. The derivative never falls while the indentation grows. The force is
+    /// therefore convex between two events, at which springs attach or detach.
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let levels = self.levels;

@@ -11,12 +11,14 @@ use asperity_data::{gathered, push, resized};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Closing thresholds of the nodes of a contact tree, for a loading from separation.
+/// Closing thresholds of the nodes of a contact tree: the indentations in m at which the nodes
+/// close on a loading from separation.
 ///
-/// A node closes when one of its two branches attaches the spring of the node. All springs of its
-/// subtree then belong to one patch. The threshold of node v is s_v = min over its branches u of
-/// max(s_u, all φ of the patch while it grows from u to v). φ is the indentation at which a patch
-/// is in equilibrium at a given level; see the module `run`.
+/// A node of the tree is a local maximum of the gap. It closes when one of the two patches beside
+/// it attaches the spring of the node. All springs of the subtree of the node then belong to one
+/// patch. The threshold of node v is s_v = min over its two branches u of max(s_u, all φ of the
+/// patch while it grows from u to v). φ is the indentation at which a patch with its edges at a
+/// given gap is in equilibrium; see the module `run`.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes: all springs of its subtree then belong to one
@@ -151,8 +153,9 @@ impl Closing {
         reached
     }
 
-    /// Lists the runs of a loading in the order that [`Run`] describes, from right to left. `held`
-    /// are the patches in contact at the beginning of the loading.
+    /// Lists the runs of a loading from right to left, in the order that [`Run`] describes. A run
+    /// is a patch over a range of indentations in which its edges do not jump. `held` are the
+    /// patches in contact at the beginning of the loading.
     pub fn list<const SLIDES: bool, R: DetachmentRule>(
         &self,
         ground: &Ground<'_, SLIDES, R>,

@@ -22,8 +22,8 @@ use crate::totals::SquareScale;
 use asperity_data::CompensatedSum;
 use levels::EdgeCell;
 
-/// The runs of a motion, together with the profile, the tree and the rule with which they were
-/// listed.
+/// The runs of a motion, with the profile, the contact tree and the rule of detachment from which
+/// they follow. A run is a patch over a range of indentations in which its edges do not jump.
 pub struct Runs<'a, const SLIDES: bool, R> {
     pub ground: Ground<'a, SLIDES, R>,
     pub runs: &'a [Run],
@@ -31,8 +31,8 @@ pub struct Runs<'a, const SLIDES: bool, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Returns the patches in contact at an indentation in m, from left to right. If `pins` is
-    /// true, each patch also has the height of its edges. This height is needed if the edges stay
-    /// in place at the beginning of the next motion.
+    /// true, [`HeldPatch::pin`] is the height of the edges of each patch. The next motion needs
+    /// this height if the edges first stay in place when the motion begins.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
         let runs = self.runs.iter().rev();
         runs.filter(move |run| run.is_at(indentation))
@@ -81,7 +81,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         thresholds
     }
 
-    /// Computes the contact at each indentation of a grid.
+    /// Computes the contact at each point of a grid of indentations.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let low = grid.points[0];
         let high = grid.high();
@@ -114,9 +114,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         runs.filter(move |run| run.from <= high && run.to > low)
     }
 
-    /// Adds the runs of the motion to `intervals`, in which an extreme or a crossing of the force
-    /// is searched. Each patch adds the events at which it appears and disappears and, if its edges
-    /// move between springs, these edges.
+    /// Adds the runs of the motion to `intervals`, the parts of the motion in which an extreme or a
+    /// crossing of the force is searched. A run is a patch over a range of indentations. Each run
+    /// adds two events, at which its patch appears and disappears. If edges move between springs,
+    /// each run also adds its edge cells.
     pub fn search(&self, intervals: &mut Intervals<R>) {
         let ground = &self.ground;
         let (low, high) = intervals.ends();
@@ -221,13 +222,14 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile that attach or detach
-    /// at an indentation θ above `low` and up to `high` (m). From this integral follows the energy
-    /// that springs release when they detach, or gain when they attach with a stretch.
+    /// at an indentation θ above `low` and up to `high` (m). c is the gap. From this integral
+    /// follows the energy that springs release when they detach, or gain when they attach with a
+    /// stretch.
     ///
-    /// When a patch forms at an indentation θ, all springs between its edges attach, except those
-    /// that are already in contact in smaller patches, whose runs end at θ. When a patch splits,
-    /// the same springs detach. In a sum over runs most terms therefore cancel. The remaining terms
-    /// are:
+    /// When a patch forms at an indentation θ, all springs between its edges attach, except springs
+    /// that are already in contact in smaller patches. The runs of the smaller patches end at θ.
+    /// When a patch splits, the same springs detach. In a sum over runs most terms therefore
+    /// cancel. The remaining terms are:
     ///
     /// * the squared stretches at the beginning of each run,
     /// * minus the squared stretches at the end of each run,

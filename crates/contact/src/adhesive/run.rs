@@ -21,22 +21,23 @@ use crate::detachment::{DetachmentRule, Levels, ROUNDING};
 use crate::history::Patch;
 use crate::totals::ContactTotals;
 
-/// One patch over a range of indentations, in which it grows by one spring after the other without
-/// a jump. The range ends where the patch jumps, merges or splits.
+/// A run: one patch over a range of indentations, in which it grows by one spring after the other
+/// without a jump. The range ends where the patch jumps, merges or splits.
 ///
 /// The runs of a motion are listed in the order of a walk through the contact tree from its root,
-/// right parts first. On each branch the larger patch comes first. A run therefore comes before the
-/// runs inside it, and if two runs are separate, the right one comes first.
+/// with the right one of two parts first. On each branch of the tree the larger patch comes first.
+/// A run therefore comes before the runs of the smaller patches that it contains, and the right one
+/// of two separate runs comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound of the indentations of the run in m, inclusive; −∞ if the patch is in contact
-    /// when a loading begins.
+    /// Lower bound of the indentations of the run in m; the bound belongs to the run. It is −∞ if
+    /// the patch is already in contact when a loading begins.
     pub from: f64,
-    /// Upper bound of the indentations of the run in m, exclusive; +∞ if the patch is in contact
-    /// when an unloading begins.
+    /// Upper bound of the indentations of the run in m; the bound does not belong to the run. It is
+    /// +∞ if the patch is already in contact when an unloading begins.
     pub to: f64,
-    /// Height in m of pinned edges above the largest gap of the patch; NaN if the edges are free to
-    /// move.
+    /// Height in m of pinned edges above the largest gap of the patch. Pinned edges stay in place
+    /// although the body moves. NaN if the edges are free to move.
     pub pin: f64,
     /// First and last spring of the patch at its smallest, at the lower end of the range.
     pub bottom: [u32; 2],
@@ -51,28 +52,28 @@ pub struct HeldPatch {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height in m of the pinned edges above the largest gap of the patch; `None` if the edges are
-    /// free.
+    /// Height in m of pinned edges above the largest gap of the patch. Pinned edges stay in place
+    /// although the body moves. `None` if the edges are free to move.
     pub pin: Option<f64>,
 }
 
-/// The runs of a motion.
+/// The runs of a motion: patches over ranges of indentations in which their edges do not jump.
 #[derive(Debug)]
 pub struct RunList {
     pub runs: Vec<Run>,
-    /// On loading the smallest indentation of full contact in m; on unloading the smallest
-    /// indentation with any contact in m.
+    /// An indentation in m. For a loading it is the smallest indentation of full contact. For an
+    /// unloading it is the smallest indentation at which any spring is in contact.
     pub end: f64,
-    /// Number of evaluations of the rule of Hess.
+    /// Number of times that the rule of Hess was evaluated for this motion.
     pub evaluations: u64,
 }
 
-/// Input of all passes over the contact tree: gaps, tree and the rule of detachment for one
-/// direction of motion.
+/// Input of all passes over the contact tree: the gaps, the tree, and the rule of detachment for
+/// the direction of the motion.
 ///
-/// If `SLIDES` is true, edges move between springs, and the force is a curve between two events. If
-/// `SLIDES` is false, patches consist of whole springs: the length of a patch depends only on the
-/// number of its springs, and there are no edge cells.
+/// If `SLIDES` is true, the edges of patches move between springs, and between two events the force
+/// is a curve. If `SLIDES` is false, patches consist of whole springs. The length of a patch then
+/// depends only on the number of its springs, and there are no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool, R> {
     pub gaps: &'a [f64],
@@ -103,7 +104,8 @@ impl Run {
         }
     }
 
-    /// Returns the height in m of pinned edges above the largest gap; `None` if the edges are free.
+    /// Returns the height in m of pinned edges above the largest gap of the patch. Pinned edges
+    /// stay in place although the body moves. Returns `None` if the edges are free to move.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -141,29 +143,31 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the smallest indentation in m at which a patch with the springs of `span` attaches
-    /// the next spring, whose gap is `wall` in m.
+    /// its next spring. `wall` is the gap of the next spring in m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Returns the level in m of the edges of a patch with the springs of `span`, at an indentation
-    /// in m. `pin` is the height in m of pinned edges above the largest gap; `None` if the edges
-    /// are free.
+    /// Returns the gap in m at which the edges of a patch lie, at an indentation in m. The patch
+    /// consists of the springs of `span`. `pin` is the height in m of the edges above the largest
+    /// gap of the patch if they are pinned, which means that they stay in place. `pin` is `None` if
+    /// the edges are free to move.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Returns the height in m of the edges of a patch above its largest gap, at an indentation in
-    /// m. `pin` is this height if the edges are pinned; `None` if the edges are free.
+    /// Returns how far the edges of a patch lie above the largest gap of the patch, in m, at an
+    /// indentation in m. `pin` is this height if the edges are pinned, which means that they stay
+    /// in place although the body moves. `pin` is `None` if the edges are free to move.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))
     }
 
-    /// Returns the totals of one patch with the springs of `span`. If `SLIDES` is true, the sums
-    /// are over its whole cells; otherwise over its springs.
+    /// Returns sums over one patch that consists of the springs of `span`. If `SLIDES` is true, the
+    /// sums are over the whole cells of the patch; otherwise they are over its springs.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -190,8 +194,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations at which the patch of a run has exactly the
-    /// springs of `span`.
+    /// Returns the upper end of the range of indentations in m at which the patch of `run` has
+    /// exactly the springs of `span`. A run is a patch over a range of indentations in which its
+    /// edges do not jump.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top {
@@ -200,9 +205,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns a bound for the gap in m of the springs beside a patch: a spring with a smaller gap
-    /// certainly belongs to the patch at this indentation in m, on loading and on unloading. The
-    /// bound saves evaluations of the rule of Hess.
+    /// Returns a gap in m: all springs beside the patch with smaller gaps certainly belong to the
+    /// patch at this indentation in m. This holds on loading and on unloading. The value saves
+    /// evaluations of the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let stretch = self
@@ -211,10 +216,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         (indentation + stretch) - ROUNDING * (indentation.abs() + stretch)
     }
 
-    /// Calls `see` for each size of the patch of a run, from the smallest to the largest. The
-    /// arguments are the springs of the patch and the range of indentations in m at which it has
-    /// exactly these springs. Stops when `see` returns true. Ranges below `low` (m) are left out,
-    /// and a range that contains `low` begins at `low`.
+    /// Calls `see` for each size that the patch of `run` has, from the smallest to the largest. A
+    /// run is a patch over a range of indentations. The arguments of `see` are the springs of the
+    /// patch, and the range of indentations in m at which the patch has exactly these springs.
+    /// Indentations below `low` (m) are left out. The calls end when `see` returns true.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -230,8 +235,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the springs of the patch of a run at an indentation in m. The search begins with
-    /// `from`, the springs of the patch at a smaller indentation.
+    /// Returns the springs of the patch of `run` at an indentation in m. A run is a patch over a
+    /// range of indentations. `from` are the springs of the patch at a smaller indentation, where
+    /// the search begins.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let mut span = from;
         while span.ends() != run.top {
@@ -250,7 +256,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         span
     }
 
-    /// Returns the springs of the patch of a run at an indentation in m.
+    /// Returns the springs that the patch of `run` has at an indentation in m. A run is a patch
+    /// over a range of indentations in which its edges do not jump.
     #[inline]
     pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
         self.filled(run, self.bottom(run), indentation)
@@ -258,7 +265,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Returns the length of a patch with the springs of `span`, as a function of its level.
+    /// Returns the length of a patch with the springs of `span` as a function of its level, the gap
+    /// at which the edges of the patch lie.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
         if SLIDES {
@@ -273,17 +281,17 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns a lower bound, in cells, of the length of a patch with the springs `first..=last`
-    /// just before it attaches the next spring.
+    /// Returns a lower bound of the length, in cells, that a patch with the springs `first..=last`
+    /// has just before it attaches the next spring.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
         // Before the next spring attaches, one of the two edge cells is fully in contact.
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Returns the smallest indentation in m at which a patch attaches the next spring, whose gap
-    /// is `wall` in m. `levels` gives the length of the patch for each level, the gap at which the
-    /// edges of the patch lie.
+    /// Returns the smallest indentation in m at which a patch attaches its next spring. `wall` is
+    /// the gap of this spring in m. `levels` is the length of the patch as a function of its level,
+    /// the gap at which the edges of the patch lie.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES {
@@ -295,8 +303,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the smallest indentation in m at which a patch still bears the stretch of its most
-    /// stretched spring. `levels` gives the length of the patch for each level, the gap at which
-    /// the edges of the patch lie. The returned value is at most the largest gap of the patch.
+    /// stretched spring. The returned value is at most the largest gap of the patch. `levels` is
+    /// the length of the patch as a function of its level, the gap at which the edges of the patch
+    /// lie.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
@@ -322,8 +331,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         if holds < gap { holds } else { gap }
     }
 
-    /// Returns true if a patch attaches its next spring without a jump of its edges. `lower` gives
-    /// the length of the patch for each level before the attachment, and `upper` afterwards.
+    /// Returns true if the edges of a patch do not jump when the patch attaches its next spring.
+    /// `lower` is the length of the patch before the attachment, and `upper` the length afterwards.
+    /// Both are functions of the level, the gap at which the edges of the patch lie.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {
@@ -336,9 +346,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.rule.turning_length(upper.growth) < upper.length && upper.length - reached < 0.25
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the profile that the edges pass
-    /// between the state `lower` of a run and its larger state `upper`. θ is the indentation at
-    /// which an edge passes a point with the gap c, so c − θ is the largest stretch at this point.
+    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the profile that the edges of a
+    /// patch pass while it grows from the state `lower` to the state `upper`. θ is the indentation
+    /// at which an edge passes a point with the gap c. The largest stretch at this point is
+    /// therefore c − θ.
     pub fn passed_squares(&self, lower: &SpanAtLevel, upper: &SpanAtLevel) -> f64 {
         if !SLIDES {
             let fewer = lower.span.springs() as f64;

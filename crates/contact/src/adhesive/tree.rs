@@ -4,7 +4,7 @@ use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Smallest number of springs for which a second thread saves more time than it costs.
+/// Number of springs from which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
 /// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
@@ -20,8 +20,8 @@ const LANES: usize = 64;
 // node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
-    /// Indices of the springs at the local minima and maxima of the gap, alternating from left to
-    /// right. The first and the last are minima.
+    /// Indices of the springs at the local minima and maxima of the gap, from left to right. Minima
+    /// and maxima alternate, and the first and the last are minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
     /// Prefix sums before each `BLOCK`-th spring, of the gaps in quanta and of their squares. If
@@ -36,18 +36,20 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in the subtree of the node, in m.
+    /// Smallest gap in m of the springs between the two ends of the patch that forms at this local
+    /// maximum.
     pub lowest: f64,
     /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
-    /// Number of nodes in the subtree of the node, including the node.
+    /// Number of local maxima in the subtree of this one, including this one.
     pub size: u32,
-    /// Number of nodes in the right part of the subtree.
+    /// Number of local maxima in the right part of the subtree.
     pub right: u32,
 }
 
-/// Branch of the contact tree: one patch while the level rises, from the local minimum or the
-/// merger at which the patch appears up to the next merger.
+/// A branch of the contact tree: one patch on a range of levels. The level of a patch is the gap at
+/// which its edges lie. The branch begins at the local minimum or the merger at which the patch
+/// appears, and ends at the next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
@@ -64,8 +66,9 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the node at which the branch begins. If it begins at a local minimum, returns `Err`
-    /// with the index of the minimum among all minima.
+    /// Returns the index of the node, a local maximum of the gap, at which the branch begins. If
+    /// the branch begins at a local minimum of the gap, returns `Err` with the index of this
+    /// minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -106,9 +109,9 @@ impl Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of the gaps `gaps`, with the sums that the edge model needs, and reuses the
-    /// memory of this tree. There must be 1 to 2^28 gaps, which are in m, finite and at least zero.
-    /// `deepest` is the largest gap.
+    /// Builds a new tree from `gaps` in the memory of the old tree `self`. `edges` states where the
+    /// edges of patches may lie, and so which sums the tree needs. There must be 1 to 2^28 gaps, in
+    /// m, finite and at least zero. `deepest` is the largest gap.
     pub(crate) fn rebuild(
         mut self,
         gaps: &[f64],
@@ -130,7 +133,7 @@ impl ContactTree {
         Ok(self)
     }
 
-    /// Returns the number of nodes, the local maxima of the gap inside the profile.
+    /// Returns the number of nodes: the local maxima of the gap inside the profile.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
@@ -175,7 +178,7 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns two sums, of the gaps and of their squares, over all springs to the left of
+    /// Returns the sum of the gaps and the sum of their squares over all springs to the left of
     /// `spring`. If `of_cells` is true, the sums are over the cells to the left of `spring`
     /// instead. The units are those of [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]

@@ -80,13 +80,15 @@ impl Descent {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Lists the runs of an unloading that begins at the indentation `from` (m). `held` are the
-    /// patches in contact at this indentation, from left to right.
+    /// Lists the runs of an unloading that begins at the indentation `from` in m. A run is a patch
+    /// over a range of indentations in which its edges do not jump. `held` are the patches in
+    /// contact at `from`, from left to right.
     ///
-    /// A patch v splits when its most stretched spring detaches. This happens when the larger patch
-    /// around v has split and the rule no longer allows the stretch of the spring. The indentation
-    /// of the split is therefore t_v = min(t of the patch around v, smallest φ of v), where φ is
-    /// defined in the module `run`.
+    /// A patch v splits when its most stretched spring detaches. This requires that the larger
+    /// patch around v has already split, and that the rule no longer allows the stretch of the
+    /// spring. The indentation of the split is therefore t_v = min(t of the patch around v,
+    /// smallest φ of v). φ is the indentation at which a patch with its edges at a given gap is in
+    /// equilibrium; see the module `run`.
     pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {
         let mut listed = RunList {
             runs: Vec::new(),

@@ -5,11 +5,11 @@ use super::{DetachmentRule, Levels, ROUNDING, Rules};
 use crate::foundation::Foundation;
 use std::f64::consts::PI;
 
-/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): a patch of ℓ cells bears the
-/// stretch Δl = √(π ℓ Δx γ/E*) = s √ℓ.
+/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): a patch of ℓ cells bears at
+/// most the stretch Δl = √(π ℓ Δx γ/E*) = s √ℓ.
 ///
-/// ℓ is linear in the level. For y = √ℓ all searched values are therefore roots of quadratic
-/// equations.
+/// The length ℓ is a linear function of the level of the patch, the gap at which its edges lie. All
+/// searched values are therefore roots of quadratic equations for y = √ℓ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     /// Largest stretch s in m of a patch one cell long.
@@ -120,7 +120,7 @@ impl DetachmentRule for HessRule {
 }
 
 impl Rules<HessRule> {
-    /// The rules of a contact without adhesion: no patch bears any stretch.
+    /// The rules of a contact without adhesion, which allow no stretch of the springs.
     pub const NO_ADHESION: Self = Rules {
         closing: HessRule { stretch: 0.0 },
         opening: HessRule { stretch: 0.0 },

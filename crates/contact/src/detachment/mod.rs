@@ -18,7 +18,7 @@ use std::fmt::Debug;
 /// The rule that all contacts use.
 pub type ContactRule = HessRule;
 
-/// Relative margin by which bounds allow for rounding.
+/// Relative margin that bounds have for rounding errors.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Number of nodes of the numerical integration of squared stretches along a slide of the edges.
@@ -32,32 +32,33 @@ const MOST_DOUBLINGS: usize = 1000;
 /// springs, the level is between `gap` and `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
-    /// Largest gap of the patch in m, the lowest level.
+    /// Largest gap of the patch in m, which is its lowest level.
     pub gap: f64,
-    /// Length of the patch at the lowest level, in cells.
+    /// Length of the patch in cells when its edges lie at the largest gap of the patch.
     pub length: f64,
-    /// Growth of the length with the level in cells per metre.
+    /// Growth of the length in cells for each metre of the level.
     pub growth: f64,
-    /// Highest level in m: the gap of the next spring to attach; infinite if the patch fills the
-    /// profile.
+    /// Highest level in m: the gap of the spring that attaches next. Infinite if the patch fills
+    /// the profile.
     pub top: f64,
 }
 
 impl Levels {
-    /// Returns the length in cells at the level `gap + rise` in m.
+    /// Returns the length of the patch in cells when its edges lie `rise` (m) above its largest
+    /// gap.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
     }
 }
 
-/// Largest stretch Δl(ℓ) of the springs of a patch of ℓ cells.
+/// Rule of detachment: the largest stretch Δl(ℓ) that a patch of the length ℓ bears.
 ///
 /// The solver relies on three properties:
 ///
 /// 1. Δl never falls while ℓ grows.
 /// 2. The slope of Δl never grows while ℓ grows. Therefore φ(t) = t − Δl(ℓ(t)), the indentation at
-///    which a patch at the level t is in equilibrium, first falls and then rises.
+///    which a patch with its edges at the gap t is in equilibrium, first falls and then rises.
 /// 3. Δl to the power 5/4 is concave, so that the force is convex between two events. For Δl = s
 ///    ℓ^p this holds if p is at most 4/5.
 pub trait DetachmentRule: Copy + Debug + PartialEq {
@@ -74,8 +75,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         self.largest_stretch(1.0) == 0.0
     }
 
-    /// Returns true only if a patch of the length `cells` in cells certainly bears the stretch
-    /// `stretch` in m (at least zero), whatever the rounding. This bound and the next two save
+    /// Returns true only if a patch certainly bears a stretch, whatever the rounding. `stretch` is
+    /// in m, at least zero, and `cells` is the length of the patch in cells. The function saves
     /// evaluations of the rule.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
@@ -96,8 +97,10 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         self.largest_stretch(cells) * (1.0 - ROUNDING)
     }
 
-    /// Returns the smallest length in cells at which φ rises with the level. `growth` is the growth
-    /// of the length in cells per metre. At the returned length, slope × growth is 1.
+    /// Returns the smallest length in cells at which the equilibrium of a patch is stable: there
+    /// φ(t), the indentation at which a patch with its edges at the gap t is in equilibrium, rises
+    /// with t. `growth` is the growth of the length with t, in cells per metre. At the returned
+    /// length, slope × growth is 1.
     fn turning_length(&self, growth: f64) -> f64 {
         let rises = |cells: f64| self.slope(cells) * growth <= 1.0;
         let mut high = 1.0;
@@ -118,16 +121,17 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         0.0
     }
 
-    /// Returns true if the edges of a patch move with the indentation. They do so if the patch
-    /// bears a stretch and its length grows with the level. `growth` is in cells per metre.
+    /// Returns true if the edges of a patch move with the indentation. The edges move if the patch
+    /// bears a stretch, and if its length grows with the gap at its edges. `growth` is this growth
+    /// in cells per metre.
     #[inline]
     fn slides(&self, growth: f64) -> bool {
         growth > 0.0 && !self.bears_no_stretch()
     }
 
-    /// Returns the height in m above the largest gap at which free edges are in equilibrium.
-    /// `above` is the indentation minus the largest gap in m. If the returned height is outside the
-    /// range of `levels`, the edges lie at the nearest level of this range.
+    /// Returns how far free edges in equilibrium lie above the largest gap of a patch, in m.
+    /// `above` is the indentation minus the largest gap in m. If the equilibrium is outside the
+    /// range of `levels`, the edges lie at the nearest end of this range.
     fn free_rise(&self, levels: &Levels, above: f64) -> f64 {
         if levels.growth <= 0.0 {
             return above + self.largest_stretch(levels.length);
@@ -147,12 +151,12 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         crossing(lowest, highest, excess)
     }
 
-    /// Returns the derivative, in cells, of the compression of a patch with free edges with respect
-    /// to the indentation. `above` is the indentation minus the largest gap, and `rise` the height
-    /// of the edges above the largest gap, both in m.
+    /// Returns the derivative, in cells, of the compression of a patch with respect to the
+    /// indentation. The edges of the patch are free. `above` is the indentation minus the largest
+    /// gap, and `rise` the height of the edges above the largest gap, both in m.
     ///
-    /// The level t changes with the indentation d by dt/dd = 1/(1 − Δl′ growth), and each edge that
-    /// moves attaches springs with the stretch Δl.
+    /// The gap t at the edges changes with the indentation d by dt/dd = 1/(1 − Δl′ growth), and
+    /// each edge that moves attaches springs with the stretch Δl.
     fn stiffness(&self, levels: &Levels, _above: f64, rise: f64) -> f64 {
         let length = levels.length_at(rise);
         let steepness = self.slope(length) * levels.growth;
@@ -198,9 +202,9 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
     }
 }
 
-/// Two rules of the same kind: one for attachment (`closing`) and one for detachment (`opening`).
-/// The rule for detachment allows at least the same stretch. At stretches between the two limits
-/// the edges of a patch do not move.
+/// Two rules of the same kind: `closing` for attachment and `opening` for detachment. The rule for
+/// detachment allows at least the stretch that the rule for attachment allows. If the stretch at
+/// the edges of a patch is between the two limits, the edges do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<R> {
     closing: R,
@@ -208,8 +212,9 @@ pub struct Rules<R> {
 }
 
 impl<R: DetachmentRule> Rules<R> {
-    /// Returns the rule for a direction. On unloading it limits the stretch before a spring
-    /// detaches, and on loading the stretch with which a spring attaches.
+    /// Returns the rule for a direction of motion. On loading the rule limits the stretch with
+    /// which a spring attaches. On unloading it limits the stretch that a spring bears before it
+    /// detaches.
     pub fn rule(&self, direction: Direction) -> R {
         match direction {
             Direction::Loading => self.closing,

@@ -52,15 +52,15 @@ impl Leg {
             .collect())
     }
 
-    /// Returns the energy in J that springs release on this leg at indentations above `low` and up
-    /// to `high` in m. [`LegRecord::released_energy`](crate::history::LegRecord::released_energy)
-    /// defines this energy.
+    /// Returns the energy in J that springs release on this motion at indentations above `low` and
+    /// up to `high` (m). It is the elastic energy that they release on detaching, minus the elastic
+    /// energy that they gain on attaching.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
-    /// Converts a sum of the squared stretches of springs in m² to the energy in J that this leg
-    /// releases.
+    /// Converts a sum of squared stretches in m² to the energy in J that springs release on this
+    /// leg. The stretches are those with which springs attach or detach.
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // 0.0 − energy instead of −energy, so that an energy of zero is not −0.
@@ -86,8 +86,9 @@ impl Leg {
         }
     }
 
-    /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its
-    /// goal. If the contact is lost before, the returned goal is the separation.
+    /// Finds the indentation in m at which a motion reaches its goal. The motion begins at the
+    /// indentation `from` in m. If the contact is lost before, the goal that is returned is the
+    /// separation.
     pub(crate) fn reach(
         &self,
         goal: Goal,
@@ -112,8 +113,8 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// Returns the contact at which the displacement of the instrument is smallest, on a sampled
-    /// unloading.
+    /// Returns the point of a sampled unloading at which the displacement of the instrument is
+    /// smallest.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -226,8 +227,8 @@ impl Leg {
         Ok(indentation)
     }
 
-    /// Computes the contact of this leg at the points of a grid. In searches, the result includes
-    /// the springs that represent the instrument.
+    /// Computes the contact of this leg at the points of a grid of indentations. If a search uses
+    /// the leg, the result includes the springs that represent the instrument.
     pub(crate) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
@@ -241,8 +242,8 @@ impl Leg {
         Ok(sampled)
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile, with the gap c, that
-    /// attach or detach at an indentation θ above `low` and up to `high` (m).
+    /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile that attach or detach
+    /// at an indentation θ above `low` and up to `high` (m). c is the gap.
     pub(crate) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
             // Without adhesion no spring is stretched.

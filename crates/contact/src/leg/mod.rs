@@ -85,8 +85,9 @@ pub struct PatchState {
     /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and
     /// Filippov (2012).
     pub largest_stretch: f64,
-    /// Largest stretch in the patch in m. With [`Edges::SubCell`] it is the stretch at the edges of
-    /// the patch, and with [`Edges::Grid`] the stretch of the most stretched spring.
+    /// Stretch of the most stretched part of the patch in m. With [`Edges::SubCell`] this is the
+    /// stretch at the edges of the patch. With [`Edges::Grid`] it is the stretch of the most
+    /// stretched spring.
     pub most_stretched: f64,
 }
 
@@ -105,8 +106,8 @@ struct Event {
     springs: f64,
 }
 
-/// Evaluates an expression with the runs of a leg. The edge model of the contact becomes a constant
-/// of the compiled code.
+/// Evaluates an expression with the runs of a leg, the patches over ranges of indentations in which
+/// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $leg.contact.edges {
@@ -125,8 +126,8 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Adds the work for this leg to the work counts: the pass over the tree and the evaluations of
-    /// the rule of Hess.
+    /// Adds the computing work for this leg to the counts in `work`: the pass over the contact tree
+    /// and the evaluations of the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -141,7 +142,7 @@ impl Leg {
         }
     }
 
-    /// Creates the leg of a body that moves without touching anything.
+    /// Creates a motion in which the body touches no spring.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
         Leg {
             contact: contact.clone(),
@@ -153,9 +154,9 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring is in contact at indentations from its threshold in m
-    /// upwards. The threshold is −∞ for a spring that is always in contact, and +∞ for a spring
-    /// that is never in contact. The leg is known up to the indentation `end` in m.
+    /// Creates a leg on which each spring has a threshold: the smallest indentation in m at which
+    /// the spring is in contact. The threshold is −∞ for a spring that is always in contact, and +∞
+    /// for a spring that is never in contact. The leg is known up to the indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
@@ -181,7 +182,7 @@ impl Leg {
         }
     }
 
-    /// Computes the leg of a loading that begins in separation.
+    /// Computes the motion of a loading that begins with a separated body.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if !contact.has_adhesion() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
@@ -190,12 +191,12 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the leg in the opposite direction that begins at the indentation `indentation` in m
-    /// of this leg.
+    /// Computes the motion in the opposite direction that begins at an indentation in m of this
+    /// motion.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the
-    /// [stepwise solver](crate::motion::Stepwise).
+    /// Returns [`ContactError::Stepwise`] if this motion was computed by the [stepwise
+    /// solver](crate::motion::Stepwise).
     pub fn turn(&self, indentation: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -258,7 +259,7 @@ impl Leg {
         }
     }
 
-    /// Returns the contact to which the leg belongs.
+    /// Returns the contact whose motion this is.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
@@ -268,7 +269,7 @@ impl Leg {
         self.direction
     }
 
-    /// Returns the indentation in m at which the leg ends:
+    /// Returns the last indentation in m at which the contact changes on this motion:
     ///
     /// * on loading, the smallest indentation with all springs in contact;
     /// * on unloading, the smallest indentation with any spring in contact;
@@ -277,7 +278,7 @@ impl Leg {
         self.end
     }
 
-    /// Returns the number of bytes of memory that this leg uses, without the memory of its contact.
+    /// Returns the memory in bytes that this motion uses, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => {
@@ -324,8 +325,9 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps, in
-    /// ascending order. Jumps smaller than about `least` (N) are left out.
+    /// Returns the indentations in m at which the force jumps, in ascending order. Only
+    /// indentations above `low` and up to `high` (m) are searched. Jumps smaller than about `least`
+    /// (N) are left out.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else {
             return Vec::new();

@@ -1,4 +1,5 @@
-//! Search for the smallest number of springs that reaches a tolerance, with either edge model.
+//! Search for the smallest number of springs that reaches a tolerance. The edges of patches lie
+//! either between springs or so that patches consist of whole springs.
 
 use super::estimate::{Estimate, Evidence, own_errors};
 use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -36,8 +37,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Number of springs and edge model ([`Edges`]) with which the error of a scene is within a
-/// tolerance. [`choose`] returns a value of this type.
+/// Number of springs, and where the edges of contact patches may lie ([`Edges`]), so that the error
+/// of a scene is within a tolerance. [`choose`] returns a value of this type.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
@@ -46,8 +47,8 @@ pub struct Choice {
     pub target: Target,
     /// Chosen number of springs N.
     pub points: u64,
-    /// Chosen edge model: either the edge of a patch may lie between two springs, or a patch
-    /// consists of whole springs.
+    /// Where an edge of a contact patch may lie: anywhere between two springs, or only so that the
+    /// patch consists of whole springs.
     pub edges: Edges,
     /// Relative error of `target` with the chosen settings: the true error if a closed form exists,
     /// otherwise an estimate.
@@ -60,7 +61,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact
+    /// Returns `scene` with the chosen number of springs, the chosen edges of patches and the exact
     /// solver.
     ///
     /// # Errors
@@ -111,7 +112,7 @@ impl Choice {
     }
 }
 
-/// Reason why [`choose`] returned no number of springs.
+/// Reason why [`choose`] found no number of springs.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChoiceError {
@@ -121,7 +122,7 @@ pub enum ChoiceError {
     /// The tolerance is not above 0 and below 1.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The scene has the stepwise [`Solver`], whose step causes a further error.
+    /// The scene uses the stepwise [`Solver`], whose finite steps cause a further error.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -156,11 +157,12 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds the smallest power of two as the number of springs, and the edge model ([`Edges`]), with
-/// which the relative error of a scene is at most `tolerance`. The error refers to the adhesion
-/// force or, for a scene without a tensile force, to the force curve ([`Target::Curve`]). Names of
-/// measured files are relative to `folder`. `trying` receives each number of springs before it is
-/// tried. The search ends if `stop` returns true.
+/// Finds the smallest number of springs, a power of two, with which the relative error of a scene
+/// is at most `tolerance`. Also finds where the edges of contact patches should lie ([`Edges`]).
+///
+/// The error is that of the adhesion force. For a scene without a tensile force, it is that of the
+/// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying`
+/// receives each number of springs before it is tried. The search ends if `stop` returns true.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene

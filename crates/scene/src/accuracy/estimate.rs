@@ -50,26 +50,29 @@ const fn ratio(numerator: u64, denominator: u64) -> Ratio {
     }
 }
 
-/// Estimated relative error that the finite number of springs causes in the adhesion force or the
-/// force curve of an [`Outcome`].
+/// Estimated relative error of an [`Outcome`] that is caused by the finite number of springs. The
+/// error is that of the adhesion force or of the force curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated: adhesion force or force curve.
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the adhesion force F_a as a function of the preload has a step near the preload of
-    /// the scene. F_a of one of the two further solutions then differs from F_a of the outcome by
-    /// more than 5 %. This difference is at least three times smaller if the loads of the further
-    /// solution are 5 % smaller or larger.
+    /// True if the adhesion force F_a, as a function of the preload, has a step near the preload of
+    /// the scene. The estimate compares the outcome with two further solutions. A step is assumed
+    /// under two conditions:
+    ///
+    /// * F_a of one of the two solutions differs from F_a of the outcome by more than 5 %.
+    /// * The difference is at least three times smaller if the loads of this solution are 5 %
+    ///   smaller or larger.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,
 }
 
 impl Estimate {
-    /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the
-    /// estimate is for the force curve ([`Target::Curve`]).
+    /// Returns the estimated absolute error of the adhesion force of `outcome` in N. Returns `None`
+    /// if the estimate is for the force curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         if self.target != Target::AdhesionForce {
             return None;
@@ -78,15 +81,15 @@ impl Estimate {
         error.is_finite().then_some(error)
     }
 
-    /// Returns the estimated relative error of the force curve, as [`Target::Curve`] defines it;
-    /// `None` if the estimate is for the adhesion force.
+    /// Returns the estimated relative error of the force curve; [`Target::Curve`] defines this
+    /// error. Returns `None` if the estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         let is_known = self.target == Target::Curve && self.error.is_finite();
         is_known.then_some(self.error)
     }
 
-    /// Returns the text that summaries print after the adhesion force: `grid ± 0.1 %`, or
-    /// `near a step of F_a(F_n)` if [`near_step`](Self::near_step) is true.
+    /// Returns the text that follows the adhesion force in summaries, such as `grid ± 0.1 %`. If
+    /// [`near_step`](Self::near_step) is true, the text is `near a step of F_a(F_n)`.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -100,10 +103,10 @@ impl Estimate {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// By an exact formula of the adhesion force. The estimate is the true error.
+    /// By an exact formula for the adhesion force. The estimate is then the true error.
     ClosedForm,
-    /// By comparison with solutions of the same scene that have these numbers of springs and
-    /// [`Edges::SubCell`].
+    /// By solutions of the same scene with other numbers of springs, which are the items of the
+    /// field. The edges of patches lie between springs ([`Edges::SubCell`]).
     Solutions(Vec<u64>),
 }
 
@@ -221,8 +224,8 @@ fn difference_under_load(
     difference(Target::AdhesionForce, &solution, own)
 }
 
-/// Estimates the errors of a solution with edges between springs, at the loads of the scene and at
-/// half and twice these loads.
+/// Estimates the errors of a solution whose patches have their edges between springs. The errors
+/// are estimated at the loads of the scene and at half and twice these loads.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,

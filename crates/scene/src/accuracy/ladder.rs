@@ -42,13 +42,13 @@ const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform that serves as the unit of computing time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of [`measure`], which measures errors and computing times of a scene. [`measure`]
-/// passes values of this type to its argument `watch`.
+/// Progress of a measurement of errors and computing times. [`measure`] passes values of this type
+/// to its argument `watch`.
 pub enum Progress<'a> {
-    /// Setting that is tried next, with its value as text, such as `512 springs`.
+    /// The setting that is varied, and the value that is tried next as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// Table of the solutions so far. The errors in the table are relative to the finest solution
-    /// so far.
+    /// Table of the solutions computed so far. The errors in the table are relative to the finest
+    /// of these solutions.
     Rows(&'a CostTable),
 }
 
@@ -94,10 +94,10 @@ impl Clock<'_> {
     }
 }
 
-/// Measures the errors of a scene and the computing times, with more and more springs. For the
-/// stepwise [`Solver`], also measures errors and times with smaller and smaller steps. The
-/// measurement ends when the time `budget` is used up. Names of measured files are relative to
-/// `folder`. `watch` receives each setting before it is tried, and the table so far.
+/// Measures the errors and the computing times of a scene with more and more springs. If the scene
+/// has the stepwise [`Solver`], also measures them with smaller and smaller steps. The measurement
+/// ends when the time `budget` is used up. Names of measured files are relative to `folder`.
+/// `watch` receives each setting before it is tried, and the table of the solutions so far.
 ///
 /// Returns an error message if the scene cannot be computed, if the budget is too small for two
 /// solutions, or if `stop` returned true.

@@ -30,7 +30,8 @@ pub(super) struct Solution {
     pub adhesion_force: Option<f64>,
     /// Adhesion force in closed form in N, if the scene has one.
     pub closed_form: Option<f64>,
-    /// Adhesion forces in N at half and at twice the loads, if they were computed.
+    /// Adhesion forces in N with all target forces and indentations of the scene halved, and with
+    /// all of them doubled. Empty if these forces were not computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -45,8 +46,8 @@ impl Solution {
         }
     }
 
-    /// Returns those quantities of a result that [`Target::difference`] compares. If it compares
-    /// the adhesion force, the force curve is not copied.
+    /// Returns only the quantities of a result that [`Target::difference`] compares. If the
+    /// adhesion force is compared, the force curve is not copied.
     pub(super) fn of_target(scene: &Scene, outcome: &Outcome) -> Self {
         let own = Solution::without_curve(scene, outcome);
         match Target::of(&own) {
@@ -79,9 +80,9 @@ impl Solution {
         reference
     }
 
-    /// Returns the relative differences of this solution from a reference. For the adhesion force,
-    /// this is the largest difference among all loads at which both solutions have a force. An
-    /// error that changes its sign between two loads then does not seem small by chance.
+    /// Returns the relative differences of this solution from a reference. The difference of the
+    /// adhesion force is the largest one among all loads at which both solutions have a force. An
+    /// error that changes its sign between two loads therefore does not seem small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
             self.error_of_adhesion_force(reference),
@@ -124,10 +125,11 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 pub enum Target {
     /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
-    /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean
-    /// absolute difference between its forces and the exact forces at the same indentations,
-    /// divided by the largest absolute force in all stages. The error of the force curve is the
-    /// largest of the errors of its stages.
+    /// Force curve of a scene without a tensile force.
+    ///
+    /// The error of a loading stage is the mean absolute difference between its forces and the
+    /// exact forces at the same indentations, divided by the largest absolute force in all stages.
+    /// The error of the force curve is the largest error of a stage.
     Curve,
 }
 
@@ -173,7 +175,8 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// Returns the scene with this number of springs, this edge model and the exact solver.
+/// Returns the scene with other settings: this number of springs, these edges of patches and the
+/// exact solver.
 pub(super) fn refined(
     scene: &CheckedScene,
     points: u64,
@@ -203,7 +206,7 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
     loaded.checked().ok()
 }
 
-/// Returns true if a scene has targets that [`loaded`] multiplies.
+/// Returns true if a scene has target forces or indentations that [`loaded`] can multiply.
 pub(super) fn has_loads(scene: &Scene) -> bool {
     scene.loading.iter().any(|stage| match *stage {
         Move::ToForce(target) | Move::ToIndentation(target) => target > 0.0,

@@ -13,24 +13,24 @@ pub(super) const REFINEMENTS: usize = 2;
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]),
-/// or the step of the stepwise [`Solver`].
+/// Setting that is varied in a [`CostTable`]. It is the number of springs, separately for each
+/// value of [`Edges`], or the step of the stepwise [`Solver`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N with edges between springs: the edge of a patch may lie between two
-    /// springs ([`Edges::SubCell`]).
+    /// Number of springs N. The edge of a contact patch may lie anywhere between two springs
+    /// ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N with whole springs: a patch consists of whole springs as in Popov and
-    /// Filippov (2012) ([`Edges::Grid`]).
+    /// Number of springs N. Contact patches consist of whole springs, as in Popov and Filippov
+    /// (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
 }
 
 impl Knob {
-    /// All settings, in the order of [`CostTable::rows`].
+    /// All settings, in the order in which [`CostTable::rows`] has them.
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
     /// Returns the name of the setting for users, such as `whole springs N`.
@@ -67,22 +67,23 @@ impl Timing {
     }
 }
 
-/// Relative error of a quantity in a [`Row`], and whether it is larger than the smallest error that
-/// can be measured.
+/// Relative error of a quantity in a [`Row`], and whether the error is large enough to be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
-    /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
+    /// Relative error. If `resolved` is false, this is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is larger than the smallest error that can be measured. For a number of
-    /// springs, the smallest error is the estimated error of the reference
+    /// True if the error is larger than the smallest error that can be measured. When the number of
+    /// springs is varied, the smallest error is the estimated error of the reference solution
     /// ([`CostReference::errors`]).
     pub resolved: bool,
-    /// Order of convergence p from the previous row to this row: if the setting becomes r times as
-    /// fine, the error becomes r^p times smaller. `None` unless `resolved` is true in both rows.
+    /// Order of convergence p from the previous row to this row: if the setting becomes r times
+    /// finer, the error becomes r^p times smaller. `None` unless the errors of both rows are large
+    /// enough to be measured (`resolved`).
     pub order: Option<f64>,
 }
 
-/// Row of a [`CostTable`]: one value of a setting, with the times and the errors of the solution.
+/// Row of a [`CostTable`]: one value of the varied setting, with the computing times and the errors
+/// of the solution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Setting that is varied in this row.
@@ -91,8 +92,8 @@ pub struct Row {
     pub setting: f64,
     /// Number of springs N of the solution.
     pub springs: u64,
-    /// Times of complete computations, which reuse no earlier result; `None` if no computation was
-    /// timed.
+    /// Times of complete computations, which start without earlier results. `None` if no
+    /// computation was timed.
     pub seconds: Option<Timing>,
     /// Shortest time of `seconds` divided by the time of one Fourier transform
     /// ([`CostTable::transform_seconds`]); `None` if no computation was timed.
@@ -103,10 +104,11 @@ pub struct Row {
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with
-/// [`Edges::SubCell`]. If there is an exact formula for the adhesion force, this force replaces the
-/// adhesion force of the solution. Rows of [`Knob::Step`] are compared with the exact solution that
-/// has the same number of springs.
+/// Reference to which the errors in a [`CostTable`] are relative. It is the finest solution with
+/// edges between springs ([`Edges::SubCell`]). If there is an exact formula for the adhesion force,
+/// the force of this formula replaces the adhesion force of the solution. Rows in which the step is
+/// varied ([`Knob::Step`]) have another reference: the exact solution with the same number of
+/// springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.
@@ -115,8 +117,8 @@ pub struct CostReference {
     pub adhesion_force: Option<f64>,
     /// True if `adhesion_force` was computed by an exact formula.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, one for each of the
-    /// [`CostTable::QUANTITIES`].
+    /// Estimated relative errors of the reference itself, in the order of
+    /// [`CostTable::QUANTITIES`]. `None` for a quantity whose error is unknown.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
@@ -125,33 +127,36 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
     serializer.collect_map(CostTable::QUANTITIES.iter().zip(values))
 }
 
-/// Errors and computing times of one scene, as [`measure`](crate::discretisation::measure) returns
-/// them: rows with more and more springs for the exact solver, and rows with smaller and smaller
-/// steps for the stepwise solver ([`Solver::Stepwise`]).
+/// Errors and computing times of one scene, returned by
+/// [`measure`](crate::discretisation::measure). The table has rows with more and more springs for
+/// the exact solver, and rows with smaller and smaller steps for the stepwise solver
+/// ([`Solver::Stepwise`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time in s that the measurement was allowed to take.
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, the unit of
-    /// [`Row::transforms`].
+    /// Time in s of one real Fourier transform of 2^20 points, the shortest of several
+    /// measurements. It is the unit of [`Row::transforms`].
     pub transform_seconds: f64,
     /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
-    /// Rows of all settings, one [`Knob`] after the other. For each [`Knob`] the rows are in the
-    /// order from coarse to fine.
+    /// Rows for all varied settings, one [`Knob`] after the other. The rows of one [`Knob`] are in
+    /// the order from coarse to fine.
     pub rows: Vec<Row>,
-    /// Values of settings that have no row because the time or the memory was not sufficient, as
-    /// text such as `512 springs`.
+    /// Values of settings that were not computed because the time or the memory was not sufficient,
+    /// as text such as `512 springs`.
     pub left_out: Vec<String>,
 }
 
 impl CostTable {
-    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve,
-    /// dissipated energy, and largest contact length. The error of a force curve is its mean
-    /// absolute difference from the force curve of the reference ([`CostReference`]) at equal
-    /// indentations, divided by the largest absolute force of the reference.
+    /// Names of the quantities whose errors are measured. They are the adhesion force F_a, the
+    /// force curve, the dissipated energy and the largest contact length.
+    ///
+    /// The error of a force curve is its mean absolute difference from the force curve of the
+    /// reference at equal indentations, divided by the largest absolute force of the reference
+    /// ([`CostReference`]).
     pub const QUANTITIES: [&str; 4] = [
         "adhesion_force",
         "curve",
@@ -164,8 +169,8 @@ impl CostTable {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// Returns the main error of a row: the error of the adhesion force, or of the force curve if
-    /// there is no tensile force.
+    /// Returns the main error of a row: the error of the adhesion force. Without a tensile force,
+    /// the main error is that of the force curve.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() {
@@ -175,9 +180,10 @@ impl CostTable {
         }
     }
 
-    /// Returns true if the error of the adhesion force in each row with springs is the largest
-    /// error at half, once and twice the loads of `scene`, to which this table belongs. Returns
-    /// false if it is the error at the loads of the scene alone. This is so in three cases:
+    /// Returns true if the table states the largest of three errors of the adhesion force: at half,
+    /// once and twice the loads of `scene`. This holds for each row in which the number of springs
+    /// is varied. `scene` is the scene of this table. Returns false if the error is that at the
+    /// loads of the scene alone, which is so in three cases:
     ///
     /// * an exact formula gives the adhesion force, which holds at any load;
     /// * there is no adhesion force;
@@ -186,8 +192,8 @@ impl CostTable {
         self.reference.adhesion_force.is_some() && !self.reference.closed_form && has_loads(scene)
     }
 
-    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns
-    /// `None` unless both are known, positive and finite.
+    /// Returns the shortest computing time of a row in s, and the [`main_error`](Self::main_error)
+    /// of the row. Returns `None` unless both are known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let seconds = row.seconds?.minimum;
         let figure = self.main_error(row)?;
@@ -195,19 +201,19 @@ impl CostTable {
         is_shown.then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this
-    /// row and of all finer rows is at most `bound`. Returns `None` if there is no such row with at
-    /// least two finer rows.
+    /// Returns the coarsest row of a setting from which on the errors are small: the [main
+    /// errors](Self::main_error) of this row and of all finer rows are at most `bound`. Returns
+    /// `None` if there is no such row with at least two finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<&Row> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         Some(rows[first_within(errors, bound)?])
     }
 
-    /// Returns the computing time in s and the main error that a scene has with the settings
-    /// `numerics`, interpolated between two rows. Returns `None` if the number of springs or the
-    /// step is outside the range of the rows. Also returns `None` if the rows of the stepwise
-    /// solver have another number of springs.
+    /// Returns the computing time in s and the main error of a scene with the settings `numerics`.
+    /// Both are interpolated between two rows of the table. Returns `None` if the number of springs
+    /// or the step is outside the range of the rows. Also returns `None` if the rows of the
+    /// stepwise solver have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -245,9 +251,10 @@ impl CostTable {
         ))
     }
 
-    /// Returns the order of convergence of the main error with a setting: the absolute value of the
-    /// slope of ln(error) as a function of ln(setting), fitted by least squares to all rows with
-    /// resolved errors. Returns `None` for fewer than three such rows.
+    /// Returns the order of convergence of the main error when a setting is varied. It is the
+    /// absolute slope of ln(error) as a function of ln(setting), fitted by least squares. Only rows
+    /// whose error is large enough to be measured are used; for fewer than three such rows, returns
+    /// `None`.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let mut points = Vec::new();
         for row in self.rows_of(knob) {
@@ -265,8 +272,8 @@ impl CostTable {
         slope(&points).map(f64::abs)
     }
 
-    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each sentence states how
-    /// many springs this error needs with either edge model, and how long the computation takes.
+    /// Returns two sentences, for a main error of 1 % and of 0.1 %. Each sentence states how many
+    /// springs this error needs and how long the computation takes, for both values of [`Edges`].
     pub fn answer(&self) -> Vec<String> {
         let quantity = if self.reference.adhesion_force.is_some() {
             "the adhesion force"
@@ -310,9 +317,9 @@ struct CostPoint {
     error: f64,
 }
 
-/// Returns the index of the first error after which no error exceeds a bound, in the order from
-/// coarse to fine. At least two finer errors must also be within the bound, because an error that
-/// changes its sign may be small by chance.
+/// Returns the index of the first error from which on all errors are at most `bound`. The errors
+/// are in the order from coarse to fine. At least two finer errors must also be within the bound,
+/// because an error that changes its sign may be small by chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

@@ -34,8 +34,8 @@ pub struct Governing {
     pub effective_modulus: f64,
     /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Energy γ₁ per area gained where the interface closes, in J/m². `None` if the scene does not
-    /// state it; then it equals γ.
+    /// Energy γ₁ per area in J/m² that is gained where the interface closes. `None` if the scene
+    /// does not state γ₁; then γ₁ equals γ.
     pub closing_work: Option<f64>,
     /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth
     /// profile.
@@ -43,19 +43,19 @@ pub struct Governing {
     /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None`
     /// without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion;
-    /// `None` without roughness or adhesion.
+    /// Ratio e_el/γ. e_el is the elastic energy per area that flattens the roughness, and γ the
+    /// work of adhesion. `None` without roughness or adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 
 impl Governing {
-    /// Limit of the Tabor number ([`Self::tabor_number`]). Below this limit the model overestimates
-    /// the dissipated energy.
+    /// Smallest [Tabor number](Self::tabor_number) for which the dissipated energy is accurate.
+    /// Below this number the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
-    /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`]
-    /// of its profile when scaled to an rms height of 1 m. A measured roughness needs `measured`,
-    /// the amplitude of the surface.
+    /// Derives the parameters of a scene. `unit` is needed for a self-affine roughness: the
+    /// [`Amplitude`] of its profile, scaled to an rms height of 1 m. `measured` is needed for a
+    /// measured roughness: the amplitude of the surface.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         // If the scene states κ, γ = h⟨∇z⟩E*/κ². If it states e_el/γ, γ follows from e_el = E* h²
         // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
@@ -110,14 +110,14 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² for which κ or e_el/γ has the value `value`.
-    /// `parameter` states which of the two is meant. Returns `None` without roughness.
+    /// Returns the work of adhesion in J/m² for which a parameter, κ or e_el/γ, has the value
+    /// `value`. Returns `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of κ or e_el/γ of this contact. `parameter` states which of the two is
-    /// meant. Returns `None` without roughness or adhesion.
+    /// Returns the value of a parameter, κ or e_el/γ, for this contact. Returns `None` without
+    /// roughness or adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -131,17 +131,17 @@ impl Governing {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Returns the energy per area in J/m² of which a parameter is made: the ratio of this energy
-    /// to the work of adhesion is κ² or e_el/γ. The energy is h⟨∇z⟩E* for κ and e_el for e_el/γ.
-    /// Returns `None` without roughness.
+    /// Returns the energy per area in J/m² that a parameter compares with the work of adhesion γ.
+    /// For κ the energy is h⟨∇z⟩E*, since κ² = h⟨∇z⟩E*/γ. For e_el/γ it is e_el. Returns `None`
+    /// without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
             .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns E* h L in N, the unit of force of Pohrt, Popov and Filippov (2012). h is the rms
-    /// height of the roughness in m, and L = `length` is the length of the profile in m. Returns
-    /// `None` without roughness.
+    /// Returns the force E* h L in N, by which Pohrt, Popov and Filippov (2012) divide forces. E*
+    /// is the effective modulus, h the rms height of the roughness in m, and L = `length` the
+    /// length of the profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
@@ -170,8 +170,8 @@ impl Governing {
 
     /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. Here ρ is the radius of
     /// curvature of the summits, γ the work of adhesion on opening, E* the effective modulus and z₀
-    /// the range of the attraction. Returns `None` without adhesion. Also returns `None` for bodies
-    /// such as cones, which have no radius of curvature.
+    /// the range of the attraction. Returns `None` without adhesion, and for bodies without a
+    /// radius of curvature, such as cones.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let radius = curvature_radius(scene.form.as_ref(), self)?;
         let work = self.adhesive_work()?;
@@ -246,24 +246,26 @@ fn tabor_number(
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are so steep that its equivalent profile does not rise everywhere
-/// from the axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and
-/// Roberts (JKR).
+/// Waves of a wavy sphere that are steep: its equivalent profile does not rise everywhere from the
+/// axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts
+/// (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
     /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR
-    /// theory, with effective modulus E* and work of adhesion γ. The formula holds for waves much
-    /// shorter than the contact radius (Kesari and Lew 2011).
+    /// Factor by which the waves raise the pull-off force of the sphere in the theory of JKR. It is
+    /// (1 + A√(πE*/2λγ))², with the effective modulus E* and the work of adhesion γ. The formula
+    /// holds for waves much shorter than the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
 impl SteepWaves {
-    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
+    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere from the axis
+    /// outwards.
     pub const LEAST_RATIO: f64 = Warning::LEAST_WAVE_RATIO;
 
-    /// Returns the steep waves of a scene; `None` if the scene has no such waves or no adhesion.
+    /// Returns the ratio and the factor of a scene whose wavy sphere has steep waves; `None` if the
+    /// scene has no such waves or no adhesion.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere {
             radius,

@@ -24,9 +24,9 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// Force of one loading stage as a function of the displacement of the instrument, linear between
-/// the computed points. If the instrument cannot hold the body, the body jumps to another
-/// indentation at constant displacement.
+/// Force of one loading stage as a function of the displacement of the instrument. The function is
+/// linear between the computed points. Where the instrument cannot hold the body, the body jumps to
+/// another indentation while the displacement remains the same.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -101,7 +101,7 @@ impl DisplacementCurve {
         }
     }
 
-    /// Returns the points in the order of the motion.
+    /// Returns the points of the curve in the order of the motion.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
@@ -120,9 +120,11 @@ impl DisplacementCurve {
             .filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point of the curve at a displacement in m. At a jump it is the point before the
-    /// jump. If the displacement is beyond an end of the stage and the bodies are separated at this
-    /// end, the force is zero. If they are in contact at this end, returns `None`.
+    /// Returns the point of the curve at a displacement in m. At a jump this is the point before
+    /// the jump.
+    ///
+    /// A displacement beyond an end of the stage has no computed point. If the bodies are separated
+    /// at this end, the returned force is zero. If they are in contact there, returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -174,8 +176,8 @@ impl DisplacementPoint {
 }
 
 /// Returns the displacement of the instrument in m for each point of a loading stage. On loading it
-/// is the largest value of d + F/k at this point and all points before it; on unloading it is the
-/// smallest value. Here d is the indentation, F the force and k the `stiffness` in N/m.
+/// is the largest value of d + F/k up to this point; on unloading it is the smallest value up to
+/// this point. Here d is the indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve
@@ -200,18 +202,18 @@ fn sign_of(direction: Direction) -> f64 {
 pub struct InstrumentFigures {
     /// Stiffness k of the instrument in N/m.
     pub stiffness: f64,
-    /// Displacement of the instrument in m at which the body jumps off in the last unloading;
-    /// `None` if there is no pull-off.
+    /// Displacement in m of the instrument at which the body jumps out of contact in the last
+    /// unloading. `None` if there is no pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area in J that the force encloses as a function of the displacement: the energy dissipated
-    /// in the contact plus the energy lost in jumps of the instrument. `None` if the bodies are not
-    /// separated at the end.
+    /// Area in J of the loop of force over displacement. It is the energy dissipated in the contact
+    /// plus the energy lost in jumps of the instrument. `None` if the bodies are not separated at
+    /// the end.
     pub loop_area: Option<f64>,
 }
 
 impl InstrumentFigures {
-    /// Computes the figures of the instrument from the history of a loading, its forces and
-    /// energies, and the stiffness in N/m.
+    /// Computes the pull-off displacement and the loop area of the instrument. `history` is the
+    /// history of a loading, `figures` are its forces and energies, and `stiffness` is in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let jump_energy: f64 = history.legs.iter().map(|leg| leg.jump_energy).sum();
         InstrumentFigures {

@@ -31,26 +31,26 @@ fn distance_at_depth(form: &Form, depth: f64, most: f64) -> f64 {
     low
 }
 
-/// Facts about the profile of a scene that follow from the measured surface and not from the
-/// fields.
+/// Facts about the profile of a scene with a measured surface. They follow from the surface and not
+/// from the fields of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MeasuredFacts {
     /// Length of the scan in m.
     pub scan: f64,
     /// Rms height of the surface in m, and rms height in m of the profile that was made from it.
     pub rms_heights: [f64; 2],
-    /// Share of the waves longer than a quarter of the scan in the mean squared height of the
-    /// profile.
+    /// Share of long waves, which are longer than a quarter of the scan, in the mean squared height
+    /// of the profile.
     pub long_wave_share: f64,
     /// How many of the longest waves fit on the profile; `None` if the profile is not random.
     pub long_waves: Option<f64>,
 }
 
 impl Scene {
-    /// Returns a warning for each premise of the model that this scene does not meet, as far as
-    /// this is known without computing the scene. The list
-    /// [`Outcome::warnings`](crate::Outcome::warnings) also has the warnings that depend on the
-    /// results, such as a contact that reaches the ends of the profile, and on a measured surface.
+    /// Returns a warning for each premise of the model that this scene does not meet, as far as the
+    /// fields of the scene show this. Other warnings need a computation, for example if the contact
+    /// reaches the ends of the profile, or if a measured surface is unsuitable.
+    /// [`Outcome::warnings`](crate::Outcome::warnings) has all warnings.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

@@ -34,19 +34,20 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// Condition for a pressure-insensitive loading: the adhesion force without a preload, divided
-    /// by the adhesion force after the preload, is at least this value; see [`Regime::of_loading`].
+    /// Smallest ratio of two adhesion forces for which a loading is pressure-insensitive: the
+    /// adhesion force without a preload, divided by the adhesion force after the preload. See
+    /// [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Limit below which an adhesion force counts as zero, as a share of the adhesion force of the
-    /// smooth body; see [`Regime::of_loading`].
+    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero.
+    /// See [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
     // The value of `VANISHING_SHARE` has little effect on the limit of the regime. When κ grows by
     // a factor of about three, the adhesion force without a preload falls from one half to one
     // twentieth of the smooth adhesion force.
 
-    /// Limit of the ratio F_a/F_n of the adhesion force to the preload. If the ratio does not
-    /// exceed the limit, a loading counts as non-adhesive, unless it is pressure-insensitive.
+    /// Largest ratio F_a/F_n of the adhesion force to the preload for which a loading counts as
+    /// non-adhesive. A loading that is pressure-insensitive does not count as non-adhesive.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
     /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
@@ -107,8 +108,8 @@ impl Regime {
     }
 
     /// Returns a text with two regimes of the same body, such as
-    /// `pressure-sensitive (d=0), insensitive (F=0)`. The regime `self` follows from F_a(d=0), and
-    /// the regime `after_zero_force` from F_a(F=0).
+    /// `pressure-sensitive (d=0), insensitive (F=0)`. The first regime, `self`, follows from
+    /// F_a(d=0). The second one, `after_zero_force`, follows from F_a(F=0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -8,13 +8,13 @@ use std::ops::RangeInclusive;
 /// begins. The forces are known at equally spaced indentations, the grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Grid points: indentations in m, equally spaced and ascending. Each grid point with the index
-    /// `below` or a larger index is also a turning point.
+    /// Grid points: ascending, equally spaced indentations in m. The grid points from the index
+    /// `below` on are also the turning points.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,
-    /// One unloading for each turning point, with its forces at the grid points up to the turning
-    /// point.
+    /// One unloading for each turning point. Its forces are known at the grid points up to the
+    /// turning point.
     pub reversals: Vec<Reversal>,
 }
 
@@ -27,7 +27,7 @@ impl ReversalMap {
         &self.points[self.below..]
     }
 
-    /// Returns the difference in indentation between neighbouring grid points in m.
+    /// Returns the distance in m between neighbouring grid points.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64

@@ -68,8 +68,9 @@ impl RoughnessParameter {
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of the elastic energy per area to the work of adhesion, from the value of
-    /// this parameter. For κ the ratio is h⟨∇z⟩E*/γ = κ²; for e_el/γ the ratio is the value itself.
+    /// Returns the ratio of an energy per area to the work of adhesion γ, if this parameter has the
+    /// value `value`. For κ the energy is h⟨∇z⟩E* and the ratio is κ². For e_el/γ the energy is
+    /// e_el and the ratio is the value itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -77,8 +78,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter for which [`energy_over_work`](Self::energy_over_work)
-    /// returns `ratio`.
+    /// Returns the value of the parameter that belongs to an [energy
+    /// ratio](Self::energy_over_work).
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -88,7 +89,7 @@ impl RoughnessParameter {
 }
 
 /// Adhesion between the bodies: its strength and the range of the attraction. A scene file states
-/// it as `(work: 0.05)` or `(kappa: 2.0, range: 3.0e-10)`.
+/// adhesion as `(work: 0.05)` or `(kappa: 2.0, range: 3.0e-10)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
@@ -99,16 +100,16 @@ pub struct Adhesion {
     pub range: Option<f64>,
 }
 
-/// Strength of the adhesion: a work of adhesion, or a [`RoughnessParameter`] from which the work
-/// follows.
+/// Strength of the adhesion: a work of adhesion, or the value of a [`RoughnessParameter`] from
+/// which the work follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion. It may be smaller where the interface closes than where the interface
-    /// opens.
+    /// Work of adhesion. Less energy may be gained where the interface closes than is spent where
+    /// it opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
-        /// Energy per area γ₁ in J/m² that is gained where the interface closes, at most `opening`.
+        /// Energy γ₁ per area in J/m² that is gained where the interface closes, at most `opening`.
         /// `None` if γ₁ equals `opening`.
         closing: Option<f64>,
     },
@@ -118,7 +119,7 @@ pub enum Strength {
 }
 
 impl Adhesion {
-    /// Returns the range z₀ of the attraction in m. If the scene does not state it, returns 0.3 nm,
+    /// Returns the range z₀ of the attraction in m. If the scene states no range, returns 0.3 nm,
     /// an interatomic distance.
     pub fn attraction_range(&self) -> f64 {
         self.range.unwrap_or(0.3e-9)
@@ -170,8 +171,7 @@ impl Adhesion {
         }
     }
 
-    /// Returns the work of adhesion γ₁ on closing in J/m², if the scene states it; otherwise
-    /// `None`.
+    /// Returns the work of adhesion γ₁ on closing in J/m²; `None` if the scene does not state γ₁.
     pub fn closing_work(&self) -> Option<f64> {
         if let Strength::Work { closing, .. } = self.strength {
             closing

@@ -82,9 +82,9 @@ fn in_words(scene: &Scene, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ between this scene and `other`, except title, notes and
-    /// version. If a group of fields has different choices in the two scenes, such as the forms
-    /// cone and sphere, the whole group is one entry.
+    /// Lists the fields whose values differ between this scene and `other`. Title, notes and
+    /// version are left out. If the scenes have different choices for a group of fields, such as a
+    /// cone and a sphere as the form, the list has one entry for the whole group.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

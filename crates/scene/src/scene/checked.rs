@@ -9,8 +9,8 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` has all fields of a [`Scene`], for reading
-/// only.
+/// A scene whose values are valid. It can be read like a [`Scene`], but its fields cannot be
+/// changed.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -65,7 +65,8 @@ impl CheckedScene {
         Ok(CheckedScene(scene))
     }
 
-    /// Returns this scene after the function `change` has changed it, checked again.
+    /// Returns this scene with changes that the function `change` makes. The changed scene is
+    /// checked again.
     ///
     /// # Errors
     /// Returns an error for each value that the change makes invalid.
@@ -83,8 +84,8 @@ impl CheckedScene {
         scene.checked()
     }
 
-    /// Returns this scene with another seed of the random phases. If the profile is not random, the
-    /// scene does not change.
+    /// Returns this scene with another seed of the random phases. A scene without a random profile
+    /// is returned unchanged.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
@@ -100,8 +101,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with `observer` among the quantities that are recorded in addition to the
-    /// force curve.
+    /// Returns this scene with `observer` added: the computation then also records this quantity,
+    /// beside the force curve.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -110,8 +111,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with other names of measured files: `rename` gets each name and returns
-    /// the new one.
+    /// Returns this scene with other names of measured files. `rename` receives each name and
+    /// returns the new name.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// Returns `word` as it must be written so that a POSIX shell reads it as one word. The returned
-/// text is in quotes if the shell needs them.
+/// Returns `word` in a form that a POSIX shell reads as one word: in quotes if the shell needs
+/// quotes.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let is_plain = word

@@ -56,9 +56,9 @@ fn title_of_changed(name: &str) -> String {
 }
 
 impl Document {
-    /// Returns the text of this document with only those descriptions (title, notice and comments)
-    /// that are true for the present values. Returns `None` if no value has changed, or if the
-    /// scene is not a built-in scene, because its author has then written the descriptions.
+    /// Returns the text of this document without the title, notice and comments that are false for
+    /// the present values. Returns `None` if no value has changed. Also returns `None` if the scene
+    /// is not a built-in scene, because its author has then written the descriptions.
     pub(super) fn text_with_true_words(&self) -> Option<Text> {
         let opened = read(self.opened(), |_| Origin::Scene).ok()?;
         if !self.is_changed() || !is_built_in(&opened) {
@@ -112,8 +112,8 @@ impl Document {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
     }
 
-    /// Returns the text that is saved in a file of the user. A changed built-in scene has no title
-    /// in this file, because the name of the file identifies it.
+    /// Returns the text of the scene for a file of the user. If the scene is a changed built-in
+    /// scene, its title is left out, because the name of the file identifies the scene.
     pub fn text_for_own_file(&self) -> String {
         let text = self.indexed_text();
         let text = if self.is_changed_built_in() {

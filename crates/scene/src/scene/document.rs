@@ -142,13 +142,15 @@ impl Document {
         self.set_all(&[pair(path, value)])
     }
 
-    /// Returns this document with fields changed one after the other. Each pair is the path of a
-    /// field and its new value in RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The
-    /// RON text `None` removes an optional part. The values are checked once, after all changes.
+    /// Returns this document with fields changed one after the other. Each pair in `overrides` is
+    /// the path of a field and its new value in RON. A number may have an SI prefix and a unit,
+    /// such as `50 mJ/m²`. The RON text `None` removes an optional part. The values are checked
+    /// once, after all changes.
     ///
-    /// If a change of a built-in scene affects its solution, the notice and the comments beside the
-    /// changed values are removed, because they would be false. The new title is the name of the
-    /// scene with the word *changed*. A title, a notice or comments that the user has written stay.
+    /// If a built-in scene is changed so that its solution differs, its title becomes the name of
+    /// the scene with the word *changed*. Its notice, and the comments beside the changed values,
+    /// are removed, because they would be false. A title, a notice or comments that the user has
+    /// written stay.
     ///
     /// # Errors
     /// Returns an error for each pair that cannot be read, and for each invalid value.
@@ -206,8 +208,8 @@ impl Document {
         &self.text
     }
 
-    /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`]
-    /// takes a list of this form.
+    /// Returns the loading stages of the scene. Each stage has its index in the loading, so that
+    /// [`Document::with_stages`] can take the list after changes.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene
             .loading
@@ -217,9 +219,8 @@ impl Document {
             .collect()
     }
 
-    /// Returns this document with other loading stages. A stage with an index keeps the text and
-    /// the comments of the stage with this index in the present loading. A stage without an index
-    /// is new.
+    /// Returns this document with other loading stages. If a stage has an index, it keeps the text
+    /// and the comments of the present stage with this index. A stage without an index is new.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set`].
@@ -262,8 +263,8 @@ impl Document {
         (!default.is_empty()).then_some(default)
     }
 
-    /// Returns the fields that this scene has or may have. Fields of another choice, such as the
-    /// angle of a cone in a scene with a sphere, are left out.
+    /// Returns the fields that this scene has or may have. Fields that need another choice are left
+    /// out, such as the angle of a cone in a scene with a sphere.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -295,8 +296,8 @@ impl Document {
             .unwrap_or(&self.name)
     }
 
-    /// Returns the changes since the text was opened, each as the path of a field and its new
-    /// value.
+    /// Returns the changes since the text was opened. Each change is the path of a field and its
+    /// new value.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -309,8 +310,8 @@ impl Document {
         }
     }
 
-    /// Returns the lines above the scene, if the document was read from a CSV table of results.
-    /// Otherwise returns an empty text.
+    /// Returns the lines before the scene in a CSV table of results from which the document was
+    /// read. If it was not read from such a table, returns an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
@@ -320,14 +321,14 @@ impl Document {
         self.text.comments()
     }
 
-    /// Returns the line and the column, both from 1, at which a field is in the text. For an
-    /// omitted field, returns the position of the group around the field.
+    /// Returns the line and the column of a field in the text, both from 1. For an omitted field,
+    /// returns the line and the column of the group to which the field belongs.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document with the values `opened` and `overrides`, which [`Self::opened`] and
-    /// [`Self::overrides`] then return.
+    /// Returns this document as part of a resumed session: with its text when it was first opened
+    /// ([`Self::opened`]), and with the changes since then ([`Self::overrides`]).
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document {
             opened,
@@ -346,8 +347,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with other names of measured files: `rename` gets each name and
-    /// returns the new one. If a name changes, the text loses its comments.
+    /// Returns this document with other names of measured files. `rename` receives each name and
+    /// returns the new name. If a name changes, the text loses its comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -361,8 +362,8 @@ impl Document {
         }
     }
 
-    /// Returns the path of a file. Its name in the scene is relative to the folder of the scene
-    /// file.
+    /// Returns the path of the file with the name `file`, which is relative to the folder of the
+    /// scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name)
             .parent()

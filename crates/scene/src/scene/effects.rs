@@ -28,7 +28,7 @@ pub enum Effect {
     Roughness,
     /// Adhesion between the bodies.
     Adhesion,
-    /// Loading stages after the first one that may move the body back.
+    /// Unloading: the loading stages after the first stage, which may move the body back.
     Unloading,
 }
 
@@ -51,8 +51,8 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field of this optional part. For unloading it is `loading`,
-    /// otherwise the [`name`](Self::name).
+    /// Returns the path of the field of this optional part. It is `loading` for unloading. For the
+    /// other parts it is the [`name`](Self::name).
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self {
             "loading"

@@ -10,7 +10,7 @@ use asperity_data::shown;
 /// Largest number of errors that an error message lists. Further errors are only counted.
 pub(super) const MOST_LISTED: usize = 100;
 
-/// Where an invalid value comes from: a text, changes of fields, or a program.
+/// Where an invalid value comes from: a file, changes of fields, or a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// A scene file or a built-in scene.
@@ -61,7 +61,7 @@ impl fmt::Display for Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
 #[error("{origin}{}", self.what())]
 pub struct SceneError {
-    /// Where the invalid value comes from: a text, changes of fields, or a program.
+    /// Where the invalid value comes from: a file, changes of fields, or a program.
     pub origin: Origin,
     /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage.
     /// Empty if the error does not concern a single field.
@@ -70,7 +70,7 @@ pub struct SceneError {
     pub value: String,
     /// Allowed values of the field in words; empty if `message` states them.
     pub allowed: String,
-    /// Reason of the error, or the name of the field in words.
+    /// Reason of the error or, if `allowed` is the reason, the name of the field in words.
     pub message: String,
 }
 
@@ -124,7 +124,7 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene, at least one. Displayed as text, each error has its own line.
+/// All errors of a scene, at least one. `Display` writes each error on its own line.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -138,8 +138,8 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` if there are errors. The function `origin` gives each error its origin, and a
-    /// long list is shortened.
+    /// Returns `Err` with the errors in the list, if there are any. The function `origin` gives
+    /// each error its origin. A long list is shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,

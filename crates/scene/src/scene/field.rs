@@ -13,8 +13,8 @@ use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Choice that has this field, such as the form `Paraboloid` for its radius. `None` if the
-    /// field does not depend on a choice.
+    /// Choice to which this field belongs, such as the form `Paraboloid` for its radius. `None` if
+    /// the field belongs to every scene.
     pub variant: Option<&'static str>,
     /// Name of the field in words, such as `Hurst exponent`.
     pub name: &'static str,
@@ -47,15 +47,17 @@ pub enum Step {
     /// A small step adds the first number, a large step the second one. The result is rounded to a
     /// multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. In a small step it is the next number of the Renard
-    /// series R20, in a large step the next number of the series …, 1, 2, 5, 10, 20, 50, ….
+    /// Goes to the next preferred number. In a small step this is the next number of the Renard
+    /// series R20, which has 20 numbers in each decade. In a large step it is the next number of
+    /// the series …, 1, 2, 5, 10, 20, 50, ….
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
     /// A small step goes to the next power of two. A large step is as far as four small steps.
     Doubling,
-    /// Changes one end of a range of waves, which is a pair of modes (waves per length) or of
-    /// wavelengths. A small step changes the second number of the pair, a large step the first.
+    /// Changes one number of a pair that limits a range of waves: two modes (numbers of waves on
+    /// the length) or two wavelengths. A small step changes the second number of the pair, a large
+    /// step the first.
     Band,
     /// Goes to the next allowed choice.
     Choice,
@@ -63,8 +65,8 @@ pub enum Step {
     Typed,
 }
 
-/// Returns the description of a required field. The range determines its unit and step, and its
-/// name is its path.
+/// Creates the description of a required field. Its unit and its step follow from the range, and
+/// its name is its path.
 pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field {
     let step = match range {
         Range::Real(..) => Step::Logarithmic,
@@ -137,8 +139,8 @@ impl Field {
 }
 
 impl Field {
-    /// Returns a description of a parameter that a program has in addition to the fields of a
-    /// scene.
+    /// Creates a description of a parameter that does not belong to a scene, but that a program
+    /// shows beside the fields of a scene.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -161,9 +163,9 @@ impl Field {
         }
     }
 
-    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number
-    /// or a pair of wavelengths in RON. `format` is called with each number and its unit. Returns
-    /// `None` for any other value.
+    /// Formats the value of this field with its unit, such as `100 µm, 200 nm`. `written` is the
+    /// value in RON, a number or a pair of wavelengths. `format` formats each number with its unit.
+    /// Returns `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         match self.range {
             Range::Real(..) => Some(format(written.parse().ok()?, self.unit)),
@@ -177,8 +179,8 @@ impl Field {
         }
     }
 
-    /// Appends the unit of a shown value to a typed value that has no unit: `50` becomes `50 mJ/m²`
-    /// if the shown value is `4.356 mJ/m²`.
+    /// Adds the unit of the shown value to a typed number without a unit. For example, `50` becomes
+    /// `50 mJ/m²` if the shown value is `4.356 mJ/m²`.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         if let Range::Real(..) = self.range {
             return in_unit(typed, unit_of(shown));
@@ -194,7 +196,8 @@ impl Field {
         typed.to_owned()
     }
 
-    /// Returns the path of the group that contains the field; empty at the top of the scene.
+    /// Returns the path of the group of fields to which the field belongs. The path is empty if the
+    /// field belongs to no group.
     pub fn parent(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
     }
@@ -252,7 +255,8 @@ pub const LEG_INDENTATION: Field = row(
 .quantity("indentation of stage", "d", "m")
 .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Description of one loading stage. The allowed choices are the kinds of stages.
+/// Description of one loading stage. The allowed choices are the kinds of stages, such as a force
+/// or separation.
 pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
@@ -269,8 +273,8 @@ pub const LEG_DISPLACEMENT: Field = row(
 /// Descriptions of the target values of loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the description of the target value of a loading stage, and the target value itself.
-/// Returns `None` for a stage without a target value, such as separation.
+/// Returns the target value of a loading stage, and its description. Returns `None` for a stage
+/// without a target value, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -285,9 +289,12 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of
-    /// the field: `50 mJ/m²`, `16k`. The text `none` omits an optional part. A loading may be a
-    /// list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it.
+    /// Converts a typed value of this field to RON.
+    ///
+    /// * A number may have an SI prefix and the unit of the field: `50 mJ/m²`, `16k`.
+    /// * The text `none` omits an optional part.
+    /// * A loading may be a list of stages in the notation of
+    ///   [`loading_text`](crate::scene::stages::loading_text), such as `10 µN, separation`.
     ///
     /// # Errors
     /// Returns an error for a number with another unit, a number too large for `f64`, or a choice

@@ -17,9 +17,11 @@ use asperity_surface::Form;
 /// Largest number of springs that a scene may have.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// Returns the description of the field at a path; `None` if there is no such field. If several
-/// choices have a field at this path, such as the radius of a sphere and of a punch, `variant` is
-/// the name of the choice. If `variant` is `None`, the first choice that has the field counts.
+/// Returns the description of the field at a path; `None` if there is no such field.
+///
+/// Several choices may have a field at the same path, such as the radius of a sphere and of a
+/// punch. `variant` is then the name of the choice. If `variant` is `None`, the first choice that
+/// has the field counts.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
@@ -84,21 +86,21 @@ const UNIT: Range = Text {
     lines: false,
 };
 
-/// Makes the `Place` of a number of a form: a member of the variant `$form`.
+/// Makes the `Place` of a number of a form, the field of the variant `$form` in which it is stored.
 macro_rules! form {
     ($form:ident, $member:ident) => {
         place!(form, Some(Form::$form { $member, .. }) => $member).of(stringify!($form))
     };
 }
 
-/// Makes the `Place` of a member of a self-affine roughness.
+/// Makes the `Place` of a value of a self-affine roughness, the field in which it is stored.
 macro_rules! self_affine {
     ($member:ident) => {
         place!(roughness, Some(Roughness::SelfAffine { $member, .. }) => $member).of("SelfAffine")
     };
 }
 
-/// Makes the `Place` of a member of a measured surface.
+/// Makes the `Place` of a value of a measured surface, the field in which it is stored.
 macro_rules! measured {
     ($member:ident) => {
         place!(roughness, Some(Roughness::Measured(Measured { $member, .. })) => $member)

@@ -23,8 +23,8 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder. Their names are given
-/// without the ending `.ron`.
+/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it. The arguments are the
+/// names of the files without the ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -93,12 +93,12 @@ pub enum Source {
     Working,
 }
 
-/// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid
-/// scene.
+/// Item of the list that [`scenes`] returns. It is a scene, or a file whose name ends in `.ron` but
+/// which is no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the scene. For a file of the working folder it includes the ending `.ron`; otherwise
-    /// it does not.
+    /// Name of the scene. The name of a file in the working folder ends in `.ron`. Other names have
+    /// no ending.
     pub name: String,
     /// Source of the scene.
     pub origin: Source,
@@ -110,9 +110,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes. It is `asperity/presets` in `$XDG_CONFIG_HOME` or
-/// `~/.config`, and on Windows in the folder for roaming application data. The folder need not
-/// exist. Returns `None` if the user has no home folder.
+/// Returns the folder of the user's own scenes, which need not exist. It is `asperity/presets` in
+/// `$XDG_CONFIG_HOME` or in `~/.config`. On Windows it is in the folder for roaming application
+/// data. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     Some(strategy.config_dir().join("asperity").join("presets"))
@@ -136,9 +136,9 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
         .collect()
 }
 
-/// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the
-/// scenes in the folder `working`. All files whose names end in `.ron` are listed, except for plans
-/// of studies. A file that is not a valid scene is listed with its error message.
+/// Lists all scenes. The built-in scenes come first, then the scenes in the user's folder `own`,
+/// then the scenes in the folder `working`. All files whose names end in `.ron` are listed, except
+/// for plans of studies. A file that is not a valid scene is listed with its error message.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let mut entries = Vec::new();
     for preset in presets() {

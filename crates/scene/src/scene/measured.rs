@@ -108,7 +108,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Returns the surface of one file, with the default of each option.
+    /// Creates the description of a measured surface in one file. All options have their defaults.
     pub fn of_file(file: &str) -> Self {
         let stated = MapDeserializer::<_, ValueError>::new(iter::once(("file", file)));
         Measured::deserialize(stated).expect("defaults of all fields but the file")
@@ -144,8 +144,8 @@ impl Measured {
         faces
     }
 
-    /// Returns the options for reading and analysing the files of this surface. The values of this
-    /// surface must be valid.
+    /// Returns the options for reading and analysing the files of this surface. The fields of this
+    /// type must be valid.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

@@ -16,9 +16,9 @@ use strum::IntoStaticStr;
 
 /// Version of the format of scene files.
 pub const SCENE_VERSION: u32 = 1;
-/// Number of points of the force curve of a stage if nobody needs this curve.
+/// Number of points of the force curve of a loading stage, if the caller does not use the curve.
 pub const FEW_SAMPLES: u64 = 2;
-/// Recommended number of springs for each shortest wave. With this number the adhesion force of a
+/// Recommended number of springs on the shortest wave. With this number the adhesion force of a
 /// rough profile deviates by about one per cent from the value for many springs (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = Warning::LEAST_SPRINGS_PER_WAVE;
 
@@ -190,14 +190,14 @@ impl Scene {
         }
     }
 
-    /// Returns the distance Δx between springs in m: the apparent diameter L divided by the number
-    /// of springs N.
+    /// Returns the distance Δx in m between springs: L/N, where L is the apparent diameter and N
+    /// the number of springs.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64
     }
 
-    /// Returns the indices of the springs under the body. These are all springs, unless the body is
-    /// a punch narrower than the profile.
+    /// Returns the indices of the springs under the body. If the body is a punch narrower than the
+    /// profile, these are the springs under its flat end. Otherwise they are all springs.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form
@@ -205,7 +205,7 @@ impl Scene {
             .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness for the length of the scene. Returns `None`
+    /// Returns the spectrum of a self-affine roughness on the length of the scene. Returns `None`
     /// for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine {
@@ -244,8 +244,8 @@ impl Scene {
         }
     }
 
-    /// Returns true if the heights of the measured file are the profile, unchanged, as an
-    /// equivalent line.
+    /// Returns true if the heights of the measured file are used, unchanged, as the equivalent
+    /// line.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
@@ -256,8 +256,8 @@ impl Scene {
             .map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Returns the names of the measured files and of the table of the form, relative to the folder
-    /// of the scene file.
+    /// Returns the names of all files that the scene uses, relative to the folder of the scene
+    /// file. These are the measured files and the table of the form.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self
             .measured()
@@ -268,8 +268,9 @@ impl Scene {
         files
     }
 
-    /// Returns the paths of the measured files in `folder`. The first element has all files of the
-    /// rough body. If the scene has a file of the opposite body, the second element has this file.
+    /// Returns the paths of the measured files in `folder`, for each of the two bodies. The first
+    /// element has all files of the rough body. The second element has the file of the opposite
+    /// body; it is missing if the scene has no such file.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces
@@ -278,8 +279,9 @@ impl Scene {
             .collect()
     }
 
-    /// Replaces the name of each measured file and of the table of the form by the name that
-    /// `rename` returns. The files themselves stay as they are.
+    /// Replaces the names of all files that the scene uses, which are the measured files and the
+    /// table of the form. `rename` receives each name and returns the new name. The files
+    /// themselves do not change.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -297,7 +299,7 @@ impl Scene {
         }
     }
 
-    /// Returns the seed of the random phases; `None` if the profile is not random.
+    /// Returns the seed of the random phases; `None` if the scene has no random profile.
     pub fn seed(&self) -> Option<u64> {
         match self.roughness.as_ref()? {
             Roughness::Measured(Measured { as_line: true, .. }) => None,
@@ -327,7 +329,7 @@ pub struct Numerics {
     /// Solver for the equilibrium of the springs: the exact solver, or the stepwise method of Popov
     /// and Filippov (2012).
     pub solver: Solver,
-    /// Edge model: either an edge of a contact patch may lie anywhere between two springs, or a
+    /// Where an edge of a contact patch may lie: anywhere between two springs, or only so that the
     /// patch consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
@@ -395,8 +397,9 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model that applies if a scene file states none: [`Edges::SubCell`] with the
-    /// exact solver, [`Edges::Grid`] with the stepwise solver.
+    /// Returns where the edges of contact patches lie if a scene file does not state it. With the
+    /// exact solver they lie anywhere between springs ([`Edges::SubCell`]). With the stepwise
+    /// solver, patches consist of whole springs ([`Edges::Grid`]).
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => read_default(EDGES),
@@ -408,7 +411,7 @@ impl Solver {
 /// A quantity that a computation records in addition to the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Observer {
-    /// The contact patches after each loading stage.
+    /// The contact patches at the end of each loading stage.
     Fragments,
     /// The histogram of the heights of the profile.
     HeightHistogram,

@@ -21,8 +21,8 @@ impl Scene {
             .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
     }
 
-    /// Sets the numerical value at a path without checking its range. If the scene leaves this
-    /// value out, the value is added.
+    /// Sets the numerical value at a path without checking its range. If the scene has no such
+    /// value yet, the value is added.
     ///
     /// # Errors
     /// Returns an error if the scene cannot have a numerical value at this path, or if the new

@@ -12,10 +12,10 @@ use super::library::{describe, find_scene, own_folder, own_names, own_scene, pre
 use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
-/// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an
-/// existing file is opened as a file. Any other name is searched first among the built-in scenes,
-/// then in the user's [`own_folder`]. If the file is a CSV table of results, the function opens the
-/// scene that the table contains.
+/// Opens a scene by its name or by the path of its file. A name that ends in `.ron`, contains a
+/// path separator or is the name of an existing file is opened as a file. Any other name is
+/// searched first among the built-in scenes, then in the user's [`own_folder`]. If the file is a
+/// CSV table of results, the scene in the head of the table is opened.
 ///
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has
 /// invalid values.
@@ -78,7 +78,8 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true if [`is_path`] is true for a name, or if the name is the path of an existing file.
+/// Returns true if a name means a file: it is the path of an existing file, or [`is_path`] is true
+/// for it.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
@@ -88,9 +89,9 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument of the command line names. For `-` the scene is read from
-/// standard input; for any other argument the function works as [`open`] does. A pipe or a device
-/// is read to its end, so the function may wait for another program.
+/// Opens the scene that an argument of the command line names. The argument `-` means standard
+/// input. Any other argument is opened as by [`open`]. A pipe or a device is read to its end, so
+/// the function may wait for another program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].

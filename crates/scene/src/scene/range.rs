@@ -8,15 +8,16 @@ use std::ops::{Bound, RangeBounds};
 /// and its bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// A finite real number between two bounds. Each bound is either included or excluded.
+    /// A finite real number between two bounds. Each bound is included or excluded, or there is no
+    /// bound.
     Real(Bound<f64>, Bound<f64>),
     /// An integer from the first to the second bound, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of integers with first ≤ last. Both lie between the two bounds of
-    /// this variant, which are included.
+    /// A pair `(first, last)` of integers with first ≤ last. Both integers lie between the two
+    /// numbers of this variant, which are included.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both lie between
-    /// the two bounds of this variant, which are included.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both wavelengths
+    /// lie between the two numbers of this variant, which are included.
     Wavelengths(f64, f64),
     /// Text without control characters; line breaks may be allowed.
     Text {
@@ -29,7 +30,7 @@ pub enum Range {
     },
     /// One of these choices. Each choice is written in RON, with example values.
     Choice(&'static [&'static str]),
-    /// A list of `least` to `most` elements, each of one of the kinds in `of`.
+    /// A list of `least` to `most` elements. Each element is of a kind that `of` has.
     List {
         /// Allowed kinds of elements. Each kind is written in RON, with example values.
         of: &'static [&'static str],
@@ -58,8 +59,8 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if this is a range of real numbers or wavelengths and contains `value`. NaN and
-    /// infinity are never allowed.
+    /// Returns true if this range allows the real number or the wavelength `value`. Returns false
+    /// for other kinds of ranges. NaN and infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -68,14 +69,14 @@ impl Range {
         }
     }
 
-    /// Returns true if this is a range of integers ([`Whole`](Self::Whole) or [`Band`](Self::Band))
-    /// and contains `value`.
+    /// Returns true if this range allows the integer `value`, or allows it in a pair of integers.
+    /// Returns false for other kinds of ranges.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// Returns the lower and the upper bound of a numeric range, whether or not the range includes
-    /// them. Returns `None` for other ranges.
+    /// Returns the lower and the upper bound of a range of numbers, even if a bound itself is
+    /// excluded. Returns `None` for other ranges.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => {

@@ -69,8 +69,8 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     }
 }
 
-/// Explains in plain words an error that [`read_ron`] has found in the text of a scene. Returns the
-/// byte offset of the error and the error.
+/// Returns an error of [`read_ron`] in plain words, and its byte offset in the text of the scene
+/// `source`.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(

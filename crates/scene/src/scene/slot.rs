@@ -36,9 +36,9 @@ impl Value<'_> {
         }
     }
 
-    /// Returns the numerical value at a path inside this value. The empty path means this value
-    /// itself, `0` and `1` are the two values of a pair, and `2.0` is the target value of the third
-    /// loading stage.
+    /// Returns the numerical value at the path `inside` within this value. The empty path means
+    /// this value itself, `0` and `1` mean the two values of a pair, and `2.0` means the target
+    /// value of the third loading stage.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
@@ -275,7 +275,7 @@ impl Slot for Numerics {
 /// `place!` makes both functions from one expression.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// Choice that has the field, such as `Cone` for an angle.
+    /// Choice to which the field belongs, such as `Cone` for an angle.
     pub(super) choice: Option<&'static str>,
     pub(super) slot: fn(&Scene) -> Option<&dyn Slot>,
     pub(super) slot_mut: fn(&mut Scene) -> Option<&mut dyn Slot>,

@@ -64,7 +64,7 @@ impl StageKind {
         },
     ];
 
-    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the target value of the
+    /// Returns the index in [`StageKind::ALL`] of the kind of a stage, and the target value of the
     /// stage. The target value is `None` for a kind that has none, such as first touch.
     pub fn of(stage: &Move) -> (usize, Option<f64>) {
         let kind = StageKind::ALL
@@ -211,9 +211,9 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage in the notation of [`loading_text`]. If the text is a number without a
-/// unit, it becomes the target value of a stage of the kind with the index `usual` in
-/// [`StageKind::ALL`]. If `usual` is `None`, the number is a force in N.
+/// Reads a loading stage in the notation of [`loading_text`]. A number without a unit is the target
+/// value of a stage. The kind of this stage is the item of [`StageKind::ALL`] with the index
+/// `usual`. If `usual` is `None`, the number is a force in N.
 ///
 /// # Errors
 /// Returns an error if the text is not a stage.

@@ -27,8 +27,8 @@ pub struct Statement {
     pub value: String,
 }
 
-/// Lists the values on which the solution of a scene depends: all numbers, and those choices and
-/// names that differ from their defaults.
+/// Lists the values on which the solution of a scene depends. These are all numbers, and the
+/// choices and names that differ from their defaults.
 ///
 /// ```
 /// use asperity_scene::open;

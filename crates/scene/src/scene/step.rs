@@ -18,9 +18,9 @@ const SAME: f64 = 1e-9;
 impl Field {
     /// Returns the value of this field, in RON, after `steps` presses of a key in the explorer.
     /// `value` is the present value in RON. Negative `steps` lead to smaller values or earlier
-    /// choices. If `coarse` is true, each step is a large one ([`Step`]); otherwise a small one. An
-    /// optional field also has the RON text `None` as a choice, which is returned as
-    /// `Some("None")`.
+    /// choices. If `coarse` is true, each step is a large one ([`Step`]); otherwise it is a small
+    /// one. An optional field has the RON text `None` as a further choice. The function returns
+    /// this choice as `Some("None")`.
     ///
     /// Returns `None` at the end of the range, or if keys cannot change the field. The steps of
     /// wavelengths depend on the length of the profile; [`Field::stepped_on`] computes them.
@@ -80,10 +80,11 @@ impl Field {
         is_allowed.then(|| format!("({first}, {last})"))
     }
 
-    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has the
-    /// length `length` in m. For wavelengths, a step changes how many waves fit on the length, and
-    /// the new number of waves is a whole number. Among the possible wavelengths, the result is the
-    /// nearest to a preferred number.
+    /// Returns the value of this field after `steps` presses of a key, for a profile of the length
+    /// `length` in m. Only wavelengths depend on the length; for all other fields the result is
+    /// that of [`Field::stepped`]. A step of a wavelength changes how many waves fit on the length,
+    /// and the new number of waves is a whole number. Among the possible wavelengths, the result is
+    /// the nearest to a preferred number.
     ///
     /// ```
     /// let field = asperity_scene::fields::field("roughness.wavelengths", None).unwrap();

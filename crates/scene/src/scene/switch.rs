@@ -14,9 +14,9 @@ use super::written::differing;
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// Returns this document without the optional part `effect` of its scene. If the roughness is
-    /// removed, a work of adhesion replaces κ or e_el/γ, which need a roughness. If the unloading
-    /// is removed, one loading stage remains.
+    /// Returns this document without an optional part of its scene. If the roughness is removed, a
+    /// work of adhesion replaces κ or e_el/γ, because these parameters need a roughness. If the
+    /// unloading is removed, one loading stage remains.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without this part.
@@ -54,9 +54,9 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the optional part `effect` in its scene. If [`Self::without`] has
-    /// removed the part before, it gets back its former values; otherwise it gets values that suit
-    /// the scene.
+    /// Returns this document with an optional part added to its scene. If [`Self::without`] has
+    /// removed the part before, the part gets its former values back. Otherwise it gets values that
+    /// suit the scene.
     ///
     /// # Errors
     /// Returns an error if the part is impossible in the scene, such as roughness on a single
@@ -89,7 +89,7 @@ impl Document {
         effect.is_on(restored.scene()).then_some(restored)
     }
 
-    /// Returns this document with the values of `scene`. In the text, only values that differ are
+    /// Returns this document with the values of `scene`. Only the text of values that differ is
     /// replaced.
     ///
     /// # Errors
@@ -98,7 +98,8 @@ impl Document {
         self.set_all(&overrides_to(self.scene(), scene))
     }
 
-    /// Returns this document with another adhesion, as [`Document::with_scene`] does.
+    /// Returns this document with another adhesion. Only the text of values that differ is
+    /// replaced.
     ///
     /// # Errors
     /// Returns an error if a value is invalid.
@@ -111,7 +112,7 @@ impl Document {
 
     /// Returns this document with the next choice ([`Range::Choice`]) of `field`, or with the
     /// previous choice if `forwards` is false. Choices that the scene does not allow are skipped.
-    /// If the field is an optional part ([`Effect`]), the RON text `None` is a further choice,
+    /// If the field is an optional part ([`Effect`]), a further choice is the RON text `None`,
     /// which removes the part. Returns `None` if there is no other choice.
     ///
     /// # Errors

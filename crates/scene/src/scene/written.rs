@@ -100,8 +100,8 @@ fn entries(scene: &Scene, fields: &[&Field]) -> Vec<String> {
     entries
 }
 
-/// Writes a scene as RON text. Fields that have their default are left out. Reading the text gives
-/// the same scene.
+/// Writes a scene as RON text. Fields that have their default values are left out. A reader of the
+/// text gets the same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let fields: Vec<&Field> = fields_inside("", None).collect();
     let mut text = "(\n".to_owned();
@@ -112,9 +112,9 @@ pub fn to_ron(scene: &Scene) -> String {
 }
 
 /// Returns the fields that differ between two scenes. A group of fields is compared field by field
-/// if two conditions hold: both scenes have the same choice for the group, and `splits` is true for
-/// each field. The arguments of `splits` are true if the first and the second scene state the
-/// field. Otherwise the whole group counts as one field.
+/// under two conditions: both scenes have the same choice for the group, and `splits` is true for
+/// each field. Otherwise the whole group counts as one field. The arguments of `splits` are true if
+/// the first and the second scene state the field.
 pub(super) fn differing(
     first: &Scene,
     second: &Scene,

@@ -16,10 +16,11 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// Facts about the profile, such as its length and its largest gap.
+    /// Facts about the profile, the rigid line above the springs, such as its length and its
+    /// largest gap.
     pub line: LineFacts,
-    /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and
-    /// e_el/γ.
+    /// Parameters that govern the contact: effective modulus, work of adhesion, rms height and rms
+    /// gradient of the roughness, κ and e_el/γ.
     pub governing: Governing,
     /// Ideal adhesion force F_a,max in N of a flat face whose length is the length of the profile,
     /// eq. (14) of Popov and Filippov (2012); `None` without adhesion.
@@ -27,22 +28,24 @@ pub struct Outcome {
     /// Adhesion force F_smooth in N of the same body without roughness after the same preload;
     /// `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch. `None` if the scene has no
-    /// adhesion or no unloading stage.
+    /// Adhesion force F_a(d=0) in N after a loading that ends at first touch. `None` if the scene
+    /// has no adhesion or no unloading stage.
     pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero. `None` if
-    /// the scene has no adhesion or no unloading stage.
+    /// Adhesion force F_a(F=0) in N after a loading that ends where the force has returned to zero.
+    /// `None` if the scene has no adhesion or no unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such
     /// as a cone.
     pub tabor_number: Option<f64>,
-    /// Waves of a wavy sphere with adhesion, if the waves are so steep that the rule of Hess
-    /// differs from the theory of Johnson, Kendall and Roberts; otherwise `None`.
+    /// Steep waves of a wavy sphere with adhesion. Waves are steep if the rule of Hess differs from
+    /// the theory of Johnson, Kendall and Roberts. `None` if there are no such waves.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)) that follows from F_a(d=0); `None`
-    /// for a loading without a tensile force.
+    /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)), derived with F_a(d=0), the
+    /// adhesion force after a loading that ends at first touch. `None` for a loading without a
+    /// tensile force.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0); `None` for a loading without a tensile force.
+    /// Regime of adhesion, derived with F_a(F=0), the adhesion force after a loading that ends at
+    /// zero force. `None` for a loading without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
     /// Main forces and energies of the loading, such as preload, adhesion force and dissipated
     /// energy.
@@ -57,7 +60,7 @@ pub struct Outcome {
     /// Histogram of the heights of the profile; `None` unless the scene has
     /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
-    /// A warning for each premise of the model that the scene and its results do not meet; empty if
+    /// A warning for each premise of the model that the scene or its results do not meet; empty if
     /// all premises hold. Each [`Warning`] states the consequence for the results.
     pub warnings: Vec<Warning>,
     /// Times that the parts of the computation have taken.
@@ -87,7 +90,8 @@ pub struct LineFacts {
     pub spacing: f64,
     /// Index of the first spring under the body. It is above zero only for a punch.
     pub first: usize,
-    /// Height of the highest point in m. Height zero is the apex of the form without roughness.
+    /// Height of the highest point of the profile in m. The height is 0 at the apex of the form
+    /// without roughness.
     pub summit: f64,
     /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
@@ -96,13 +100,13 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient of a continuous spectrum with the same rms height, eq. (12) of Popov and
-    /// Filippov (2012); `None` unless the roughness is self-affine.
+    /// Rms gradient that a continuous spectrum with the same rms height has, eq. (12) of Popov and
+    /// Filippov (2012). `None` unless the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times in s that the parts of a computation have taken. If an earlier result was used again, the
-/// time is zero.
+/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier
+/// result was used again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Time in s for computing the profile from the form and the roughness.
@@ -118,7 +122,8 @@ pub struct Timings {
     /// Time in s for the force curves of all loading stages, with their largest and smallest
     /// forces.
     pub curve: f64,
-    /// Time in s for F_a(d=0) and F_a(F=0), which the regimes need.
+    /// Time in s for two adhesion forces without a preload, F_a(d=0) and F_a(F=0). The regimes
+    /// depend on these forces.
     pub without_preload: f64,
 }
 
@@ -172,8 +177,8 @@ pub enum RunError {
         /// Force at first touch in N.
         touch: f64,
     },
-    /// A loading stage presses the body beyond full contact, where all springs touch, by more than
-    /// the length of the profile.
+    /// A loading stage presses the body too deep: beyond full contact, where all springs touch, by
+    /// more than the length of the profile.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.

@@ -6,8 +6,8 @@ use asperity_contact::{Contact, Move};
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
-/// Deepest state up to which a loading is computed. In this state the body is one length of the
-/// profile deeper than at full contact, where the last spring touches.
+/// Deepest state up to which a loading is computed. The deepest state is one length of the profile
+/// deeper than full contact, where the last spring touches.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -31,7 +31,7 @@ pub struct Reach {
     pub force: f64,
     /// Indentation of the deepest state in m.
     pub indentation: f64,
-    /// Displacement in m that the instrument has in the deepest state.
+    /// Displacement of the instrument in m in the deepest state.
     pub displacement: f64,
 }
 

@@ -22,9 +22,9 @@ pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError
 
 impl Simulation {
     /// Computes unloadings to separation from several turning points, at which a loading ends. Each
-    /// stage in `ends` loads the separated bodies up to one turning point. The stages must be
-    /// ordered from the smallest to the largest indentation. `see` receives the index of each stage
-    /// in `ends`, and the unloading with its forces at the ascending indentations `points` in m.
+    /// stage in `ends` loads the separated bodies up to one turning point. The stages must be in
+    /// ascending order of the indentation. `see` receives the index of each stage in `ends` and its
+    /// unloading. The unloading has forces at the ascending indentations `points` in m.
     ///
     /// # Errors
     /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if
@@ -69,11 +69,11 @@ impl Simulation {
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
-    /// Computes the unloading curves of a scene from `count` turning points to separation
-    /// (first-order reversal curves). `preloads` are the forces in N at the first and at the last
-    /// turning point. If `preloads` is `None`, the first turning point is at first touch and the
-    /// last one at the preload of the scene. If `count` is outside [`ReversalMap::TURNING_POINTS`],
-    /// the nearest allowed number is used.
+    /// Computes unloading curves of a scene to separation from `count` turning points (first-order
+    /// reversal curves). If `count` is outside [`ReversalMap::TURNING_POINTS`], the nearest allowed
+    /// number is used. `preloads` are the forces in N at the first and at the last turning point.
+    /// If `preloads` is `None`, the first turning point is at first touch, and the last one at the
+    /// preload of the scene.
     ///
     /// # Errors
     /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading

@@ -44,14 +44,15 @@ enum Source {
 /// Heights of a roughness before they are scaled, with facts about the roughness.
 pub(super) struct Rough {
     pub key: RoughnessKey,
-    /// Heights of the roughness. The list is empty after its memory has been used for the gaps of
+    /// Heights of the roughness. The list is empty if its memory has been reused for the gaps of
     /// the profile.
     pub heights: Vec<f64>,
-    /// Amplitude of the self-affine profile with an rms height of 1 m on a length of 1 m.
+    /// Rms height, gradient and curvature of the self-affine profile, scaled to an rms height of 1
+    /// m on a length of 1 m.
     pub unit: Option<Amplitude>,
-    /// Amplitude of a measured surface.
+    /// Rms height, gradient and curvature of a measured surface.
     pub measured: Option<Amplitude>,
-    /// First and last mode of a random profile.
+    /// First and last mode of a random profile, as numbers of waves on its length.
     pub modes: Option<ModeRange>,
     /// Facts about a measured surface and the profile made from it.
     pub facts: Option<MeasuredFacts>,
@@ -66,15 +67,16 @@ pub(super) struct KeptSpectrum {
     pub surface: Arc<MeasuredRoughness>,
 }
 
-/// Makes the heights of roughnesses. The maker stores values that several roughnesses have in
-/// common, so that it computes them only once.
+/// Makes the heights of roughnesses. Values that several roughnesses have in common are stored, so
+/// that they are computed only once.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
-    /// Folder of the files that scenes name.
+    /// Folder to which the names of files in scenes are relative.
     pub folder: PathBuf,
-    /// A measured surface in memory. It replaces the files that scenes name.
+    /// A measured surface in memory. It is used instead of the files that scenes name.
     pub measured: Option<Arc<MeasuredRoughness>>,
-    /// Spectrum of the files that were read last. It needs little memory and is used for all seeds.
+    /// Spectrum of the measured files that were read last. It needs little memory and does not
+    /// depend on the seed.
     pub equivalent: Option<KeptSpectrum>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
@@ -82,7 +84,8 @@ pub(super) struct RoughnessMaker {
 }
 
 impl RoughnessMaker {
-    /// Returns everything that determines the roughness of a scene; `None` without roughness.
+    /// Returns all values on which the roughness of a scene depends. Two scenes with equal keys
+    /// have the same roughness. Returns `None` without roughness.
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
         let shift = scene
@@ -106,7 +109,8 @@ impl RoughnessMaker {
         })
     }
 
-    /// Makes the heights of a roughness. Random heights are written into the memory `memory`.
+    /// Makes the heights of the roughness with this key. Random heights are written into the memory
+    /// `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match &key.source {
             Source::SelfAffine(spectrum) => {
@@ -259,8 +263,8 @@ fn cut_profile(
 }
 
 /// Returns the recommended number of springs for a profile of the length `length` in m with the
-/// measured spectrum `line`. It is the smallest power of two that gives each shortest wave at least
-/// twice [`SPRINGS_PER_WAVE`] springs, but at least 2^10 and at most 2^28.
+/// measured spectrum `line`. It is the smallest power of two with at least twice
+/// [`SPRINGS_PER_WAVE`] springs on the shortest wave. The number is at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)

@@ -34,8 +34,8 @@ const MOST_SPARE: u64 = 4;
 /// Memory kept for the next computation is not released if it is at most this number of bytes.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes, one after the other. A simulation repeats only those parts of the computation
-/// that depend on a changed field of the scene.
+/// Computes scenes, one after the other. A simulation computes again only what depends on a changed
+/// field of the scene.
 ///
 /// Between two computations a simulation keeps at most 32 MiB or four times the memory that its
 /// last scene needed, whichever is larger.
@@ -106,9 +106,10 @@ pub(super) struct Prepared {
     warnings: Vec<Warning>,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage. It receives the index of the
-/// stage, its force curve ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns
-/// an error, the computation ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage. Its arguments are the index of
+/// the stage, the record of the stage with its force curve ([`LegRecord`]), and the motion
+/// ([`Leg`]), which gives the contact at each indentation. If the function returns an error, the
+/// computation ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
@@ -124,8 +125,8 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation in a form that needs less memory and is meant for a single scene. It
-    /// computes each further profile more slowly.
+    /// Returns this simulation in a form for a single scene. It needs less memory, but computes
+    /// each further profile more slowly.
     pub fn for_one_scene(self) -> Self {
         Simulation {
             single: true,
@@ -140,9 +141,9 @@ impl Simulation {
         self
     }
 
-    /// Returns the measured spectrum in use: the spectrum given to [`Self::with_measured`],
-    /// otherwise the last one that was estimated from files. Returns `None` if there is no
-    /// spectrum.
+    /// Returns the measured spectrum in use. It is the spectrum given to [`Self::with_measured`]
+    /// or, if none was given, the last spectrum that was estimated from files. Returns `None` if
+    /// there is no spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
         let surface = match (&self.maker.measured, &self.maker.equivalent) {
             (Some(measured), _) => measured,
@@ -401,7 +402,7 @@ impl Simulation {
     }
 
     /// Returns a warning for each premise of the model that a scene does not meet before its
-    /// loading. These premises concern its fields, its measured surface and its profile.
+    /// loading. The warnings concern the fields of the scene, its measured surface and its profile.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].
@@ -602,7 +603,7 @@ fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
     }
 }
 
-/// Returns the profile of a contact from a line and the form of the body.
+/// Returns the profile of a contact, made from the rigid line `line` and the form of the body.
 pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
     let placed = profile
@@ -611,8 +612,8 @@ pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profi
     Ok(placed.with_nominal_form(nominal_form))
 }
 
-/// Returns the form of the body of a scene. If measured heights are the profile itself, the form is
-/// unstated.
+/// Returns the form of the body that a profile states: flat or curved. If measured heights are used
+/// unchanged as the profile, the form is not stated.
 pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     match &scene.form {
         Some(form) if form.flat_end().is_none() => NominalForm::Curved,

@@ -65,8 +65,8 @@ const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
 /// Part of the computation from a scene to its force curve. The variants are in the order of
-/// execution. These parts are not the stages of the loading, which
-/// [`Scene::loading`](crate::Scene::loading) has.
+/// execution. A stage of the computation is not a loading stage of the scene
+/// ([`Scene::loading`](crate::Scene::loading)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -76,7 +76,7 @@ pub enum Stage {
     Synthesis,
     /// Reading of the files of a measured surface.
     MeasuredProfile,
-    /// Contact tree: the tree of the gaps from which the exact solver finds where patches form,
+    /// Construction of the contact tree, from which the exact solver finds where patches form,
     /// merge, split and detach.
     Tree,
     /// Rule of Hess, which limits how far the springs of a contact patch may be stretched.
@@ -85,10 +85,10 @@ pub enum Stage {
     LoadingPass,
     /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps of the stepwise solver. In each step the body moves, and then springs attach and
-    /// detach until the contact no longer changes.
+    /// Steps of the stepwise solver. In each step the body moves; then springs attach and detach
+    /// until the contact does not change.
     Relaxation,
-    /// Two loops without a preload: one turns at first touch and one at zero force. They give
+    /// Two loadings without a preload: one ends at first touch and one at zero force. They give
     /// F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
@@ -118,10 +118,10 @@ pub struct PlannedStage {
     pub stage: Stage,
     /// True if the scene needs this part.
     pub runs: bool,
-    /// Name of the field that requires this part, or the reason why it is skipped.
+    /// Reason as text: the name of the field that requires this part, or why the part is skipped.
     pub because: &'static str,
-    /// Number of times that this part passes over the profile or the contact tree; `None` if this
-    /// number depends on the loading stages.
+    /// Number of times that this part passes over the profile or over the contact tree. `None` if
+    /// this number depends on the loading stages.
     pub passes: Option<u64>,
     /// Upper bound of the number of springs that all passes together visit; `None` if the number of
     /// passes is unknown.
@@ -149,8 +149,8 @@ pub struct Workload {
     /// Approximate largest memory of a computation in bytes, without the program itself, measured
     /// files and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run` in bytes, including the program
-    /// itself.
+    /// Approximate largest resident memory, in bytes, of the command `asperity run`, including the
+    /// program itself.
     pub resident_bytes: u64,
     /// All parts of the computation, including those that are skipped.
     pub stages: Vec<PlannedStage>,

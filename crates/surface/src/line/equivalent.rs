@@ -14,8 +14,8 @@ use std::f64::consts::TAU;
 /// error.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of measured surfaces: a random rigid profile with their spectrum. A contact has
-/// two faces, the surfaces that touch each other, and one or both may be measured. If both are
+/// Equivalent line of measured surfaces: a random rigid profile whose spectrum follows from the
+/// measured spectra. A contact has two faces, the surfaces that touch each other. If both faces are
 /// measured, the line has the sum of their spectra.
 ///
 /// ```
@@ -41,7 +41,8 @@ const ROUNDING: f64 = 1.0e-9;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    /// Spectrum of each measured [face](crate::lines::Face), one of the surfaces that touch.
+    /// Spectrum of each measured [face](crate::lines::Face). A face is a surface that touches
+    /// another one in the contact.
     pub faces: Vec<IsotropicSpectrum>,
 }
 
@@ -54,7 +55,8 @@ impl From<&Analysis> for EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face).
+    /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face), the surfaces
+    /// that touch each other.
     ///
     /// # Errors
     /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or
@@ -67,8 +69,8 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces: spectra })
     }
 
-    /// Computes the heights in m of a random profile of this length in m. The heights are at the
-    /// middles of `points` equal cells, and the seed determines the random phases of the waves.
+    /// Computes the heights in m of a random profile of the length `length` in m. The heights are
+    /// at the middles of `points` equal cells. `seed` determines the random phases of the waves.
     ///
     /// # Errors
     /// Returns an error if no wave of the spectrum fits the length and is resolved by the points,
@@ -80,9 +82,9 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&amplitude, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns the line after a change of the spectrum of each face by a random error. The error is
-    /// drawn from the distribution of the errors of the fit and multiplied by `share`. `number` is
-    /// the seed: equal numbers give equal errors.
+    /// Returns a line whose spectrum differs from this one by a random error of the fit, for each
+    /// face. The error is drawn from the distribution of the errors of the fit and multiplied by
+    /// `share`. `number` is the seed: equal numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let mut faces = Vec::new();
         for (index, spectrum) in (0_u64..).zip(&self.faces) {
@@ -104,7 +106,7 @@ impl EquivalentLine {
     }
 
     /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
-    /// wave number that all faces have in their spectra. The last is the largest wave number of any
+    /// wave number at which all faces have a spectrum. The last is the largest wave number of any
     /// face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
@@ -117,10 +119,10 @@ impl EquivalentLine {
         [first, last]
     }
 
-    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points`
-    /// springs. Mode k is the wave with the wave number q = 2πk/L. The modes are the waves of the
-    /// spectrum that are no longer than the line and that the springs resolve. Returns an error if
-    /// there is no such wave.
+    /// Returns the first and the last mode of a line of the length L = `length` in m on `points`
+    /// springs. Mode k is the wave with k periods on the length, of the wave number q = 2πk/L. The
+    /// modes are the waves of the spectrum that are no longer than the line and that the springs
+    /// resolve. Returns an error if there is no such wave.
     pub fn modes(&self, length: f64, points: usize) -> Result<ModeRange, SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -144,7 +146,8 @@ impl EquivalentLine {
         })
     }
 
-    /// Returns the same line without the waves whose wave number exceeds `wave_number` in rad/m.
+    /// Returns the same line without its short waves, whose wave numbers exceed `wave_number` in
+    /// rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine {
             faces: self
@@ -155,16 +158,16 @@ impl EquivalentLine {
         }
     }
 
-    /// Returns the amplitude A_k in m of mode k on a line of this length in m. The amplitude
-    /// follows from A_k² = 4 C(q_k)/L, where C is [`EquivalentLine::power`], q_k = 2πk/L the wave
-    /// number, and L the length.
+    /// Returns the amplitude A_k in m of the wave with k = `mode` periods on a line of the length L
+    /// = `length` in m. A_k² = 4 C(q_k)/L, where C is [`EquivalentLine::power`] and q_k = 2πk/L is
+    /// the wave number.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
     /// Returns the mean square height in m² that one wave adds to a square surface with the
-    /// measured spectra. `side` is the side of the square in m. `waves`, the number of periods over
-    /// this side, need not be a whole number. Returns 0 if the wave lies outside the measured
+    /// measured spectra. `side` is the side of the square in m. `waves` is the number of periods on
+    /// this side, which need not be a whole number. Returns 0 if the wave lies outside the measured
     /// spectra.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
@@ -191,8 +194,9 @@ impl EquivalentLine {
         4.0 * power / length
     }
 
-    /// Computes the roughness amplitude (rms height, gradient and curvature) of a line that has
-    /// only the modes `modes`. `length` is its length in m.
+    /// Computes the rms height, gradient and curvature of a line that has only the modes `modes`.
+    /// `length` is the length of the line in m. A mode is a wave with a whole number of periods on
+    /// this length.
     pub fn amplitude_of_modes(&self, length: f64, modes: ModeRange) -> Amplitude {
         let square = |mode: u64| ModeSquare {
             mode,
@@ -207,7 +211,7 @@ impl EquivalentLine {
 /// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The profile in the file is an equivalent line already, and is used unchanged as the rigid
+    /// The profile in the file is an equivalent line already. It is used unchanged as the rigid
     /// profile.
     Profile(MeasuredProfile),
     /// The rigid profile is an equivalent line of the measured surfaces.
@@ -215,10 +219,11 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Parses the files of one or two [faces](crate::lines::Face), and analyses their surfaces if
-    /// needed. If [`MeasuredOptions::as_line`] is given and there is only one file, its measured
-    /// profile is the rigid profile. Otherwise the rigid profile is the equivalent line of the
-    /// faces.
+    /// Reads measured files and, if needed, analyses their surfaces. `faces` has the files of one
+    /// or two [faces](crate::lines::Face), the surfaces that touch each other.
+    ///
+    /// If [`MeasuredOptions::as_line`] is given and there is only one file, the profile in this
+    /// file is the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
     ///
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.

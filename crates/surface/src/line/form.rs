@@ -11,9 +11,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. A depth in m is the distance of
-/// a point of the surface from the apex, measured along the axis. The distance of this point from
-/// the axis is r in m.
+/// Macroscopic form of the rigid body: its shape without roughness. The shape is a depth in m as a
+/// function of r, the distance from the axis in m. The depth is measured along the axis, from the
+/// apex.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -43,8 +43,8 @@ pub enum Form {
         /// Wavelength λ in m.
         wavelength: f64,
     },
-    /// Cone with a rounded apex: depth r²/2R up to the radius b = R tan θ, and r tan θ − b tan θ/2
-    /// beyond it, where the cone is tangent to the paraboloid.
+    /// Cone with a rounded apex. The depth is r²/2R up to the radius b = R tan θ. Beyond b, the
+    /// depth is r tan θ − b tan θ/2, a cone that is tangent to the paraboloid.
     RoundedCone {
         /// Radius of curvature R of the apex in m.
         radius: f64,
@@ -56,8 +56,8 @@ pub enum Form {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Two spheres side by side on one probe, each above a half of the length of the profile. Their
-    /// contacts do not act on each other, but they carry the force together.
+    /// Two spheres side by side on one probe, each above one half of the length of the profile.
+    /// Their contacts do not influence each other; their forces add up.
     TwoSpheres {
         /// Radius of curvature R of the first sphere in m. Its apex is the apex of the form.
         radius: f64,
@@ -83,8 +83,8 @@ pub enum Form {
 impl Form {
     /// Reads the file of a [`Form::Table`], unless the file has been read already. Does nothing for
     /// other forms. `folder` is the folder of the scene file, and `length` is the length of the
-    /// profile in m. Returns an error if the file contains no table, or if the table does not reach
-    /// the end of the profile.
+    /// profile in m. Returns an error if the file contains no table, or if the table is too short
+    /// for the profile.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
@@ -109,8 +109,8 @@ impl Form {
         Err(in_file(refused(Place::File, found, allowed)))
     }
 
-    /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`]
-    /// has read the table.
+    /// Returns the table of a [`Form::Table`] after [`Form::load`] has read it. Returns `None`
+    /// before, and for other forms.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self {
             rows.0.get()
@@ -119,8 +119,8 @@ impl Form {
         }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of a body of revolution, for N = `points`
-    /// springs. Two forms are exceptions: the axis of a punch is in the middle of the length, and
+    /// Returns the index of the spring on the axis of a body of revolution: ⌊N/2⌋ for N = `points`
+    /// springs. There are two exceptions: the axis of a punch is in the middle of the length, and
     /// [`Form::TwoSpheres`] has an axis for each sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
         // If the axis were between two springs, no spring would be under the tip. The errors of the
@@ -140,9 +140,9 @@ impl Form {
     }
 
     /// Returns the range of indices of the springs under the form, for `points` springs on the
-    /// length `length` in m. A punch lies above the springs of its flat end; every other form lies
-    /// above all springs. The width of a punch is its diameter, rounded to a whole number of spring
-    /// spacings. The range is empty if the diameter is below half a spacing.
+    /// length `length` in m. Under a punch these are the springs below its flat end; under every
+    /// other form they are all springs. The width of a punch is its diameter, rounded to a whole
+    /// number of spring spacings. The range is empty if the diameter is below half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -174,8 +174,8 @@ impl Form {
         }
     }
 
-    /// Returns the radius in m of a sphere, of the first of two spheres, of a rounded apex or of a
-    /// punch as a mutable reference; `None` for other forms.
+    /// Returns a mutable reference to the radius of a form in m. It is the radius of a sphere, of
+    /// the first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
@@ -187,7 +187,7 @@ impl Form {
         }
     }
 
-    /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other
+    /// Returns the radius in m of a sphere without waves ([`Form::Paraboloid`]); `None` for other
     /// forms.
     pub fn sphere_radius(&self) -> Option<f64> {
         if let Form::Paraboloid { radius } = self {
@@ -197,9 +197,9 @@ impl Form {
         }
     }
 
-    /// Returns the curvature at the summit in 1/m. For two spheres it is the larger of the two
-    /// curvatures. Returns `None` for a cone, for a power law, and for a table that has not been
-    /// read or has no finite curvature at the tip.
+    /// Returns the curvature at the summit in 1/m. For two spheres it is the larger curvature.
+    /// Returns `None` for a cone and a power law. Also returns `None` for a table that has not been
+    /// read, or whose curvature at the tip is not finite.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
@@ -219,9 +219,9 @@ impl Form {
         }
     }
 
-    /// Returns the depth in m of the equivalent profile below its apex at one spring. `spring` is
-    /// the index of the spring, counted from the left end of the profile. N = `points` is the
-    /// number of springs, and `spacing` is their distance in m.
+    /// Returns how far the equivalent profile lies below its apex at one spring, in m. `spring` is
+    /// the index of the spring from the left end of the profile, `points` the number of springs,
+    /// and `spacing` their distance in m.
     ///
     /// ```
     /// use asperity_surface::Form;
@@ -257,8 +257,8 @@ impl Form {
         }
     }
 
-    /// Returns the largest depth in m of the equivalent profile on a length in m, without the waves
-    /// of a [`Form::WavySphere`].
+    /// Returns the largest depth in m of the equivalent profile on a length in m. The waves of a
+    /// [`Form::WavySphere`] are left out.
     pub fn depth_within(&self, length: f64) -> f64 {
         match *self {
             Form::TwoSpheres {
@@ -278,12 +278,11 @@ impl Form {
         }
     }
 
-    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from
-    /// the axis in m. For a punch the depth is 0. For two spheres it is the depth of the first
-    /// sphere alone; [`Form::depth_of_spring`] takes both spheres into account.
+    /// Returns the depth g(x) in m of the equivalent profile below its apex, at a distance x from
+    /// the axis in m. It is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`].
     ///
-    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
-    /// [`Form::depth`].
+    /// For a punch the depth is 0. For two spheres it is the depth of the first sphere alone;
+    /// [`Form::depth_of_spring`] takes both spheres into account.
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -324,10 +323,10 @@ impl Form {
         }
     }
 
-    /// Returns the depth in m of the body below its apex at the place (x, y). The coordinates x and
-    /// y in m count from the middle of a square with the side `side` in m. The first of two spheres
-    /// has its axis at x = −`side`/4, and the second at x = `side`/4. Returns `None` beside a
-    /// punch, where there is no body.
+    /// Returns the depth in m of the body below its apex at the place (x, y). x and y are distances
+    /// in m from the middle of a square with the side `side` in m. The first of two spheres has its
+    /// axis at x = −`side`/4, and the second at x = `side`/4. Returns `None` beside a punch, where
+    /// there is no body.
     pub fn depth_in_square(&self, x: f64, y: f64, side: f64) -> Option<f64> {
         let &Form::TwoSpheres {
             radius,
@@ -346,10 +345,10 @@ impl Form {
         Some(first.min(second))
     }
 
-    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m.
-    /// Returns `None` for a punch at a distance above its radius, where there is no body. For two
-    /// spheres it is the depth of the first sphere alone; [`Form::depth_in_square`] takes both
-    /// spheres into account.
+    /// Returns the depth f(r) in m of the body below its apex, at the distance r = `radius` from
+    /// the axis in m. For two spheres it is the depth of the first sphere alone;
+    /// [`Form::depth_in_square`] takes both spheres into account. Returns `None` beside a punch,
+    /// where there is no body.
     ///
     /// ```
     /// assert_eq!(
@@ -422,9 +421,9 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound in m of the depth that the waves of a [`Form::WavySphere`] add to its
-    /// equivalent profile at the distance r in m from the axis. The bound is π A √(r/λ) with the
-    /// amplitude A and the wavelength λ of the waves, and π A for r < λ. It is 0 for all other
+    /// Returns an upper bound in m of the depth that waves add to the equivalent profile of a
+    /// [`Form::WavySphere`], at the distance r in m from the axis. With the amplitude A and the
+    /// wavelength λ, the bound is π A √(r/λ), and π A for r < λ. The bound is 0 for all other
     /// forms.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {

@@ -13,17 +13,19 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound, in bytes per point, of the memory of the Fourier transform and its arrays. It holds
-/// for an odd number of points too, which is transformed at twice its length.
+/// Upper bound, in bytes for each point, of the memory for the Fourier transform and its arrays. An
+/// odd number of points is transformed at twice its length; the bound holds for it too.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the profile in the file is already an equivalent line. The rigid profile is this
-    /// profile after removal of this polynomial. If not given, the profile is a cut through a
-    /// surface, and the rigid profile is an equivalent line of this surface: a random profile with
-    /// the measured spectrum.
+    /// Use of the profile in the file as the rigid profile itself, after removal of a polynomial.
+    ///
+    /// * If a polynomial is given, the profile is already an equivalent line. The rigid profile is
+    ///   this profile without the polynomial.
+    /// * `None` means that the profile is a cut through a surface. The rigid profile is then an
+    ///   equivalent line of this surface: a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
@@ -31,24 +33,24 @@ pub struct MeasuredOptions {
     pub spectrum: AnalysisOptions,
 }
 
-/// A profile of a file that is used unchanged as an equivalent line: the heights of points at
-/// ascending positions.
+/// A profile in a file that is used as an equivalent line: the heights of points at ascending
+/// positions.
 ///
 /// The profile covers the distance from its first to its last point. If the points are equally
-/// spaced, a sampled profile may extend half a spacing beyond each end.
+/// spaced, sampled heights may lie up to half a spacing beyond each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z in m, one for each position. If the options remove a polynomial, these are the
-    /// heights after its removal.
+    /// Heights z in m, one for each position, after removal of the polynomial that the options may
+    /// state.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Parses the content of a file that holds a profile, or a map of which the options choose a
-    /// row or a column. Returns an error if a polynomial has to be removed and the points are not
-    /// equally spaced.
+    /// Parses the content of a file with a profile. The file may also have a map, of which the
+    /// options choose a row or a column. Returns an error if a polynomial has to be removed and the
+    /// points are not equally spaced.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -139,9 +141,9 @@ impl MeasuredProfile {
         })
     }
 
-    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by
-    /// linear interpolation. Here L is `length` in m and N is `points`. The same constant may be
-    /// subtracted from all heights.
+    /// Computes heights of the profile in m at N = `points` equally spaced positions on the length
+    /// L = `length` in m, by linear interpolation. The positions are x = (i + ½ − `shift`)L/N from
+    /// the beginning of the profile. A constant may be subtracted from all heights.
     ///
     /// # Errors
     /// Returns an error if the profile is shorter than `length`.
@@ -308,8 +310,8 @@ fn join_ends(heights: &mut [f64]) {
 /// other.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files with these paths into memory. `faces` has the paths of the files of each
-/// [`Face`].
+/// Reads the measured files of several faces into memory. `faces` has the paths of the files of
+/// each [`Face`].
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     faces.iter().map(|face| read_face(face)).collect()
 }

@@ -56,9 +56,9 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// Creates the modes of a profile with the rms height 1, this spectrum and this seed. The grid
-    /// has `points` points, and its first point lies `start` cells after the beginning of the
-    /// profile.
+    /// Creates the modes of a random profile with the rms height 1, for a spectrum and a seed. Mode
+    /// k is the wave with k periods on the profile. The grid has `points` points, and its first
+    /// point lies `start` cells after the beginning of the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
@@ -75,8 +75,8 @@ impl Modes {
         }
     }
 
-    /// Fills in the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the
-    /// phases φ at the first point of the grid.
+    /// Computes the Fourier coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …. φ
+    /// is the phase of the mode at the first point of the grid, and A_k its amplitude.
     pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
         let mut generator = phase_words(self.seed, first);
         let mut words = [0; BLOCK];
@@ -212,8 +212,8 @@ const COUNTS: [f64; BLOCK] = {
 /// with the same seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed,
-/// uniform in [0, 2π). Mode k is the wave with k periods over the profile.
+/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, …. They are uniform
+/// in [0, 2π). Mode k is the wave with k periods on the profile.
 ///
 /// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every
 /// platform.
@@ -222,8 +222,8 @@ pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns a random generator whose next 64-bit words belong to the modes `first`, `first` + 1, …,
-/// for this seed.
+/// Returns a random generator for a seed. Its next 64-bit words belong to the modes `first`,
+/// `first` + 1, ….
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());

@@ -28,11 +28,12 @@ pub struct Line {
 }
 
 impl Line {
-    /// Creates the profile of a form on N = `points` springs, and adds roughness. If `form` is
-    /// `None`, the body is flat; if `roughness` is `None`, it is smooth. `roughness` has one height
-    /// for each spring, in units of the length `scale` in m. The roughness has to be displaced by
-    /// [`Form::shift`] already. The profile of a punch has only the springs of
-    /// [`Form::springs_under`].
+    /// Creates the rigid profile of a form on N = `points` springs, with roughness. If `form` is
+    /// `None`, the body is flat; if `roughness` is `None`, it is smooth.
+    ///
+    /// `roughness` has one height for each spring, in units of `scale` (m). The heights must
+    /// already be displaced by [`Form::shift`], so that they fit to the axis of the form. The
+    /// profile of a punch has only the springs under its flat end ([`Form::springs_under`]).
     ///
     /// # Errors
     /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies
@@ -61,8 +62,8 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the same profile as [`Line::new`], and stores its gaps in the memory of the
-    /// roughness `gaps`.
+    /// Creates the same profile as [`Line::new`] without further memory. `gaps` has the heights of
+    /// the roughness and afterwards, in the same memory, the gaps of the profile.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -203,8 +204,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends
-    /// included. Heights outside this range are left out.
+    /// Counts `heights` (m) in `bins` equal bins between `low` and `high` (m). Both ends are
+    /// included. Heights outside this range, or not finite, are left out.
     ///
     /// ```
     /// let histogram =

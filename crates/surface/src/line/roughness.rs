@@ -17,8 +17,8 @@ const MANY_MODES: usize = 1 << 16;
 /// that the plan saves.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Computes random self-affine profiles one after another. It keeps the plan of the Fourier
-/// transform, and the memory of the transform, for the next profile.
+/// Computes random self-affine profiles one after another. The plan and the memory of the Fourier
+/// transform are used again for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -46,9 +46,9 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Computes the profile of [`SelfAffine::heights`], displaced along the springs by `shift`
-    /// spring spacings: spring i has the height of this profile at x = (i + ½ − `shift`)L/N. The
-    /// heights are stored in the vector `memory`.
+    /// Computes the random profile of [`SelfAffine::heights`], displaced along the springs by
+    /// `shift` spring spacings. The displaced profile has at spring i the height of that profile at
+    /// x = (i + ½ − `shift`)L/N. The heights are stored in the memory of `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -75,9 +75,9 @@ impl Synthesizer {
         })
     }
 
-    /// Computes the sum of cosine waves with k periods over the length, for all k in `modes`. Their
-    /// amplitudes are `amplitude`(k) in m, and the seed determines their phases. The last mode must
-    /// be at most `points`/2. The heights are at the same positions as those of
+    /// Computes the sum of cosine waves with k periods over the length L, for all k in `modes`. The
+    /// amplitude of a wave is `amplitude`(k) in m, and `seed` determines its phase. The last mode
+    /// must be at most `points`/2. The heights are at x = (i + ½ − `shift`)L/N, as for
     /// [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
@@ -147,12 +147,12 @@ impl Synthesizer {
 }
 
 impl SelfAffine {
-    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov
-    /// (2012). The heights, in units of the rms height, are at x = (i + ½)L/N on N = `points`
-    /// springs. `points` has to be at least twice the last mode.
+    /// Computes the heights of a random profile with this spectrum, by eqs. (8) and (9) of Popov
+    /// and Filippov (2012). The heights are in units of the rms height, at x = (i + ½)L/N on N =
+    /// `points` springs. `points` has to be at least twice the last mode.
     ///
-    /// The unit is the rms height of the continuous profile, which is a sum of cosine waves. The
-    /// rms of the N heights differs from it only if the last mode is exactly N/2.
+    /// The rms height is that of the continuous profile, which is a sum of cosine waves. The rms of
+    /// the N heights differs from it only if the last mode is exactly N/2.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine {

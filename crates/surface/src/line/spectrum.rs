@@ -4,25 +4,26 @@
 use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
-/// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over
-/// the length L and the wave numbers q_k = 2πk/L. Their amplitudes are A_k ∝ √k below the roll-off
-/// mode, eq. (8) of Popov and Filippov (2012), and A_k ∝ k^(−H−1/2) above it.
+/// Self-affine spectrum of a profile: a sum of modes, which are waves with a whole number of
+/// periods over the length L. Mode k, from `first` to `last`, has k periods and the wave number q_k
+/// = 2πk/L. Its amplitude is A_k ∝ √k below the roll-off mode, eq. (8) of Popov and Filippov
+/// (2012), and A_k ∝ k^(−H−1/2) above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
     pub hurst: f64,
-    /// First mode, the longest wave; at least 1.
+    /// First mode: number of periods of the longest wave over the length; at least 1.
     pub first: u64,
-    /// Last mode, the shortest wave; at least `first`.
+    /// Last mode: number of periods of the shortest wave over the length; at least `first`.
     pub last: u64,
-    /// Mode at the roll-off: the length L divided by the roll-off wavelength. It need not be a
-    /// whole number. With any value up to `first`, such as 0, the spectrum has no roll-off.
+    /// Number of periods of the roll-off wavelength over the length L. It need not be a whole
+    /// number. For any value up to `first`, such as 0, the spectrum has no roll-off.
     pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
-    /// Returns A_k/A₁, where A_k is the amplitude of mode k and A₁ the amplitude that mode 1 would
-    /// have without a roll-off.
+    /// Returns the amplitude A_k of mode k as a multiple of A₁. A₁ is the amplitude that mode 1
+    /// would have without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -40,10 +41,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the mean square height that one wave with `waves` periods over the length adds to a
-    /// surface with this spectrum. The unit is A₁², the square of the amplitude that mode 1 would
-    /// have without a roll-off. `waves` need not be a whole number. Returns 0 if `waves` is more
-    /// than ½ below `first` or more than ½ above `last`.
+    /// Returns the mean square height that one wave adds to a surface with this spectrum. The unit
+    /// is A₁², where A₁ is the amplitude that mode 1 would have without a roll-off. `waves` is the
+    /// number of periods over the length and need not be a whole number. Returns 0 if `waves` is
+    /// more than ½ below `first` or more than ½ above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -59,15 +60,15 @@ impl SelfAffine {
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
-    /// Returns the rms height of the profile in units of A₁, which is √(Σ A_k²/2)/A₁.
-    /// [`Self::relative_amplitude`] defines A_k and A₁.
+    /// Returns the rms height of the profile as a multiple of A₁: √(Σ A_k²/2)/A₁. A_k is the
+    /// amplitude of mode k, and A₁ the amplitude that mode 1 would have without a roll-off.
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m.
-    /// It is √(Σ A_k² q_k² / Σ A_k²), summed over the modes k of the profile. A_k is the amplitude
-    /// of mode k, and q_k its wave number.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m of the rms gradient to the rms height, for a profile of the
+    /// length L = `length` in m. The ratio is √(Σ A_k² q_k² / Σ A_k²), where A_k is the amplitude
+    /// of mode k and q_k its wave number.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
@@ -81,8 +82,8 @@ impl SelfAffine {
         TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile that has this spectrum, the rms height 1 m and
-    /// the length L in m.
+    /// Returns the rms height, gradient and curvature of a profile that has this spectrum, the rms
+    /// height 1 m and the length L = `length` in m.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine {
@@ -105,9 +106,10 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the
-    /// first to the last mode. Without a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over
-    /// these wave numbers, eqs. (5)–(7) and (12) of Popov and Filippov (2012).
+    /// Returns the ratio ⟨∇z⟩/h in 1/m of a continuous spectrum: as if the profile had waves at all
+    /// wave numbers from the first to the last mode. Without a roll-off, the square of the ratio is
+    /// ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, eqs. (5)–(7) and (12) of Popov and
+    /// Filippov (2012).
     ///
     /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
@@ -156,19 +158,20 @@ impl SelfAffine {
     }
 }
 
-/// The modes of a profile, from the first to the last one.
+/// The modes of a profile, from the first to the last one. Mode k is the wave with k periods over
+/// the length of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModeRange {
-    /// First mode, the longest wave.
+    /// First mode: number of periods of the longest wave.
     pub first: u64,
-    /// Last mode, the shortest wave.
+    /// Last mode: number of periods of the shortest wave.
     pub last: u64,
 }
 
 /// Mean square height that one mode contributes to a profile.
 pub(crate) struct ModeSquare {
     pub mode: u64,
-    /// A_k²/2 in m² of mode k.
+    /// Mean square height in m² of mode k: A_k²/2, where A_k is the amplitude of the mode.
     pub square: f64,
 }
 
@@ -187,8 +190,8 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
-    /// Returns the roughness amplitude of the profile after all its heights are multiplied by a
-    /// factor.
+    /// Returns the roughness amplitude that the profile has after all its heights are multiplied by
+    /// a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -198,8 +201,8 @@ impl Amplitude {
         }
     }
 
-    /// Returns the roughness amplitude of the profile after it is stretched along x by the factor
-    /// `times`, with the same heights.
+    /// Returns the roughness amplitude that the profile has after a stretch along x by the factor
+    /// `times`. The heights do not change.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -233,9 +236,9 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in
-    /// J/m² (Persson and Tosatti, 2001). Here A_k are the amplitudes and q_k the wave numbers of
-    /// the waves of the profile, and E* is the effective modulus in Pa.
+    /// Returns the elastic energy per area in J/m² that flattens the roughness. It is e_el = (E*/8)
+    /// Σ q_k A_k² (Persson and Tosatti, 2001), where E* is the effective modulus in Pa, and A_k and
+    /// q_k are the amplitudes and the wave numbers of the waves of the profile.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;

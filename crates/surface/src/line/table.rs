@@ -61,7 +61,8 @@ const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0
 /// [`NARROW`]. A few nodes suffice, because f′ is a polynomial of sines and cosines of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
-/// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
+/// A body of revolution whose depth f below the apex is given at several radii r. The radii ascend
+/// from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
@@ -100,7 +101,8 @@ impl Cubic {
     }
 }
 
-/// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read.
+/// Rows of the table of a [`Form::Table`](crate::Form::Table). There are no rows until the file is
+/// read.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -116,8 +118,8 @@ impl PartialEq for Rows {
 }
 
 impl FormTable {
-    /// Reads a table with two columns, radius and depth. The unit is the one that the file states,
-    /// or else `unit`, or else m.
+    /// Reads a table with two columns, radius and depth. Their unit is the unit that the file
+    /// states. If the file states none, it is `unit`, or m if `unit` is `None`.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,
@@ -138,8 +140,8 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// Creates a body of revolution from depths in m at two or more radii in m. The radii ascend
-    /// from 0.
+    /// Creates a body of revolution from its depths in m below the apex at two or more radii in m.
+    /// The radii ascend from 0.
     ///
     /// # Errors
     /// Returns an error that names the row at fault and the allowed values.
@@ -253,8 +255,8 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns `count` depths g of the equivalent profile in m, at the distances 0, `spacing`, 2
-    /// `spacing`, … from the axis, in m.
+    /// Returns `count` depths in m of the equivalent profile below its apex. They are at the
+    /// distances 0, `spacing`, 2 `spacing`, … (m) from the axis.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.cubics.len() {
@@ -276,9 +278,9 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent
-    /// profile decreases. The search ends at the distance `radius` in m. Returns `None` if the
-    /// depth does not decrease up to this distance.
+    /// Finds the smallest distance from the axis in m at which the equivalent profile begins to
+    /// fall, which means that its depth decreases outwards. The search ends at the distance
+    /// `radius` in m. Returns `None` if the depth does not decrease up to this distance.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;

@@ -25,22 +25,24 @@ use std::f64::consts::TAU;
 pub struct Analysis {
     /// Statistics of the heights of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height in m of each surface, after removal of the polynomial of
-    /// [`AnalysisOptions::detrend`].
+    /// Rms height in m of each surface after the polynomial chosen by [`AnalysisOptions::detrend`]
+    /// was removed.
     pub rms_heights: Vec<f64>,
-    /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
+    /// Measured power spectra, averaged in bins of the wave number. There is one spectrum for each
+    /// direction of the waves.
     pub spectra: Vec<(Along, Vec<Bin>)>,
     /// Isotropic spectrum fitted to the measured power spectra of all surfaces together.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge
     /// or finds no Hurst exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
-    /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms
-    /// height.
+    /// Rms height, gradient and other moments of the [equivalent line](crate::EquivalentLine) of
+    /// the surfaces.
     pub line: LineMoments,
-    /// Shortest wavelength in m that a tip of the radius R resolves reliably: no curvature measured
-    /// over this length is below −1/(2R). If no length fulfils this condition, the value is half
-    /// the length of a row. `None` if no tip radius is given, or if the tip resolves all waves.
+    /// Shortest wavelength in m that a tip of the radius R resolves reliably. It is the smallest
+    /// length over which no measured curvature is below −1/(2R). If there is no such length, the
+    /// value is half the length of a row. `None` if no tip radius is given, or if the tip resolves
+    /// all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -48,40 +50,41 @@ pub struct Analysis {
     pub maps: u64,
     /// Length in m of the longest row of all surfaces.
     pub length: f64,
-    /// Assumption of this analysis on waves shorter than the shortest resolved wave, see
-    /// [`AnalysisOptions::end`].
+    /// Whether this analysis assumes that the surfaces have shorter waves than the points resolve
+    /// ([`AnalysisOptions::end`]).
     pub end: End,
-    /// True if the shortest waves that the points resolve have no significant power. The fitted
-    /// spectrum then ends at a longer wave.
+    /// True if the fitted spectrum ends at a longer wave than the shortest resolved one, because
+    /// shorter waves have no significant power.
     pub ends_inside: bool,
-    /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns
-    /// of such a map are offset against each other, or were levelled one by one.
+    /// True if the analysis leaves out the waves parallel to one axis of a map. They are left out
+    /// if the rows or columns are offset against each other, or were levelled one by one.
     pub offsets: bool,
-    /// Largest difference, over all maps, between the squared gradient of the waves parallel to an
-    /// axis of a map and the value expected from waves in neighbouring directions, divided by the
-    /// squared gradient of the map. It is 0 if the difference may be chance.
+    /// Largest difference, over all maps, of the waves parallel to an axis from the waves in
+    /// neighbouring directions. The difference is that of their squared gradients, divided by the
+    /// squared gradient of the map. It is 0 if it may be chance.
     pub apart: f64,
-    /// Distance in m by which the odd rows of a map are displaced along the rows against the even
-    /// rows, as in a file that alternates between trace and retrace. `None` if no map has such a
-    /// displacement.
+    /// Distance in m by which the odd rows of a map are displaced along the even rows. Such a
+    /// displacement occurs in a file that alternates between trace and retrace. `None` if no map
+    /// has a displacement.
     pub displaced: Option<f64>,
-    /// True if the curvature of each surface was removed, see [`AnalysisOptions::detrend`].
+    /// True if the curvature of each surface was removed before the analysis, as
+    /// [`AnalysisOptions::detrend`] can request.
     pub is_levelled: bool,
-    /// Ratio of the largest to the smallest rms gradient among the four quarters of a surface, or
-    /// among the two halves of a profile. For several surfaces it is the largest of their ratios.
-    /// It is 1 if the parts differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms gradient among parts of a surface: the four
+    /// quarters of a map, or the two halves of a profile. For several surfaces it is the largest of
+    /// their ratios. It is 1 if the parts differ by no more than chance explains.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height among several surfaces, or the same ratio of
-    /// the rms gradients, whichever is larger. Surfaces with different numbers or distances of
-    /// points are compared through the fitted spectrum: by the ratio of the measured to the fitted
-    /// value over the waves that the surface has. The result is 1 for a single surface, and if the
-    /// surfaces differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms height among several surfaces, or of the rms
+    /// gradients if that ratio is larger. Surfaces with different numbers or distances of points
+    /// have different waves. Their measured values are therefore first divided by the values that
+    /// the fitted spectrum has over the waves of the surface. The ratio is 1 for a single surface,
+    /// and if the surfaces differ by no more than chance explains.
     pub ratio_of_surfaces: f64,
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height of the equivalent line that comes from waves
-    /// longer than a quarter of [`Analysis::length`].
+    /// Returns the share of long waves in the mean square height of the equivalent line. Long waves
+    /// are longer than a quarter of the longest row ([`Analysis::length`]).
     pub fn long_wave_share(&self) -> f64 {
         let [all_waves, _, _] = self.isotropic.integrals();
         let quarter = 4.0 * TAU / self.length;
@@ -90,12 +93,12 @@ impl Analysis {
     }
 }
 
-/// Analyses surfaces as samples of the same isotropic roughness.
+/// Analyses several surfaces of the same isotropic roughness together.
 ///
 /// # Errors
 /// Returns an error for a surface with uneven points, with too few points or without roughness.
-/// Also returns an error if [`AnalysisOptions::end`] is [`End::Continues`] with a wave number that
-/// the points resolve already.
+/// Also returns an error if [`AnalysisOptions::end`] lets the spectrum continue to a wave number
+/// that the points resolve already.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

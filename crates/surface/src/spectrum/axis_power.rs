@@ -40,9 +40,11 @@ const LARGEST_OFFSETS: f64 = 0.25;
 /// Place of a wave in the plane of wave numbers, with respect to one axis.
 #[derive(Clone, Copy)]
 pub(super) struct AxisPlace {
-    /// Number of the wave across the axis, which is its distance from the axis.
+    /// Number of periods of the wave across the axis, which is its distance from the axis in the
+    /// plane of wave numbers.
     pub across: f64,
-    /// Number of the wave along the axis, divided by the number of points.
+    /// Number of periods of the wave along the axis, divided by the number of points along the
+    /// axis.
     pub along: f64,
 }
 
@@ -123,16 +125,16 @@ pub(super) struct WavesByAxis {
 /// The waves of a map without those that offsets of rows or columns have changed.
 pub(super) struct TrueWaves {
     pub waves: Vec<Wave>,
-    /// True if waves parallel to an axis are left out.
+    /// True if waves parallel to an axis are left out, because rows or columns are offset.
     pub offsets: bool,
-    /// Largest departure of the remaining waves parallel to an axis from neighbouring waves, as a
-    /// share of the squared gradient.
+    /// Largest difference between the remaining waves parallel to an axis and their neighbouring
+    /// waves, as a share of the squared gradient of the map.
     pub apart: f64,
 }
 
 impl WavesByAxis {
-    /// Creates an empty collection. The vector `memory` is used for the waves that are not parallel
-    /// to an axis.
+    /// Creates an empty collection of waves. The waves that are not parallel to an axis are stored
+    /// in the vector `memory`.
     pub fn new(reach: f64, memory: Vec<Wave>) -> Self {
         WavesByAxis {
             reach,
@@ -155,8 +157,9 @@ impl WavesByAxis {
         self.others.push(wave);
     }
 
-    /// Leaves out the short waves parallel to an axis, if they differ from their neighbours and the
-    /// difference is small enough to be caused by offsets of rows or columns.
+    /// Returns the waves without the short waves parallel to an axis, if offsets of rows or columns
+    /// have changed these waves. This is assumed if they differ from their neighbours, but not too
+    /// much.
     pub fn without_offsets(self) -> TrueWaves {
         let gradient = self.squared_gradient();
         let mut waves = self.others;

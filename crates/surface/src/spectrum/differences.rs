@@ -22,19 +22,19 @@ pub(super) struct Differences {
 /// Errors and ratios that are computed from the differences between parts and between surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unevenness {
-    /// Relative errors, due to these differences, of the integrals that
-    /// [`IsotropicSpectrum::integrals`](super::isotropic::IsotropicSpectrum) returns.
+    /// Relative errors, due to these differences, of the integrals ∫ q^p C2D dq over the spectrum,
+    /// for p = 1, 2, 3.
     pub errors: [f64; 3],
-    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. It is the
-    /// largest such ratio of all surfaces, and 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. For several
+    /// surfaces it is the largest of their ratios. It is 1 if chance explains the differences.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height among surfaces with equal points, or the
-    /// same ratio of the rms gradients if it is larger. It is 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms height among surfaces with equal points, or of the
+    /// rms gradients if that ratio is larger. It is 1 if chance explains the differences.
     pub ratio_of_surfaces: f64,
 }
 
 impl Differences {
-    /// Adds the spread of the parts of a surface.
+    /// Adds a surface. `spread` are the differences between its parts.
     pub fn add(&mut self, surface: &LevelledSurface, spread: Spread) {
         let points = [surface.columns, surface.rows];
         let spacing = surface.distances[0];
@@ -51,8 +51,8 @@ impl Differences {
         }
     }
 
-    /// Returns the errors and ratios that are computed from all differences. Each error is the
-    /// largest error among the groups of surfaces with equal points.
+    /// Returns the errors and the ratios that follow from all differences. Each error is the
+    /// largest one among groups of surfaces with equal numbers and distances of points.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],

@@ -29,22 +29,23 @@ const CONTINUED: f64 = 4.0;
 pub(super) struct SpectrumFits {
     range: WaveRange,
     end: End,
-    /// True if the spectrum ends at a longer wave than the last resolved wave.
+    /// True if the spectrum ends at a longer wave than the points resolve, because shorter waves
+    /// have no significant power.
     pub ends_inside: bool,
 }
 
 /// Largest changes of the results if the same surfaces are read with other interpolated heights.
 #[derive(Default)]
 pub(super) struct ReadingChanges {
-    /// Relative changes of the integrals of [`IsotropicSpectrum::integrals`].
+    /// Relative changes of the integrals ∫ q^p C2D dq over the spectrum, for p = 1, 2, 3.
     pub integrals: [f64; 3],
     /// Change of the Hurst exponent.
     pub hurst: f64,
 }
 
 impl SpectrumFits {
-    /// Finds the range of the waves with significant power. Returns an error if `end` is a wave
-    /// number up to which the spectrum continues, but the points already resolve this wave number.
+    /// Finds the range of the waves with significant power. `end` may let the spectrum continue to
+    /// a wave number. Returns an error if the points already resolve this wave number.
     pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
         let range = powers.range(|waves| last_significant(waves, has_gaps));
         let resolved = powers.range(|waves| waves.len());
@@ -63,12 +64,13 @@ impl SpectrumFits {
         })
     }
 
-    /// Returns the wave number of the last significant wave in rad/m.
+    /// Returns the wave number in rad/m of the last wave with significant power.
     pub fn last_wave_number(&self) -> f64 {
         self.range.last
     }
 
-    /// Fits the isotropic spectrum, which is given by its values at nodes.
+    /// Fits an isotropic spectrum C2D to the observed powers. The fitted spectrum is given by its
+    /// values at several wave numbers, the nodes.
     pub fn isotropic(
         &self,
         observations: &[Observation],
@@ -77,7 +79,8 @@ impl SpectrumFits {
         fit_isotropic(&model).ok_or_else(no_maximum)
     }
 
-    /// Fits the self-affine spectrum.
+    /// Fits a self-affine spectrum to the observed powers. Returns `None` if the fit does not
+    /// succeed.
     pub fn self_affine(&self, observations: &[Observation]) -> Option<SelfAffineFit> {
         // How the spectrum ends affects the powers of the last waves, so these waves are left out.
         let limit = if self.ends_inside {
@@ -91,7 +94,8 @@ impl SpectrumFits {
     }
 
     /// Repeats the fits with other heights at the points that were interpolated or resampled.
-    /// Returns the largest changes of the results.
+    /// Returns the largest changes of the results, which show how uncertain the interpolation makes
+    /// them.
     pub fn changes_between_readings(
         &self,
         surfaces: &[Topography],
@@ -117,8 +121,8 @@ impl SpectrumFits {
         Ok(largest)
     }
 
-    /// Returns the largest relative changes of the integrals of [`IsotropicSpectrum::integrals`] if
-    /// the surface has waves beyond the last resolved wave.
+    /// Returns the largest relative changes of the integrals ∫ q^p C2D dq, p = 1, 2, 3, if the
+    /// surface has shorter waves than the points resolve.
     pub fn missing_waves(
         &self,
         observations: &[Observation],

@@ -13,10 +13,10 @@ pub(super) struct Departures {
     pub squared_gradient: f64,
 }
 
-/// Compares the moments of the equivalent line with the measured points: its rms height with
-/// `height` in m, if this height is known, and its rms gradient with the slopes between points. The
-/// comparison finds, for example, a spike that the window function hides from the spectrum.
-/// Differences within three standard errors count as zero.
+/// Compares the moments of the equivalent line with the measured points. The rms gradient of the
+/// line is compared with the slopes between points, and its rms height with `height` in m, if this
+/// is known. The comparison finds, for example, a spike that the window function hides from the
+/// spectrum. Differences within three standard errors count as zero.
 pub(super) fn departures(
     isotropic: &IsotropicSpectrum,
     height: Option<f64>,

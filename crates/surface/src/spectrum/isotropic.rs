@@ -18,8 +18,9 @@ const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 /// Number of pieces per unit of u into which the quadrature of [`cut`] divides its range.
 const CUT_PIECES: f64 = 8.0;
 
-/// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The
-/// spectrum ends at the wave number `end` in rad/m.
+/// Computes the power spectral density of a cut in m³: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The
+/// integral is computed with the substitution t = k sinh u. The spectrum C2D ends at the wave
+/// number `end` in rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -32,11 +33,12 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     points.map(term).sum::<f64>() * wave_number / PI
 }
 
-/// Values of an [`IsotropicSpectrum`] at one of the wave numbers by which the spectrum is given.
+/// An [`IsotropicSpectrum`] at a node, which is one of the wave numbers at which the spectrum is
+/// given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
-    /// Wave number q of the node in rad/m.
+    /// Wave number q in rad/m.
     pub wave_number: f64,
     /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
@@ -57,8 +59,8 @@ pub struct IsotropicSpectrum {
     pub(super) information: Cholesky,
     /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
     pub(super) method: [f64; 3],
-    /// Relative changes of these integrals if the surface has shorter waves than the points
-    /// resolve.
+    /// Relative changes of the integrals ∫ q^power C2D dq, for power = 1, 2, 3, if the surface has
+    /// shorter waves than the points resolve.
     pub(super) missing: [f64; 3],
     /// Ratio of the largest to the smallest rms height or rms gradient among several kinds of
     /// surfaces, such as profiles and maps, to which the spectrum is fitted together; 1 if chance
@@ -73,8 +75,9 @@ pub(super) struct Integral {
 }
 
 impl IsotropicSpectrum {
-    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is
-    /// constant below the first node and zero beyond the last wave number of the spectrum.
+    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. The
+    /// density is constant below the first wave number at which the spectrum is given (its first
+    /// node). It is zero above the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -83,20 +86,20 @@ impl IsotropicSpectrum {
         }
     }
 
-    /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q
-    /// in rad/m.
+    /// Returns the power spectral density of the equivalent line in m³ at a wave number q in rad/m.
+    /// It is q C2D(q)/2.
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
-    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
-    /// number in rad/m.
+    /// Returns the power spectral density in m³ of a cut at a wave number in rad/m. A cut is a
+    /// profile measured across the surface.
     pub fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the wave number in rad/m of the last node, which is the shortest wave that the
-    /// measured points resolve.
+    /// Returns the largest wave number in rad/m at which the spectrum is given, its last node. It
+    /// is that of the shortest wave that the measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
@@ -113,7 +116,8 @@ impl IsotropicSpectrum {
         shorter
     }
 
-    /// Returns the spectrum and its error at each node, in the order of the wave numbers.
+    /// Returns the spectrum and its error at each wave number at which the spectrum is given, in
+    /// ascending order.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);
@@ -126,9 +130,9 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Changes ln C2D at the nodes by a random step times `share`. The step is drawn from the
-    /// normal distribution of the errors of the fit. `number` selects the step: equal numbers give
-    /// equal steps.
+    /// Returns the spectrum with a random error of the fit: ln C2D at the nodes is changed by
+    /// `share` times a step from the normal distribution of the errors. `number` selects the step:
+    /// equal numbers give equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
@@ -171,8 +175,8 @@ impl IsotropicSpectrum {
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences between the integrals of `other` and those of this
-    /// spectrum, see [`Self::integrals`].
+    /// Returns the relative differences of three integrals ([`Self::integrals`]) between `other`
+    /// and this spectrum.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();

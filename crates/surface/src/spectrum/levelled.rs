@@ -26,7 +26,7 @@ pub(super) struct LevelledSurface {
     pub measured: Vec<bool>,
     /// Distances of the points along and between the rows in m.
     pub distances: [f64; 2],
-    /// True if the analysis uses a window function, because the surface is not periodic.
+    /// True if the surface is not periodic, so that the analysis uses a window function.
     pub windowed: bool,
     /// True if the median height of each row was subtracted from the row.
     pub aligned: bool,
@@ -35,9 +35,9 @@ pub(super) struct LevelledSurface {
 }
 
 impl LevelledSurface {
-    /// Copies the heights of a surface and removes the polynomial. `index` is the number of the
-    /// surface, for errors. If `quarters` is above zero, the heights are changed by about as much
-    /// as interpolation may have changed them, see [`Topography::copied_heights`].
+    /// Copies the heights of a surface and removes a polynomial. `index` is the index of the
+    /// surface, for errors. If `quarters` is above zero, the copied heights are changed by about as
+    /// much as interpolation may have changed them ([`Topography::copied_heights`]).
     pub fn new(
         index: usize,
         surface: &Topography,
@@ -72,8 +72,8 @@ impl LevelledSurface {
         is_measured.then(|| self.heights[index])
     }
 
-    /// Returns an error unless the remaining heights exceed the rounding errors of the original
-    /// heights.
+    /// Returns an error if the remaining heights are not larger than the rounding errors of the
+    /// original heights.
     pub fn check_rough(&self, original: &Topography) -> Result<(), SurfaceError> {
         let left = largest_height(&self.heights);
         if left > ROUNDING * largest_height(&original.heights) && left > LEAST_HEIGHT {

@@ -10,17 +10,18 @@ const NODES_PER_DECADE: f64 = 6.0;
 /// Spacing in ln q of the grid of wave numbers to which [`Model::condensed`] moves terms.
 const GRID: f64 = 0.02;
 
-/// Observed powers, with the terms from which their expected means are computed for a given
+/// Model of the observed powers: their expected means are sums of terms, which depend on the
 /// spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
-    /// For each observation, the terms whose sum is its expected mean.
+    /// Terms of the expected mean of each observation. The mean is the sum of the terms.
     pub terms: Vec<Vec<Term>>,
     pub nodes: Nodes,
 }
 
 impl<'a> Model<'a> {
-    /// Creates a model with nodes over the range of wave numbers of the observations.
+    /// Creates a model for observations in a range of wave numbers. The model gives a spectrum by
+    /// its values at wave numbers in this range, the nodes.
     pub fn new(observations: &'a [Observation], range: WaveRange, end: End) -> Self {
         let nodes = Nodes::new(range, NODES_PER_DECADE, end);
         let terms = observations
@@ -35,7 +36,7 @@ impl<'a> Model<'a> {
     }
 
     /// Returns the same model with fewer terms. The weight of each term is divided between the two
-    /// nearest wave numbers of a fine grid. For a power law q^(−4), the expected mean then changes
+    /// nearest wave numbers of a fine grid. For a power law q^(−4), this changes the expected mean
     /// by less than 0.1 %.
     pub fn condensed(&self) -> Model<'a> {
         let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
@@ -74,8 +75,8 @@ impl<'a> Model<'a> {
         condensed
     }
 
-    /// Computes the negative logarithm of the likelihood, which is the sum of w (P/m + ln m) over
-    /// the observations. P is the observed mean power of w waves, and m is its expected mean.
+    /// Computes the negative logarithm of the likelihood: the sum of w (P/m + ln m) over the
+    /// observations. P is the observed mean power of w waves, and m is its expected mean.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()
@@ -84,7 +85,8 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected mean of each observed power if ln C2D has these values at the nodes.
+    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes, the wave
+    /// numbers at which the spectrum is given.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

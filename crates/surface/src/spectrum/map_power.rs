@@ -14,25 +14,26 @@ const BYTES: u64 = 48;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {
     pub windowed: bool,
-    /// Wave number of wave 1 along and between the rows in rad/m.
+    /// Wave numbers in rad/m of the waves with one period over the map, along and between the rows.
     pub steps: [f64; 2],
-    /// 2π over the distance between points, along and between the rows, in rad/m.
+    /// Wave numbers 2π/Δ in rad/m, where Δ is the distance between points, along and between the
+    /// rows.
     pub sampling: [f64; 2],
-    /// The waves with their C2D, up to the smaller of the two Nyquist wave numbers, sorted by wave
-    /// number. They cover one half of the plane of wave numbers; the other half has the same
-    /// powers.
+    /// The waves with their powers C2D, sorted by wave number, up to the smaller of the two Nyquist
+    /// wave numbers. They cover only one half of the plane of wave numbers, because the other half
+    /// has the same powers.
     pub waves: Vec<Wave>,
     /// True if the waves parallel to one axis are left out, because rows or columns are offset
     /// against each other or because each row was levelled.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and the value expected
-    /// from neighbouring waves, as a share of the squared gradient.
+    /// Largest difference between the remaining waves parallel to an axis and the waves in
+    /// neighbouring directions, as a share of the squared gradient of the map.
     pub apart: f64,
 }
 
 impl MapPower {
-    /// Computes the power spectrum of a map. If each row was levelled, waves that run across the
-    /// rows are left out, because levelling changes these waves.
+    /// Computes the power spectrum of a map. If each row was levelled, the waves across the rows
+    /// are left out, because levelling changes these waves.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);

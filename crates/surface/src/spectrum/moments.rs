@@ -22,14 +22,19 @@ pub struct Moment {
     pub value: f64,
     /// Standard error of the value, from `statistical` and `method` together.
     pub error: f64,
-    /// Standard error that results from the finite number of measured waves.
+    /// Largest change of the value if the surface has shorter waves than the points resolve. These
+    /// waves are assumed to follow a power law down to a quarter of the shortest resolved
+    /// wavelength. The change is zero if the value already includes such waves
+    /// ([`End::Continues`](super::nodes::End::Continues)). It is also zero if the spectrum ends
+    /// within the resolved waves, so that no shorter waves are expected.
     pub statistical: f64,
     /// Standard error that results from the method of estimation.
     pub method: f64,
     /// Largest change of the value if the surface has shorter waves than the points resolve. These
     /// waves are assumed to follow a power law down to a quarter of the shortest resolved
-    /// wavelength. The change is zero with [`End::Continues`](super::nodes::End::Continues), and if
-    /// the spectrum ends before the last resolved wave.
+    /// wavelength. The change is zero if the value already includes such waves
+    /// ([`End::Continues`](super::nodes::End::Continues)). It is also zero if the spectrum ends
+    /// within the resolved waves, so that no shorter waves are expected.
     pub missing_short_waves: f64,
 }
 
@@ -47,7 +52,7 @@ impl Moment {
         }
     }
 
-    /// Returns the moment multiplied by a factor, with its errors.
+    /// Returns the moment and its errors, multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         let relative = RelativeErrors {
             statistical: self.statistical / self.value,
@@ -57,7 +62,7 @@ impl Moment {
         Moment::new(factor * self.value, relative)
     }
 
-    /// Returns the square root of the moment, with its errors.
+    /// Returns the square root of the moment, with the errors of the root.
     pub fn root(self) -> Self {
         let missing_short_waves = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
         let relative = RelativeErrors {
@@ -87,15 +92,17 @@ pub struct LineMoments {
     pub rms_gradient: Moment,
     /// Product of the rms height h and the rms gradient ⟨∇z⟩ in m.
     pub height_gradient: Moment,
-    /// Elastic energy per area that flattens the roughness, divided by the effective modulus:
-    /// e_el/E* in m.
+    /// Ratio e_el/E* in m. e_el is the elastic energy per area that flattens the roughness, and E*
+    /// the effective modulus.
     pub energy_per_modulus: Moment,
 }
 
 /// Computes the moments of the equivalent line of several faces, the surfaces that touch each
 /// other. The spectrum of the line is the sum of the spectra of the faces, whose errors are
-/// independent. The waves of the line begin at half of the first wave number that is known for all
-/// faces, because wave 1 on a length represents all waves from ½ to 1½ periods.
+/// independent.
+///
+/// The waves of the line begin at half of the first wave number that is known for all faces,
+/// because the wave with one period over a length represents all waves from ½ to 1½ periods.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let integrals = LineIntegrals::new(faces);
     let [squared_height, energy, squared_gradient] = integrals.totals.map(|total| 0.5 / PI * total);

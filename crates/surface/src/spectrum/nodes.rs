@@ -3,15 +3,14 @@
 
 use super::quadrature::{GaussPoint, gauss};
 
-/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured
-/// points resolve.
+/// Whether a spectrum continues beyond the shortest wave that the measured points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// The surface has no waves shorter than the last resolved one.
+    /// The surface has no waves shorter than the shortest wave that the points resolve.
     #[default]
     Ends,
-    /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the
-    /// last two nodes.
+    /// The surface has shorter waves, up to this wave number in rad/m. Their spectrum is a power
+    /// law, which continues the last part of the measured spectrum.
     Continues(f64),
 }
 
@@ -30,17 +29,18 @@ pub(super) struct Nodes {
     /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum in rad/m. It is larger than that of the last node if the
-    /// spectrum is continued beyond the resolved waves.
+    /// Largest wave number of the spectrum in rad/m. If the spectrum continues beyond the resolved
+    /// waves, it is larger than the wave number of the last node.
     pub end: f64,
 }
 
 /// Place of a wave number between two neighbouring nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
-    /// Index of the node at or below the wave number.
+    /// Index of the node (a wave number at which the spectrum is given) at or below the wave
+    /// number.
     pub index: usize,
-    /// Distance from this node in ln q, divided by the distance between the nodes.
+    /// Distance from this node in ln q, divided by the distance between two nodes.
     pub share: f64,
 }
 
@@ -50,9 +50,9 @@ impl NodePlace {
         (1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]
     }
 
-    /// Divides the derivative of a quantity with respect to ln C2D at this place between the two
-    /// neighbouring nodes. The parts are added to `gradient`, which has the derivatives with
-    /// respect to ln C2D at the nodes.
+    /// Divides a derivative of a quantity between the two neighbouring nodes. `derivative` is the
+    /// derivative with respect to ln C2D at this place. The two parts are added to `gradient`,
+    /// which has the derivatives with respect to ln C2D at the nodes.
     pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
         gradient[self.index] += (1.0 - self.share) * derivative;
         gradient[self.index + 1] += self.share * derivative;
@@ -74,8 +74,9 @@ impl Piece {
 }
 
 impl Nodes {
-    /// Creates nodes over a range of wave numbers, with `per_decade` nodes per decade. `end` says
-    /// where the spectrum ends.
+    /// Creates nodes, the wave numbers at which a spectrum is given. They cover `range` with
+    /// `per_decade` nodes per decade. `end` states whether the spectrum continues beyond this
+    /// range.
     pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
         let ratio = range.last / range.first;
         let pieces = (per_decade * ratio.log10()).ceil().max(2.0);
@@ -96,8 +97,9 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Returns the place of ln q between the nodes. A spectrum is constant below the first node and
-    /// extrapolated beyond the last.
+    /// Returns where ln q lies between the nodes. Below the first node, the place is that of the
+    /// first node, so that the spectrum is constant there. Beyond the last node, the spectrum is
+    /// extrapolated.
     pub fn place(&self, ln_q: f64) -> NodePlace {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
@@ -107,8 +109,8 @@ impl Nodes {
         }
     }
 
-    /// Returns the intervals of the wave number, in rad/m, in which the spectrum is a power law.
-    /// They cover the wave numbers from `low` to the end of the spectrum.
+    /// Returns the intervals of the wave number, in rad/m, on which the spectrum is a power law.
+    /// Together the intervals reach from `low` to the end of the spectrum.
     pub fn pieces_from(&self, low: f64) -> Vec<Piece> {
         let node_number = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
         // For `low` = 0 the logarithm is −∞, which is smaller than ln q of every node.
@@ -130,7 +132,8 @@ impl Nodes {
         pieces
     }
 
-    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, at a wave number q in rad/m.
+    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, where q is a wave number in
+    /// rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         Term {
@@ -150,7 +153,8 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// Returns the value of the term for these values of ln C2D at the nodes.
+    /// Returns the value of the term. `values` is ln C2D at the nodes, the wave numbers at which
+    /// the spectrum is given.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * self.place.interpolate(values).exp()
     }

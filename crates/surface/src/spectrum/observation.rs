@@ -14,9 +14,9 @@ const SINGLE: usize = 32;
 /// with the exponent −3 differs by 0.1 % from the value at the mean wave number.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Number of waves that carry as much information as one independent wave if a Hann window is used.
-/// The powers of waves whose numbers differ by 1 and by 2 have the correlation coefficients (2/3)²
-/// and (1/6)².
+/// Number of neighbouring waves that have as much information as one independent wave if a Hann
+/// window is used. The powers of two waves have the correlation coefficient (2/3)² if their numbers
+/// of periods differ by 1, and (1/6)² if these differ by 2.
 pub(super) const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
 /// A wave whose power contributes to the observed power of another wave.
@@ -64,16 +64,16 @@ pub(super) struct Observation {
     /// Mean power spectral density of the band: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Weight of the band in moments. The contribution of the band to a moment of the equivalent
-    /// line is the mean power times this weight times a power of q, see [`Observation::moments`].
+    /// Weight of the band in moments of the equivalent line. The band contributes the mean power
+    /// times this weight times a power of q to a moment ([`Observation::moments`]).
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of the observed power. `step` and `steps` are the wave numbers of wave 1, and `sampling` is
-/// 2π over the distance between points, all in rad/m. Two waves whose wave numbers differ by
-/// `sampling` look the same at the points: they are aliases.
+/// Kind of the observed power. `step` and `steps` are the wave numbers of the waves with one
+/// period, and `sampling` is 2π over the distance between points, all in rad/m. Two waves whose
+/// wave numbers differ by `sampling` look the same at the points: they are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Power C1D of a cut through the surface, which is a profile.
@@ -83,8 +83,8 @@ pub(super) enum Kind {
 }
 
 /// Returns the observations of the spectrum of profiles, up to the wave number `last` in rad/m. The
-/// first observation is wave 1. If a window is used it is wave 2, because removal of a polynomial
-/// reduces the power of wave 1.
+/// first observation is the wave with one period over the profile. If a window is used, it is the
+/// wave with two periods, because removal of a polynomial reduces the power of the longest wave.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut {
         step: power.step,
@@ -125,7 +125,8 @@ fn first_of_next_band(first: usize) -> usize {
 }
 
 /// Returns the smallest wave number of a map that is used, in rad/m. If a window is used, the waves
-/// around wave 1 are left out, because removal of a polynomial reduces their power.
+/// with about one period over the map are left out, because removal of a polynomial reduces their
+/// power.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed {
         2.0 * power.steps[0].max(power.steps[1])
@@ -220,9 +221,9 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this band, with the mean power `power`, to the moments ∫
-    /// q^(p+1) C2D dq/2π of the equivalent line, for p = 0, 1, 2. The moments of a cut are 1, 2/π
-    /// and 1/2 times these moments.
+    /// Computes the contribution of this band to three moments of the equivalent line, if the band
+    /// has the mean power `power`. The moments are ∫ q^(p+1) C2D dq/2π for p = 0, 1, 2. The moments
+    /// of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         let factors = match self.kind {
@@ -232,8 +233,9 @@ impl Observation {
         factors.map(|factor| factor * self.range * power)
     }
 
-    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes. It
-    /// includes aliases of waves that the points do not resolve.
+    /// Returns the terms whose sum is the expected mean power of this band. The terms refer to a
+    /// spectrum that is given at the wave numbers `nodes`. They include aliases: waves that look
+    /// like the waves of this band because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

@@ -6,15 +6,15 @@ use crate::topography::surface::Detrend;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. `Option::None` means the polynomial that the file of
-    /// the surface states. If the file states no polynomial, it means [`Detrend::Tilt`], or
-    /// [`Detrend::Mean`] for a periodic surface.
+    /// Polynomial that is removed before the analysis. With `None`, the polynomial is removed that
+    /// the file of the surface states. If the file states none, the tilt is removed
+    /// ([`Detrend::Tilt`]), or only the mean for a periodic surface ([`Detrend::Mean`]).
     pub detrend: Option<Detrend>,
     /// True for a surface that continues periodically at its borders. The analysis then uses no
     /// window function.
     pub periodic: bool,
-    /// Assumption on waves shorter than the shortest wave that the points resolve: whether the
-    /// surface has such waves.
+    /// Whether the surface is assumed to have waves shorter than the shortest wave that the points
+    /// resolve.
     pub end: End,
     /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,

@@ -58,17 +58,17 @@ pub(super) struct Blocks {
 /// Relative differences of the moments between the parts of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
-    /// Means of the moments over the blocks.
+    /// Mean of each moment over the blocks of the surface.
     pub means: [f64; 3],
-    /// Relative variances of these means that chance explains, on a uniform surface with normally
-    /// distributed heights.
+    /// Relative variances of the means that chance explains, if the surface is uniform and its
+    /// heights are normally distributed.
     pub chance: [f64; 3],
-    /// Relative variances of these means in excess of `chance`; zero if chance explains the
+    /// Relative variances of the means beyond those in `chance`; zero if chance explains the
     /// differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
-    /// surface, or among the two halves of a surface that has no four quarters. The ratio is 1 if
-    /// chance explains the differences.
+    /// surface. A surface without four quarters is divided into halves. The ratio is 1 if chance
+    /// explains the differences.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,
@@ -89,7 +89,8 @@ struct MomentSpread {
 }
 
 impl Spread {
-    /// Returns the spread of parts whose differences chance explains, or of a single part.
+    /// Returns the spread of a surface with a single part, or whose parts differ by no more than
+    /// chance explains.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,
@@ -147,8 +148,8 @@ impl Blocks {
         })
     }
 
-    /// Returns the spread of all moments. If chance explains the spread of every moment, no excess
-    /// is left.
+    /// Returns how much each moment differs between the blocks. If chance explains the differences
+    /// of every moment, all [`Spread::excess`] are zero.
     pub fn spread(&self) -> Spread {
         let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
         let mut spread = Spread {
@@ -236,8 +237,8 @@ impl Blocks {
         most / least
     }
 
-    /// Returns the factors by which the powers of the whole surface are multiplied so that all
-    /// blocks count equally. The factors are 1 if chance explains `spread`.
+    /// Returns factors for the powers of the whole surface, with which all blocks count equally.
+    /// The factors are 1 if chance explains `spread`.
     pub fn weights(&self, spread: &Spread) -> EqualWeights {
         if spread.is_chance {
             EqualWeights::none()
@@ -397,12 +398,14 @@ pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of the estimated to the expected variance of a mean that counts as
-/// chance. The estimate is made from the differences between `parts` parts, and exceeds this ratio
-/// by chance once in a thousand times: the ratio is a quantile of the χ² distribution (Wilson and
-/// Hilferty 1931). `variance` is the relative variance of one part that chance explains. A part is
-/// distributed like a sum of 1/`variance` exponentially distributed numbers; if these are few, the
-/// distribution is skewed and the estimate scatters more.
+/// Returns the largest ratio of two variances of a mean that counts as chance: the estimated
+/// variance divided by the expected one. The estimate is made from the differences between `parts`
+/// parts.
+///
+/// The estimate exceeds this ratio by chance once in a thousand times: the ratio is a quantile of
+/// the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance of one part
+/// that chance explains. A part is distributed like a sum of 1/`variance` exponentially distributed
+/// numbers. If these are few, the distribution is skewed and the estimate scatters more.
 pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     let parts = parts as f64;
     let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;

@@ -44,7 +44,8 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Returns the contribution of the wave to the squared gradient, up to a constant factor.
+    /// Returns what the wave contributes to the squared gradient of the surface, up to a constant
+    /// factor.
     pub fn squared_gradient(&self) -> f64 {
         self.wave_number * self.wave_number * self.power
     }
@@ -65,9 +66,10 @@ pub(super) struct ProfilePower {
     pub windowed: bool,
     /// Number of profiles whose spectra were added up.
     pub profiles: u64,
-    /// Wave number of wave 1 in rad/m.
+    /// Wave number in rad/m of the wave with one period over the profile.
     pub step: f64,
-    /// The waves 1, 2, … below half the number of points. Their powers are sums over the profiles.
+    /// The waves with 1, 2, … periods over the profile, below half the number of points. Their
+    /// powers are sums over the profiles.
     pub waves: Vec<Wave>,
 }
 
@@ -88,8 +90,8 @@ impl ProfilePower {
         }
     }
 
-    /// Adds the power spectra of the rows of one surface, after multiplication by the factors
-    /// `weights`.
+    /// Adds the power spectra of the rows of one surface. The powers are first multiplied by the
+    /// factors `weights`.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -111,9 +113,9 @@ impl ProfilePower {
     }
 }
 
-/// Computes the one-dimensional power spectral density C1D in m³ of heights (m) at equal distances
-/// `spacing` (m), averaged in bins of the wave number. `windowed` is true for heights that are not
-/// periodic; a window function is then applied.
+/// Computes the one-dimensional power spectral density C1D in m³ of a profile, averaged in bins of
+/// the wave number. `heights` are in m, at equal distances of `spacing` in m. `windowed` is true
+/// for heights that are not periodic, to which a window function is then applied.
 ///
 /// ```
 /// use asperity_surface::spectra::line_spectrum;

@@ -21,7 +21,8 @@ pub(super) struct PointResults {
     pub finest: LargestSums,
     /// Rms height of each surface in m.
     pub rms_heights: Vec<f64>,
-    /// Largest reliability cut-off of all surfaces in m.
+    /// Largest reliability cut-off of all surfaces: the shortest wavelength in m that the tip of
+    /// the instrument resolves. `None` if the tip resolves all waves, or if no tip radius is known.
     pub reliability_cutoff: Option<f64>,
     /// Largest displacement in m of odd rows against even rows of a map; `None` if no map has such
     /// a displacement.
@@ -29,8 +30,8 @@ pub(super) struct PointResults {
 }
 
 impl PointResults {
-    /// Adds the points of a surface. `tip_radius` is the radius in m of the tip that measured it,
-    /// if known.
+    /// Adds the points of a surface. `tip_radius` is the radius in m of the tip of the instrument,
+    /// if it is known.
     pub fn add(&mut self, surface: &LevelledSurface, tip_radius: Option<f64>) {
         let heights = &surface.heights;
         let columns = surface.columns;
@@ -52,8 +53,8 @@ impl PointResults {
         }
     }
 
-    /// Compares the spectrum with the rms gradient of the points and, if `has_height` is true, with
-    /// their rms height. The differences are added to the errors of the spectrum.
+    /// Compares the rms gradient of the spectrum with that of the points, and adds the difference
+    /// to the errors of the spectrum. If `has_height` is true, does the same for the rms height.
     pub fn check_identities(&self, isotropic: &mut IsotropicSpectrum, has_height: bool) {
         let height = self.longest.sums.statistics().rms_height;
         let height = has_height.then_some(height);
@@ -65,8 +66,8 @@ impl PointResults {
     }
 }
 
-/// Sums over the surfaces with the largest size. Sizes with a relative difference of at most
-/// [`SAME`] count as equal.
+/// Sums over those surfaces whose size, such as the length of a scan, is largest. Sizes with a
+/// relative difference of at most [`SAME`] count as equal.
 #[derive(Default)]
 pub(super) struct LargestSums {
     pub size: f64,

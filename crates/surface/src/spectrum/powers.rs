@@ -37,8 +37,9 @@ struct Strip {
 }
 
 impl Powers {
-    /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are changed
-    /// by about as much as interpolation may have changed them, see [`Topography::copied_heights`].
+    /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are first
+    /// changed by about as much as interpolation may have changed them
+    /// ([`Topography::copied_heights`]).
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -53,7 +54,8 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface, after multiplication by the factors `weights`.
+    /// Adds the power spectra of a surface. The powers are first multiplied by the factors
+    /// `weights`.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,
@@ -84,7 +86,7 @@ impl Powers {
         Ok(())
     }
 
-    /// Returns the observed powers of the waves up to this wave number in rad/m.
+    /// Returns the observed powers of all waves up to the wave number `last` in rad/m.
     pub fn observations(&self, last: f64) -> Vec<Observation> {
         let mut observations = Vec::new();
         for profile in &self.profiles {
@@ -104,9 +106,10 @@ impl Powers {
         observations
     }
 
-    /// Returns the range of wave numbers from wave 1 of the longest surface to the last used wave
-    /// of the surface with the smallest distance between points. For profiles, the range ends half
-    /// a wave later. `count` returns how many waves of a spectrum are used.
+    /// Returns the range of wave numbers of the waves that are used. It begins at the longest wave
+    /// of the longest surface. It ends at the last used wave of the surface with the smallest
+    /// distance between points; for profiles, half a wave later. `count` returns how many waves of
+    /// a spectrum are used.
     pub fn range(&self, count: impl Fn(&[Wave]) -> usize) -> WaveRange {
         let mut first = f64::INFINITY;
         let mut last = 0.0_f64;
@@ -127,12 +130,14 @@ impl Powers {
         WaveRange { first, last }
     }
 
-    /// Returns the largest [`MapPower::apart`] of all maps.
+    /// Returns the largest difference, over all maps, of waves parallel to an axis from their
+    /// neighbours ([`MapPower::apart`]).
     pub fn apart(&self) -> f64 {
         self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
     }
 
-    /// Returns the measured spectra for each direction of the waves, in bins of the wave number.
+    /// Returns the measured spectra in bins of the wave number, one for each direction of the
+    /// waves.
     pub fn spectra(&self) -> Vec<(Along, Vec<Bin>)> {
         let [along_x, along_y] = &self.axes;
         let mut spectra = vec![

@@ -37,7 +37,8 @@ impl Linearised {
         }
     }
 
-    /// Factorises the information matrix. Returns `None` if the matrix is not positive definite.
+    /// Returns the Cholesky factor of the information matrix; `None` if the matrix is not positive
+    /// definite.
     pub fn factor(self) -> Option<Cholesky> {
         Cholesky::new(self.information, self.gradient.len())
     }

@@ -49,9 +49,9 @@ pub struct SelfAffineFit {
 }
 
 impl SelfAffineFit {
-    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
-    /// number. `range` has the first and the last wave number of the surface. All wave numbers are
-    /// in rad/m.
+    /// Returns the power spectral density in m³ of a cut at a wave number. A cut is a profile
+    /// measured across the surface. `range` has the first and the last wave number of the surface.
+    /// All wave numbers are in rad/m.
     pub fn cut(&self, wave_number: f64, range: [f64; 2]) -> f64 {
         let [first, last] = range;
         let corner = match self.roll_off {
@@ -71,7 +71,7 @@ pub(super) struct PowerLaw {
     parameters: Parameters,
     /// Number of parameters that were fitted.
     free: usize,
-    /// Negative logarithm of the likelihood.
+    /// Negative logarithm of the likelihood of the observations with these parameters.
     pub misfit: f64,
     /// Hurst exponent of a spectrum with a roll-off.
     hurst_with_roll_off: f64,
@@ -106,8 +106,8 @@ impl PowerLaw {
     }
 
     /// Returns the factor, at least 1, by which the standard errors are multiplied because the
-    /// surface may not be self-affine. The factor compares the misfit of this spectrum to the
-    /// observations of the model with the misfit of `isotropic`, the fit with nodes to the same
+    /// surface may not be self-affine. The factor follows from two misfits to the observations of
+    /// the model: that of this spectrum, and that of `isotropic`, the fit with nodes to the same
     /// observations.
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
         // For a self-affine surface, twice the difference of the misfits equals in the mean the
@@ -118,8 +118,8 @@ impl PowerLaw {
         (excess / further as f64).max(1.0).sqrt()
     }
 
-    /// Returns the fit with its standard errors, which are multiplied by `scale`. Returns `None` if
-    /// no exponent between 0 and 1 fits.
+    /// Returns the fit with its standard errors, multiplied by `scale`. Returns `None` if the Hurst
+    /// exponent is not between 0 and 1, or if the observations do not determine the errors.
     pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
         let parameters = self.parameters;
         let model = model.condensed();

@@ -8,11 +8,11 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of measured points of all surfaces together. Points with interpolated heights are
-    /// left out of all these statistics.
+    /// Number of measured points of all surfaces together. Points with interpolated heights count
+    /// neither here nor in the other statistics.
     pub points: usize,
-    /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
-    /// filter.
+    /// Root mean square height about the mean in m, without a filter. It is Pq for profiles and Sq
+    /// for maps.
     pub rms_height: f64,
     /// Root mean square slope of the surfaces along their rows, PΔq.
     pub rms_slope: f64,
@@ -57,8 +57,8 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the measured points of a surface. Their heights are taken relative to the mean of these
-    /// points. A slope between two points counts if both points were measured.
+    /// Adds the measured points of a surface. Heights are taken relative to the mean of the
+    /// measured points. A slope between two points counts only if both points were measured.
     pub fn add(&mut self, surface: &LevelledSurface) {
         let columns = surface.columns;
         let [along, between] = surface.distances;
@@ -119,9 +119,9 @@ impl Sums {
 /// of the tip (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
-/// Finds the reliability cut-off in m. Shorter waves may be artefacts of the tip. The cut-off is
-/// the smallest stencil length 2sΔx (s whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x +
-/// sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in m.
+/// Finds the reliability cut-off in m: shorter waves may be artefacts of the tip. It is the
+/// smallest length 2sΔx (s whole) over which the curvature of all rows is at least −1/(2R) for a
+/// tip radius R in m. The curvature at x is (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)².
 ///
 /// Returns `None` if the condition is already fulfilled at s = 1. If no s fulfils the condition, no
 /// wave is reliable, and half the length of a row is returned.

@@ -18,8 +18,8 @@ impl EqualWeights {
         }
     }
 
-    /// Returns the factor for a wave with this wave number in rad/m, interpolated between the
-    /// factors at the middles of the octaves.
+    /// Returns the factor for a wave with this wave number in rad/m. It is interpolated between the
+    /// middles of the octaves.
     pub fn factor(&self, wave_number: f64) -> f64 {
         let Some(last) = self.logarithms.len().checked_sub(1) else {
             return 1.0;

@@ -64,9 +64,9 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Returns the name, out of `names`, of the index file of the archive. Of several files with
-    /// such a name, the one in the fewest folders is the index file. Afterwards, names of other
-    /// files are relative to its folder.
+    /// Finds the index file of the archive, and returns its name. `names` are the names that an
+    /// index file may have. If several files have such a name, the index file is the one in the
+    /// fewest folders. All names of files are relative to its folder afterwards.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();
@@ -103,21 +103,21 @@ impl<'a> Archive<'a> {
         found
     }
 
-    /// Returns the names of all files, in the spelling of [`plain_name`].
+    /// Returns the names of all files, in the form that [`plain_name`] gives them.
     pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.places.keys().map(String::as_str)
     }
 
-    /// Returns the content of a file whose size is not known in advance. Returns an error if the
-    /// content has more than `most` bytes.
+    /// Returns the content of a file whose size no header states. Returns an error if the content
+    /// has more than `most` bytes.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;
         self.most -= content.len();
         Ok(content)
     }
 
-    /// Returns the content of a file that should have at most `most` bytes according to a header.
-    /// Returns an error if the content is longer.
+    /// Returns the content of a file of which a header states the size. Returns an error if the
+    /// content has more than `most` bytes, the stated size.
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let path = plain_name(&format!("{}/{name}", self.folder));
         let Some(place) = self.places.get(&path) else {

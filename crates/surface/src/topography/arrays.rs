@@ -25,8 +25,8 @@ impl Topography {
         Topography::from_map(heights, heights.len(), [spacing; 2])
     }
 
-    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the
-    /// distance in m between neighbouring points of a row, and the distance in m between
+    /// Creates a map from heights in m, row by row. Each row has `columns` points. `spacing` has
+    /// the distance in m between neighbouring points of a row, and the distance in m between
     /// neighbouring rows. A map of a single row or a single column is a profile.
     ///
     /// # Errors
@@ -56,9 +56,10 @@ impl Topography {
         Topography::from_map_with(heights, columns, spacing, &ReadOptions::default())
     }
 
-    /// Creates a map as [`Topography::from_map`] does, with the same corrections by [`ReadOptions`]
-    /// as a map from a file: the choice of one row or column, levelling of the rows, replacement of
-    /// outliers and interpolation of missing points. A height of NaN is a missing point.
+    /// Creates a map from heights in m and corrects it by [`ReadOptions`], as a map from a file is
+    /// corrected. The corrections are the choice of one row or column, levelling of the rows,
+    /// replacement of outliers and interpolation of missing points. A height of NaN is a missing
+    /// point. The other arguments are those of [`Topography::from_map`].
     ///
     /// # Errors
     /// Returns the errors of [`Topography::from_map`], and an error for missing points that the

@@ -133,7 +133,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Returns the bytes of a file from this offset on.
+    /// Returns a reader of the bytes of a file, beginning at an offset.
     pub fn from(bytes: &'a [u8], order: Order, offset: usize) -> Result<Self, SurfaceError> {
         let mut file = Bytes::new(bytes, order);
         file.take(offset)?;
@@ -160,8 +160,8 @@ impl<'a> Bytes<'a> {
         Ok(taken)
     }
 
-    /// Returns the next `count` bytes as a part of the file. Places in this part are still counted
-    /// from the beginning of the file.
+    /// Returns a reader of the next `count` bytes, and skips these bytes. Places in this part are
+    /// still counted from the beginning of the file.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let offset = self.offset;
         self.take(count)?;
@@ -185,7 +185,7 @@ impl<'a> Bytes<'a> {
         Ok(array)
     }
 
-    /// Returns the next number as a size, an offset or a code; 0 if the number is negative.
+    /// Reads the next number as a size, an offset or a code. Returns 0 if the number is negative.
     pub fn size(&mut self, kind: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(kind)? as usize)
     }

@@ -17,7 +17,7 @@ pub(super) fn names_heights(name: &str) -> bool {
     HEIGHTS.iter().any(|word| name.contains(word))
 }
 
-/// The channel that the user wants, according to the options.
+/// The channel that the options request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.
@@ -27,8 +27,9 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns the channel that the options request. Returns an error if the options have both a
-    /// number and a name.
+    /// Returns which channel the options request: the one with a number, the one with a name or, if
+    /// the options state neither, the only channel of heights. Returns an error if the options have
+    /// both a number and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),
@@ -54,7 +55,7 @@ pub(super) struct Label {
     /// Unit of the values. `None` means that the unit is unknown; an empty text means that the file
     /// states that the values have no unit.
     pub unit: Option<String>,
-    /// In a text file, the number of the first line with numbers of the channel.
+    /// Number of the line with the first numbers of the channel, in a text file.
     pub line: Option<usize>,
     /// True for a channel of heights. Such a channel is read if the options name no channel.
     pub has_heights: bool,

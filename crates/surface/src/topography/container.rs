@@ -155,8 +155,8 @@ fn chosen(
 }
 
 impl Measurement {
-    /// Returns the name of the file with the scaled heights, whose format is always NetCDF. If
-    /// there is no such file, returns the name of the file as it was measured.
+    /// Returns the name of the NetCDF file with the scaled heights or, if there is none, the name
+    /// of the original file of the measurement.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {
@@ -184,8 +184,9 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Returns the polynomial that the index file requests to be removed from the heights. Returns
-    /// `None` if it requests only the removal of the mean, which is the default of such containers.
+    /// Returns the polynomial to be removed from the heights, as the index file requests. Returns
+    /// `None` if the file requests only the removal of the mean, which is the default of such
+    /// containers.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,
@@ -194,8 +195,8 @@ impl Measurement {
         }
     }
 
-    /// Returns `options` completed by what the index file states, for reading the file of the
-    /// measurement.
+    /// Returns the options for reading the file of the measurement: `options`, completed by what
+    /// the index file states.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, self.place())?;
@@ -219,8 +220,9 @@ impl Measurement {
         })
     }
 
-    /// Adds the distances between points and the scale of the heights from the index file, if the
-    /// file of the measurement omits them.
+    /// Returns the contents of the file of the measurement, completed by the index file. Added are
+    /// the distances between points and the scale of the heights, if the file of the measurement
+    /// omits them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()

@@ -4,7 +4,7 @@ use super::surface::{Cropped, Layout, Topography};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
-/// A row or a column of a map that is read as a profile. Rows and columns count from 1.
+/// A row or a column of a map that is read as a profile. Rows and columns are counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// The row with this number.

@@ -160,7 +160,8 @@ fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
 pub(super) struct Map {
     pub heights: Vec<f64>,
     pub columns: usize,
-    /// Distances between points along the rows and between rows; `None` if they are not known.
+    /// Distances between points along the rows, and distances between the rows; `None` if they are
+    /// not known.
     pub distances: Option<[f64; 2]>,
 }
 
@@ -171,13 +172,13 @@ pub(super) struct PointList<'a, P> {
     pub heights: &'a [f64],
     /// Numbers of digits with which x and y are printed.
     pub digits: [Digits; 2],
-    /// Function that returns the place in the file of the point with this index.
+    /// Function that returns where the point with a given index is in the file.
     pub place: P,
 }
 
 impl<P: Fn(usize) -> Place> PointList<'_, P> {
-    /// Creates a map from the points. A point of the grid that the list does not contain becomes a
-    /// missing point.
+    /// Creates a map from the list of points. Points of the map that are not in the list are
+    /// missing points.
     pub fn map(&self) -> Result<Map, SurfaceError> {
         let points = self.heights.len();
         if points < 2 {

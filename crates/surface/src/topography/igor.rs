@@ -81,10 +81,10 @@ mod old_field {
 /// Number of bytes of a unit in the header of a wave.
 const UNIT_LENGTH: usize = 4;
 
-/// One dimension of a wave, which is an array.
+/// One dimension of a wave. The program Igor calls an array a wave.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WaveDimension {
-    /// Number of elements; 0 for a dimension that the wave does not have.
+    /// Number of elements of the array along this dimension; 0 if the array has fewer dimensions.
     pub count: usize,
     /// Distance between neighbouring elements.
     pub step: f64,
@@ -94,16 +94,16 @@ pub struct WaveDimension {
     pub labels: Vec<String>,
 }
 
-/// A binary wave (array) of Igor: its dimensions, its unit and its note. The numbers of the array
-/// remain encoded as bytes until they are requested.
+/// A binary wave of the program Igor: an array with its dimensions, its unit and its note. The
+/// numbers of the array remain encoded as bytes until they are requested.
 #[derive(Debug)]
 pub struct IgorWave<'a> {
     /// Dimensions of the array. Numbers that are neighbours in the file are neighbours in the first
     /// dimension.
     pub dimensions: [WaveDimension; DIMENSIONS],
-    /// Unit of the numbers; empty if the file states no unit.
+    /// Unit of the numbers in the array; empty if the file states no unit.
     pub unit: String,
-    /// Note: text that programs attach to the wave, with lines `key: value`.
+    /// Note: text that programs attach to the array, with lines `key: value`.
     pub note: String,
     kind: Number,
     numbers: Bytes<'a>,
@@ -156,8 +156,8 @@ impl Layout {
     }
 }
 
-/// Returns true if a file begins with the headers of a wave and the check sum of these headers is
-/// right.
+/// Returns true if a file is a binary wave of Igor: it begins with the headers of a wave, and their
+/// check sum is right.
 pub fn is_igor_wave(bytes: &[u8]) -> bool {
     Layout::of(bytes).is_some_and(|layout| layout.check_sum(bytes) == 0)
 }
@@ -174,7 +174,7 @@ pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
 }
 
 impl<'a> IgorWave<'a> {
-    /// Parses the content of a file.
+    /// Parses the content of a file with a binary wave.
     ///
     /// # Errors
     /// Returns [`SurfaceError`] if the file is not a wave, is cut off, or does not contain real
@@ -290,7 +290,8 @@ impl<'a> IgorWave<'a> {
         numbers.numbers(count, self.kind)
     }
 
-    /// Returns the value in the first line of the note that has this key.
+    /// Returns the value that the note gives for a key. If several lines of the note have the key,
+    /// the first one counts.
     pub fn entry(&self, key: &str) -> Option<&str> {
         self.note.split(['\r', '\n']).find_map(|line| {
             let (name, value) = line.split_once(':')?;
@@ -298,8 +299,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns the number in the first line of the note that has this key; `None` if the value is
-    /// not a finite number.
+    /// Returns the number that the note gives for a key. Returns `None` if the note does not have
+    /// the key, or if the value is not a finite number.
     pub fn number(&self, key: &str) -> Option<f64> {
         let number: f64 = self.entry(key)?.parse().ok()?;
         number.is_finite().then_some(number)

@@ -23,8 +23,7 @@ pub(super) struct Value<'a> {
 }
 
 impl KeyValues {
-    /// Reads one line of the header. `allowed` is the part of the error message that says which
-    /// lines are allowed.
+    /// Reads one line of the header. `allowed` says in error messages which lines are allowed.
     pub fn take(
         &mut self,
         line_number: usize,
@@ -62,8 +61,8 @@ impl KeyValues {
         }
     }
 
-    /// Returns the positive integer that a key has as its value. If the key is missing, the error
-    /// lists all `required` keys.
+    /// Returns the value of a key as a positive integer. If the key is missing, the error lists all
+    /// `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
         let Some(value) = self.value(key) else {
             return Err(missing(key, required));

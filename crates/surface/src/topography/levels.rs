@@ -16,9 +16,10 @@ const LEAST_POINTS: usize = 4;
 /// to levels, for a warning to be returned.
 const LARGE: f64 = 0.1;
 
-/// Returns a warning if the heights (in m, in rows of `columns` points) have few levels, otherwise
-/// `None`. Rounding to multiples of a step s adds an error with the mean square s²/12 to each
-/// height, and therefore s²/6 to the mean square difference of two neighbours.
+/// Returns a warning if the heights are rounded to few different values (levels); otherwise `None`.
+/// The heights are in m, in rows of `columns` points. Rounding to multiples of a step s adds an
+/// error with the mean square s²/12 to each height, and therefore s²/6 to the mean square
+/// difference of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     let levels = few_levels(heights)?;
     let step = levels

@@ -51,9 +51,9 @@ fn even(heights: Vec<f64>, columns: usize) -> Reading {
     Reading::even(FORMAT, heights, columns, None, StatedUnits::default())
 }
 
-/// Parses a NumPy array with at least two columns. Returns the names and the numbers of the
+/// Parses a NumPy array with at least two columns, and returns the names and the numbers of the
 /// columns. The columns of a structured array are its fields. In an array with two axes, the
-/// shorter axis counts the columns.
+/// columns lie along the shorter axis.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;

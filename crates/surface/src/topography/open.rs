@@ -108,7 +108,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
 
-/// Parses the content of a file that has only one measurement, and returns its surface.
+/// Parses the content of a file that has a single measurement, and returns its surface.
 ///
 /// # Errors
 /// Returns the errors of [`read`], and an error for a file with several measurements.

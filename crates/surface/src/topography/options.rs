@@ -9,11 +9,11 @@ use super::unit::Unit;
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states no unit.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states no unit for them. `None` means that [`Self::unit`] is
+    /// Unit of the heights if the file states no unit for them. With `None`, [`Self::unit`] is
     /// used.
     pub height_unit: Option<Unit>,
-    /// Unit of positions and heights that is assumed if the file states no unit and [`Self::unit`]
-    /// is `None`.
+    /// Unit of positions and heights that is assumed if neither the file nor [`Self::unit`] states
+    /// one.
     pub convention: Option<Unit>,
     /// Distance between neighbouring points in m if the file states no distance.
     pub spacing: Option<f64>,
@@ -24,8 +24,8 @@ pub struct ReadOptions {
     pub channel: Option<u32>,
     /// Row or column of a map that is read as a profile. With `None` the whole map is read.
     pub cut: Option<Cut>,
-    /// True if a profile with uneven distances between points is interpolated at evenly spaced
-    /// points.
+    /// True if a profile with uneven distances between points is interpolated, so that its points
+    /// are evenly spaced.
     pub resample: bool,
     /// True if the median height of each row of a map is subtracted from the row, which removes
     /// offsets between rows.

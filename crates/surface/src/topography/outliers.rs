@@ -15,10 +15,12 @@ const FAR: f64 = 4.0;
 const PER_MEDIAN_DEVIATION: f64 = 1.482_602_218_505_602;
 
 /// Marks outliers as missing (NaN) by the identifier of Hampel, and returns their number. `columns`
-/// is the number of points in a row. A height is an outlier if its distance from the median of the
-/// heights around it exceeds [`FAR`] standard deviations, which follow from the median of all these
-/// distances. A tilt of the surface does not change the result, not even at borders, where a point
-/// has fewer neighbours on one side.
+/// is the number of points in a row.
+///
+/// A height is an outlier if it differs from the median of the heights around it by more than
+/// [`FAR`] standard deviations. The standard deviation follows from the median of all such
+/// differences. A tilt of the surface does not change the result, not even at borders, where a
+/// point has fewer neighbours on one side.
 pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let distances = LevelledMap::new(heights, columns)?.distances()?;
     let known = || distances.iter().filter(|distance| distance.is_finite());

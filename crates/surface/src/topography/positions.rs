@@ -26,9 +26,9 @@ pub(super) fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Returns the heights, minus `level` in m, at ascending places in m. They follow by linear
-/// interpolation between at least two points. At a point the result is exactly the height of the
-/// point, and beyond the first or the last point it is the height of this point.
+/// Returns the heights at ascending places in m, minus `level` in m. They are interpolated linearly
+/// between at least two points. At a point the result is exactly the height of the point. Beyond
+/// the first or the last point it is the height of this point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],

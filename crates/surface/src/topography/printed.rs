@@ -42,7 +42,8 @@ impl Digits {
         }
     }
 
-    /// Updates the digits with those of a printed number.
+    /// Takes account of a further printed number, which may have more digits than the numbers
+    /// before.
     pub fn take(&mut self, cell: &str) {
         let mut decimals = 0;
         let mut significant = 0;
@@ -72,8 +73,8 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Returns the largest error of a printed number: half a unit of its last digit, plus some
-    /// rounding errors of floating-point numbers.
+    /// Returns the largest error of a number because of its printed digits. It is half a unit of
+    /// the last digit, plus some rounding errors of floating-point numbers.
     pub fn half(self, value: f64) -> f64 {
         let digits_before_mark = if value == 0.0 {
             i32::MIN / 2

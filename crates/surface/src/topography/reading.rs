@@ -14,12 +14,12 @@ pub(super) struct Reading {
     pub columns: usize,
     /// Ascending positions of the points of a profile; `None` if the points are evenly spaced.
     pub positions: Option<Vec<f64>>,
-    /// Distances between evenly spaced points, along and between rows; `None` if the file states
-    /// none.
+    /// Distances between evenly spaced points along the rows, and between the rows; `None` if the
+    /// file states none.
     pub spacing: Option<[f64; 2]>,
     pub units: StatedUnits,
-    /// Place of the first missing point, such as its line. `None` if the reader knows no more than
-    /// the number of the point.
+    /// Place in the file of the first missing point, such as a line. `None` if the reader knows
+    /// only the number of the point.
     pub first_missing: Option<Place>,
     /// True if the file states that the surface is periodic at its borders.
     pub periodic: bool,

@@ -16,8 +16,8 @@ use std::ops::Range;
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
 impl Reading {
-    /// Converts heights and positions to m. Returns the whole surface or, if the options choose a
-    /// row or column, this row or column as a profile.
+    /// Converts heights and positions to m, and returns the surface. If the options choose a row or
+    /// a column, only this row or column is returned, as a profile.
     pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let mut surface = self.resolve(options)?;
         if let Some(cut) = options.cut {

@@ -46,7 +46,7 @@ pub(super) struct Units<'a> {
 }
 
 impl<'a> Units<'a> {
-    /// Decides for which quantities the units in the options are meant. `has_positions` is true for
+    /// Chooses the quantities to which the units in the options apply. `has_positions` is true for
     /// a profile in which each point has a position.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
@@ -86,7 +86,8 @@ impl<'a> Units<'a> {
         self.lateral("positions", self.stated.along)
     }
 
-    /// Returns the unit of the distances along the rows (`axis` 0) or between the rows (`axis` 1).
+    /// Returns the unit of the distances between points: along the rows if `axis` is 0, between the
+    /// rows if `axis` is 1.
     pub fn distances(&self, axis: usize) -> Result<Unit, SurfaceError> {
         let stated = [self.stated.along, self.stated.between];
         self.lateral("distances", stated[axis])

@@ -17,9 +17,9 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that were removed because they have no
-/// measured point. For a profile, the columns are its points, and the missing points at both ends
-/// were removed.
+/// Numbers of columns and rows that were removed at the borders of a map because they have no
+/// measured point. For a profile, the columns are its points; missing points at both ends were
+/// removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -27,14 +27,14 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of removed columns and the number of removed rows, each added up over two
-    /// opposite borders.
+    /// Returns the number of removed columns and the number of removed rows. Each number is the sum
+    /// over two opposite borders.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index of a point among all points of the file, including removed columns and
-    /// rows. `index` is the index of the point without these, in rows of `columns` points.
+    /// Returns the index of a point among all points of the file. `index` is its index after
+    /// columns and rows at the borders were removed; the rows then have `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let [columns_before, rows_before] = self.before;
         let [columns_left_out, _] = self.counts();
@@ -64,8 +64,8 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the median height of each row was subtracted from the row.
     pub(crate) aligned: bool,
-    /// Name of the measurement in an archive of several measurements; empty for a surface that has
-    /// a file of its own.
+    /// Name of the measurement, if its file is an archive with several measurements; otherwise
+    /// empty.
     pub name: String,
     /// Polynomial that has to be removed before the analysis, if a container states it.
     pub(crate) detrend: Option<Detrend>,
@@ -97,8 +97,8 @@ impl Topography {
         Ok(())
     }
 
-    /// Returns the number of points whose heights are interpolated. These are missing points and
-    /// replaced outliers.
+    /// Returns the number of points whose heights are interpolated: missing points and replaced
+    /// outliers.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -122,10 +122,11 @@ impl Topography {
     }
 
     /// Copies the heights in m. With `quarters` above zero, the copy is changed by about as much as
-    /// interpolation may have changed the original. For this purpose, as many measured points as
-    /// were missing are interpolated too: the points that are `quarters` quarters of the length and
-    /// of the width away from the missing points. A resampled profile also gets an estimate of the
-    /// short waves that resampling has removed.
+    /// interpolation may have changed the original.
+    ///
+    /// For this purpose, as many measured points as were missing are interpolated too. They are the
+    /// points `quarters` quarters of the length and of the width away from the missing points. A
+    /// resampled profile also gets an estimate of the short waves that resampling has removed.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if quarters == 0 {

@@ -88,7 +88,7 @@ fn number_of(kind: usize) -> Option<Number> {
 }
 
 impl<'a> Directory<'a> {
-    /// Returns the place of the directory in the file, for error messages.
+    /// Returns the place of the directory in the file, which error messages state.
     pub fn place(&self) -> Place {
         self.tags.place()
     }
@@ -332,8 +332,8 @@ pub(super) mod tests {
             }
         }
 
-        /// Appends an image of integers of 16 or 32 bits to the file. Each strip has one row of
-        /// three points. Returns the tags of this image.
+        /// Appends an image of integers to the file, and returns the tags of this image. The
+        /// integers have 16 or 32 bits. Each strip of the image has one row of three points.
         pub fn image(&self, file: &mut Vec<u8>, numbers: &[i32], bits: u16) -> Vec<Tag> {
             let row = 3 * u32::from(bits) / 8;
             let mut offsets = Vec::new();
@@ -366,8 +366,8 @@ pub(super) mod tests {
             [signature, &[0; 4]].concat()
         }
 
-        /// Writes a directory to the end of the file, and its offset to the place `link`. Returns
-        /// the place to which the offset of the next directory is to be written.
+        /// Appends a directory to the file and writes its offset to the place `link`. Returns the
+        /// place to which the offset of the next directory is to be written.
         pub fn directory(&self, file: &mut Vec<u8>, link: usize, tags: &[Tag]) -> usize {
             let mut entries = Vec::new();
             for tag in tags {

@@ -65,8 +65,8 @@ impl Unit {
         self.name
     }
 
-    /// Returns the unit that the text in a file states; `None` for an empty text. `place` is for
-    /// the error.
+    /// Returns the unit that a text in a file states; `None` for an empty text. `place` is the
+    /// place of the text in the file, for the error message.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, SurfaceError> {
         if text.is_empty() {
             return Ok(None);

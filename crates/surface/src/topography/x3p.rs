@@ -396,8 +396,8 @@ fn sorted(coordinates: Coordinates) -> Result<Coordinates, SurfaceError> {
     Ok([x?, y?, heights?])
 }
 
-/// Returns a profile if all points are in one row and have the same y, otherwise a map of points at
-/// these positions. A point without a position is left out.
+/// Returns a profile if all points are in one row and have the same y, otherwise a map of points
+/// with their positions x and y. A point whose x or y is missing is left out.
 fn scattered(mut coordinates: Coordinates, columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == coordinates[Z].len();
     let [x, y, _] = &coordinates;

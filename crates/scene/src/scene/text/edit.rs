@@ -12,7 +12,7 @@ pub(in crate::scene) const NOT_ONE_VALUE: &str =
     "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
-    /// Returns the text in which `value` replaces the value at a path.
+    /// Returns the text with `value` in place of the present value at a path.
     ///
     /// # Errors
     /// Returns an error if the text has no value at the path, or if `value` is not exactly one
@@ -22,9 +22,9 @@ impl Text {
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
     }
 
-    /// Returns the text with a new entry `name: value` in the group at a path. An empty path means
-    /// the whole text. `order` is a list of names; the new entry comes after the entries whose
-    /// names are before `name` in this list.
+    /// Returns the text with a new entry `name: value` in the group at the path `group`. An empty
+    /// path means the whole text. `order` lists names in the order of their entries: the new entry
+    /// comes after the entries whose names are before `name` in this list.
     ///
     /// # Errors
     /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
@@ -58,10 +58,11 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
-    /// Returns the text with other elements in the list at a path. An element with an index keeps
-    /// the text and the comments of the element with this index in the present list. An element
-    /// without an index is new, and its text is the given one. Returns `None` if the present list
-    /// is empty or missing, or if a comment would make the new text unreadable.
+    /// Returns the text with other elements in the list at the path `list`. Each item of `elements`
+    /// is an index and a text. If an item has an index, the text and the comments of the present
+    /// element with this index are kept. If it has none, the element is new and has the text of the
+    /// item. Returns `None` if the present list is empty or missing, or if a comment would make the
+    /// new text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let present = self.inside(list);

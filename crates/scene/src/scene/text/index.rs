@@ -13,9 +13,9 @@ use super::scan::{Kind, Scan, Token, Unreadable, scan};
 /// of bytes. No scene has longer paths.
 const LONGEST_PATH: usize = 100;
 
-/// RON text with the positions of its values. A value is found by its path, which consists of the
-/// names of fields and of indices in lists, from 0: `roughness.hurst`, `loading.0`. The empty path
-/// means the whole text.
+/// RON text with the positions of its values. A value is found by its path, such as
+/// `roughness.hurst` or `loading.0`. A path consists of names of fields, and of indices in lists,
+/// from 0. The empty path means the whole text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
@@ -24,13 +24,13 @@ pub struct Text {
     pub(super) comments: Vec<Range<usize>>,
 }
 
-/// Byte ranges of one value and of its entry in a [`Text`].
+/// Byte ranges of one value in a [`Text`]: of the value alone, and of the entry `name: value`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Byte range of the whole entry `name: value`. An element of a list has no name, so its entry
-    /// is the value alone.
+    /// Byte range of the whole entry `name: value`. For an element of a list, which has no name, it
+    /// is the range of the value.
     pub entry: Range<usize>,
     /// Byte range of the value alone.
     pub value: Range<usize>,

@@ -13,8 +13,8 @@ pub(crate) mod edit;
 pub(crate) mod index;
 pub(crate) mod scan;
 
-/// Reads a value from RON text. An optional value needs no `Some`, and a variant that holds one
-/// struct needs only one pair of brackets.
+/// Reads a value from RON text. An optional value may be written without `Some`. A variant that
+/// holds one struct may be written with only one pair of brackets.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
     ron::Options::default()
@@ -23,7 +23,7 @@ pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
 }
 
 /// Writes a number in RON with a decimal point. The text is the shortest one that gives the same
-/// number when it is read. If the magnitude is not between 0.001 and 100 000, the number has an
+/// number when it is read. Numbers whose magnitude is not between 0.001 and 100 000 have an
 /// exponent.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
@@ -43,8 +43,8 @@ pub(in crate::scene) fn real_in_ron(value: f64) -> String {
     ron_float(if value.is_finite() { value } else { f64::NAN })
 }
 
-/// Writes text as a RON string in quotes. Only those characters are escaped that RON does not allow
-/// in a string.
+/// Writes text as a RON string in quotes. A character is escaped only if RON does not allow it in a
+/// string.
 pub fn ron_string(text: &str) -> String {
     let mut string = String::with_capacity(text.len() + 2);
     string.push('"');

@@ -138,7 +138,8 @@ pub struct TextHeader {
     sizes: [Option<Length>; 2],
     /// Distances between points of a map, along the rows and between the rows.
     spacing: [Option<Length>; 2],
-    /// Number of columns and number of rows, if the header states them.
+    /// Number of columns and number of rows that the header states; `None` if it does not state a
+    /// number.
     pub counts: [Option<usize>; 2],
     /// Factor by which the numbers in the file are multiplied to give the heights.
     factor: Option<f64>,
@@ -149,10 +150,10 @@ pub struct TextHeader {
     /// true.
     data_scale: Option<f64>,
     is_data_scale_needed: bool,
-    /// True if the rows of numbers run along y.
+    /// True if the points in a row of numbers follow each other along y.
     pub is_along_y: bool,
-    /// True if the file gives, as the position of a point, only the numbers of its column and its
-    /// row.
+    /// True if the file gives the positions of points only by the numbers of their columns and
+    /// rows.
     pub has_counted_positions: bool,
     /// True if the heights are in wavelengths of light.
     is_in_wavelengths: bool,
@@ -161,7 +162,7 @@ pub struct TextHeader {
 }
 
 impl TextHeader {
-    /// Creates a header that states only this unit, for all lengths.
+    /// Creates a header that states the unit `unit` for all lengths, and nothing else.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader {
             unit,
@@ -223,8 +224,8 @@ impl TextHeader {
     }
 
     /// Reads a line of a header in the format Zygo XYZ. `line_number` is the number of the line in
-    /// the file, counted from 1. The seventh number in the eighth line is the distance in m between
-    /// columns and between rows; it is 0 if the distance is unknown.
+    /// the file, counted from 1. In line 8, the seventh number is the distance in m between columns
+    /// and between rows; it is 0 if the distance is unknown.
     pub fn take_zygo(&mut self, line_number: usize, line: &str) {
         self.has_counted_positions = true;
         if line_number != LINE_OF_DISTANCE {
@@ -306,14 +307,15 @@ impl TextHeader {
         Some(())
     }
 
-    /// Returns the distance in m between points, for a profile whose file has no positions.
+    /// Returns the distance between points in m that the header states for a profile without
+    /// positions.
     pub fn distance(&self) -> Option<f64> {
         let [along, _] = self.spacing;
         self.metres(along?, X, None)
     }
 
-    /// Returns the distances in m between points, along and between the rows of a map with these
-    /// numbers of columns and rows.
+    /// Returns the distances between points in m, along and between the rows of a map. `columns`
+    /// and `rows` are the numbers of columns and rows of the map.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         self.distances_by_size(columns, rows).or_else(|| {
             let [along, between] = self.spacing;
@@ -339,7 +341,7 @@ impl TextHeader {
         Some(unit.to_metres(length.value))
     }
 
-    /// Returns the factor by which the numbers in the file are multiplied to give the heights.
+    /// Returns the factor that converts the numbers in the file to heights.
     pub fn scale(&self) -> f64 {
         let mut scale = 1.0;
         if let Some(factor) = self.factor {
@@ -358,8 +360,8 @@ impl TextHeader {
         scale
     }
 
-    /// Returns the unit of x, y or the heights ([`X`], [`Y`] or [`Z`]). The unit in the name of the
-    /// column is used, or else the unit that a key states.
+    /// Returns the unit of x, y or the heights ([`X`], [`Y`] or [`Z`]). It is the unit in the name
+    /// of the column or, if the name has none, the unit that a key of the header states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         if let Some(unit) = column.and_then(unit_of_column) {
             return Some(unit);

@@ -747,8 +747,8 @@ mod tests {
         };
         let map = found.resolve(&options).unwrap();
         assert_eq!((map.heights[3], map.spacing()), (5e-6, Ok([2e-6; 2])));
-        // A distance of 0 means that the distance is unknown. The numbers of columns and rows are
-        // not taken for positions.
+        // A distance of 0 between the points means that the distance is unknown. The column and row
+        // indices of the points are then not read as positions.
         let found = text(&zygo("0")).unwrap();
         assert_eq!((found.spacing, units(&found)), (None, [None, None]));
         assert!(

@@ -24,7 +24,7 @@ pub(super) struct Table {
     pub separator: Separator,
     pub decimal: Decimal,
     widths: Widths,
-    /// Numbers of all lines, one line after another. Each line has as many numbers as cells.
+    /// All numbers of the table, line by line. Each line has as many numbers as cells.
     pub values: Vec<f64>,
     /// For each column, true if at least one of its cells is not empty.
     is_filled: Vec<bool>,
@@ -129,9 +129,11 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers. `before` is the line before it, which also
-    /// belongs to the table if it has as many cells and one of two forms. Either it begins with a
-    /// number and consists mostly of numbers, or it has positions after a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers, `first`. `before` is the line before it. This
+    /// line also belongs to the table if it has as many cells and one of two forms:
+    ///
+    /// * It begins with a number and consists mostly of numbers.
+    /// * It has positions after a word, as in `y\x 0 1 2`.
     pub fn new(
         before: Option<NumberedLine<'_>>,
         first: NumberedLine<'_>,
@@ -183,12 +185,13 @@ impl Table {
         }
     }
 
-    /// Records that an empty line was read, so that the next row begins after a gap.
+    /// Takes account of an empty line, so that the next row begins after a gap.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
 
-    /// Returns true for a line with words between the lines of numbers or after them.
+    /// Returns true if a line has words instead of numbers. Such a line lies between the lines of
+    /// numbers or after them.
     pub fn is_heading(&self, line: &str) -> bool {
         // A line without letters, except the e of exponents, is a line of numbers. Most lines need
         // no further test.
@@ -206,8 +209,8 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line, which has no white space at its ends. The first lines of a table may state how
-    /// many rows and columns follow.
+    /// Reads one line of the table. The line has no white space at its ends. The first lines may
+    /// state how many rows and columns follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if self.may_be_counts() {
             let table = Table::empty(line);
@@ -308,7 +311,7 @@ impl Table {
         Err(refused(Place::Line(line), found, allowed))
     }
 
-    /// Returns the number of columns up to the last column that is not empty in all lines.
+    /// Returns the number of columns up to the last column in which some cell is not empty.
     pub fn columns(&self) -> usize {
         match self.is_filled.iter().rposition(|is_filled| *is_filled) {
             Some(last) => last + 1,
@@ -316,8 +319,9 @@ impl Table {
         }
     }
 
-    /// Returns the range of rows of each channel. Channels are separated by empty lines. Returns a
-    /// single range if an empty line precedes every row, or if the table has columns of positions.
+    /// Returns the rows of each channel as ranges. Channels are separated by empty lines. There is
+    /// only one range if an empty line precedes every row, or if the table has columns of
+    /// positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let rows = self.rows();
         let columns = self.columns();
@@ -356,8 +360,8 @@ impl Table {
         self.widths.cells = columns;
     }
 
-    /// Returns the numbers in a column. They are moved within the memory of the table, so its other
-    /// numbers are lost.
+    /// Returns the numbers in a column. They are moved within the memory of the table, which loses
+    /// all its other numbers.
     pub fn take_column(&mut self, column: usize) -> Vec<f64> {
         let cells = self.widths.cells;
         let mut values = std::mem::take(&mut self.values);

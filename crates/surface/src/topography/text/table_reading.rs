@@ -21,8 +21,9 @@ const COLUMNS: &str = "text columns";
 const MATRIX: &str = "text matrix";
 
 impl Table {
-    /// Returns the surface in these rows of the table. If several columns may be heights, `wanted`
-    /// chooses one of them. `is_open` is true if the last line of the text has no line end.
+    /// Returns the surface in the given rows of the table. If several columns may be heights,
+    /// `wanted` chooses one of them. `is_open` is true if the last line of the text has no line
+    /// end.
     pub fn reading(
         mut self,
         header: &TextHeader,
