@@ -289,7 +289,9 @@ impl Axis {
         )
     }
 
-    /// Returns the value of the axis that is `steps` places after `value`, or before `value` if
+    /// Returns the value of the axis that lies `steps` values after `value`, or before `value` if
+    /// `steps` is negative. The values of the axis must ascend. If there are fewer values in this
+    /// direction, the last of them is returned. If there is none, `None` is returned.
     /// `steps` is negative. If the axis has fewer values in this direction, its last value in this
     /// direction is returned; if it has none, `None`. The values of the axis must ascend.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
@@ -395,7 +397,7 @@ fn nearest_path(path: &str) -> String {
 }
 
 impl Target {
-    /// Returns the quantity at a path.
+    /// Returns the quantity that a path names, such as `roughness.hurst` or `preload`.
     ///
     /// # Errors
     /// Returns an error with the nearest path if no number has this path.
@@ -426,7 +428,8 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// Returns the parameter if the quantity is κ or e_el/γ, which replaces a work of adhesion.
+    /// Returns κ or e_el/γ if the quantity is one of these parameters; otherwise `None`. A scene
+    /// may state such a parameter in place of a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),

@@ -41,8 +41,8 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random
-/// profiles stays below [`AdhesionBoundary::level`].
+/// Value of κ or e_el/γ at which adhesion vanishes: for all larger values, the mean of
+/// [`AdhesionBoundary::protocol`] over the random profiles is below [`AdhesionBoundary::level`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary
@@ -84,8 +84,9 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries: at most one for each combination of values on [`Boundaries::others`], turning
-    /// point of the loading and share of F_a,max.
+    /// Boundaries that were found. There is at most one for each combination of three choices:
+    /// values on the axes [`Boundaries::others`], turning point of the loading, and share of
+    /// F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -172,6 +173,8 @@ impl Boundaries {
     /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the
     /// folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has written
     /// the tables. `over` is the parameter, κ or e_el/γ, in which the boundaries are returned.
+    /// `levels` are the shares of the ideal adhesion force F_a,max below which adhesion counts as
+    /// vanished.
     /// `levels` has one or several [`AdhesionBoundary::level`].
     ///
     /// # Errors

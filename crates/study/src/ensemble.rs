@@ -135,8 +135,9 @@ impl Ensemble {
         self.results.warnings(0)
     }
 
-    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
-    /// [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
+    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
+    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

@@ -481,8 +481,9 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for
-    /// [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, counted twice:
+    /// first with the regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime
+    /// that follows from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         Quantity::REGIMES.map(|quantity| {
             let records = self.records_of(cell);

@@ -175,7 +175,8 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch of a patch as long as the whole profile in m, by eq. (10).
+    /// Returns the largest stretch of the springs, in m, at the edge of a patch that is as long as
+    /// the whole profile, by eq. (10).
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }
