@@ -155,8 +155,9 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// Adds a warning and an offer to the message that is shown for the opened scene, so that all
-    /// three are one message. Warnings and errors come first.
+    /// Adds a warning and an offer, such as to restore unsaved changes, to the message that is
+    /// shown for the opened scene, so that all three are one message. Warnings and errors come
+    /// first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
         let mut done = None;
@@ -185,7 +186,8 @@ impl App {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
-    /// Returns the style of a meaning in the theme of the user.
+    /// Returns the style, such as a colour, that the theme of the user has for a text or a line
+    /// with this meaning.
     pub fn style(&self, meaning: Meaning) -> Style {
         self.view.appearance.theme.style(meaning)
     }

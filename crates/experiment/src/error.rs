@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// The curve, or the part of it, whose points are counted.
+/// Part of a curve that has too few points, or the whole curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountedPart {
     /// The whole curve.

@@ -168,10 +168,9 @@ impl Found {
         Err(question.refused(&found, "a number that changes the quantity"))
     }
 
-    /// Returns for each profile the smallest number at which the quantity reaches the target, in SI
-    /// units; `None` for a profile on which the quantity does not reach the target. If a preload is
-    /// sought, the number may be the smallest searched preload, because this preload may already
-    /// suffice.
+    /// Returns for each profile the smallest number at which the quantity crosses the target, in SI
+    /// units; `None` for a profile without a crossing in the searched range. If a preload is sought
+    /// and the smallest searched preload already reaches the target, this preload is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers
             .iter()
@@ -179,8 +178,8 @@ impl Found {
             .collect()
     }
 
-    /// Returns the number of profiles on which the quantity does not reach the target at any
-    /// searched number.
+    /// Returns the number of profiles on which the quantity does not cross the target in the
+    /// searched range.
     pub fn unreached(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }
@@ -220,10 +219,9 @@ impl Found {
         places
     }
 
-    /// Returns a quantile over all profiles of the number at which the quantity reaches the target,
-    /// such as the median for a `share` of 0.5. A profile on which the quantity does not reach the
-    /// target counts as beyond the searched range. Returns `None` if the quantile lies beyond this
-    /// range.
+    /// Returns a quantile over all profiles of the number at which the quantity crosses the target,
+    /// such as the median for a `share` of 0.5. A profile without a crossing counts as beyond the
+    /// searched range. Returns `None` if the quantile lies beyond this range.
     ///
     /// If only some values of the number are allowed, such as whole numbers or lengths with a whole
     /// number of waves, the nearest allowed value is returned.

@@ -67,8 +67,8 @@ impl Loaded {
     /// compared at a force.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns [`Compared::grid`], the error due to the grid, of the indentation or of the
-    /// stiffness, whichever is larger.
+    /// Returns the relative error due to the grid of the square surfaces: the error of the
+    /// indentation or that of the stiffness, whichever is larger.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
@@ -92,11 +92,11 @@ pub struct LeftOut {
 pub struct RoughnessOfBoth {
     /// Roughness of the profiles.
     pub line: ComparedRoughness,
-    /// Roughness of the square surfaces for the contacts without adhesion, with the rms height of
+    /// Roughness of the square surfaces in the contacts without adhesion. Its rms height is that of
     /// the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the square surfaces for the contacts with adhesion, with the elastic energy of
-    /// the profiles; `None` for a scene without adhesion.
+    /// Roughness of the square surfaces in the contacts with adhesion. Its elastic energy is that
+    /// of the profiles. `None` for a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
@@ -180,7 +180,7 @@ pub enum ReferenceEvent {
         /// cells.
         seconds: f64,
     },
-    /// Another hundredth (about) of the profiles is computed.
+    /// About another hundredth of the profiles is computed.
     Profiles {
         /// Number of profiles computed since the last event of this kind.
         count: u64,

@@ -31,8 +31,8 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of [`run_study`], counted in records of the [`Shard`] that it computes. A record has
-/// the values of one [cell](crate::Plan) on one random profile.
+/// Progress of [`run_study`], counted in records of the [`Shard`] (the part of the plan) that it
+/// computes. A record has the values of one [cell](crate::Plan) on one random profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
     /// Number of records of the shard that exist now.

@@ -26,8 +26,8 @@ pub struct Changed {
     /// Medians of the results over the profiles in SI units, in the order of
     /// [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// For each result, the smallest and the largest relative change among the profiles; `None` if
-    /// the profile of the scene is fixed.
+    /// For each result, the smallest and the largest of its relative changes on the profiles;
+    /// `None` if the profile of the scene is fixed.
     pub range: [Option<(f64, f64)>; 3],
 }
 

@@ -32,7 +32,9 @@ pub struct SquareLoops {
 
 impl SquareLoops {
     /// Computes the force curves of square surfaces for a scene, with the options
-    /// [`ReferenceOptions::of`]. `simulation` has the folder of the measured files of the scene.
+    /// [`ReferenceOptions::of`]. `simulation` finds the measured files of the scene in their
+    /// folder. `control` receives the curves so far at the beginning, after each hundredth of the
+    /// computation, and after each square surface.
     /// `control` receives the curves so far at the beginning, after each hundredth of the
     /// computation, and after each square surface.
     ///

@@ -100,7 +100,8 @@ pub struct MeasuredCurve {
 pub(crate) struct SubtractedLines {
     /// True if the zero offset of the force was estimated, and not stated by the options.
     pub has_zero: bool,
-    /// Values of each line, except the constant zero offset, at the points of the curve.
+    /// Values of each line, except the constant zero offset, at the points of the curve. A line is
+    /// a contribution that was subtracted from the force, such as a drift.
     pub columns: Vec<Vec<f64>>,
     /// Sums of the products of each pair of lines over the points without contact in segments that
     /// the options leave out. The curve has no points of these segments. The first row and column
