@@ -30,7 +30,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
-    /// True to show quantities in units of F_a,max, h and L; false to show them in SI units.
+    /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
+    /// the rms height h or the length L; false to show all in SI units.
     pub normalised: bool,
     /// True if the area that represents the dissipated energy is shaded.
     pub loss: bool,

@@ -79,7 +79,7 @@ pub enum ExperimentError {
          stated number of points before contact, or the retraction alone"
     )]
     BeginsInContact,
-    /// The force of the approach stays on one straight line.
+    /// The force of the approach stays on one straight line, so that no contact is found.
     #[error("{}", no_contact(*range, *noise))]
     NoContact {
         /// Change of the force in N along the line.

@@ -450,9 +450,9 @@ impl HeatMap {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders between the map cells along an axis, as coordinates (see
-    /// [`ChartAxis::span`]). There is one cell around each of `values`, so there is one more border
-    /// than values.
+    /// Returns the borders between the map cells along an axis. There is one cell around each of
+    /// `values`, so there is one more border than values. A border is a coordinate: a number on a
+    /// linear axis, and the decadic logarithm of a number on a logarithmic axis.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let coordinates: Vec<f64> = values
             .iter()

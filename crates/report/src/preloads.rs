@@ -39,9 +39,9 @@ pub struct PreloadReport<'a> {
 }
 
 impl<'a> PreloadReport<'a> {
-    /// Returns the figure: the [`preload_chart`], and the [`distribution`] of the adhesion force at
-    /// the largest preload. `None` if there is no [`Self::staircase`]. If `has_values` is true, the
-    /// legend states the values of F_a(d=0) and F_a(F=0).
+    /// Returns the figure of two charts: the adhesion force over the preload, and its distribution
+    /// over the profiles at the largest preload. `None` if there is no [`Self::staircase`]. If
+    /// `has_values` is true, the legend states the values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let staircase = self.staircase?;
         let spread = self.results.spread_of_adhesion();
@@ -261,8 +261,9 @@ impl<'a> StaircaseJson<'a> {
     }
 }
 
-/// Returns a figure of two charts. On the left is `chart`, which is a [`preload_chart`], and on the
-/// right `beside`, which is a [`distribution`].
+/// Returns a figure of two charts. On the left is `chart`, the adhesion force over the preload (see
+/// [`preload_chart`]). On the right is `beside`, the distribution of the adhesion force over the
+/// profiles (see [`distribution`]).
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);

@@ -154,8 +154,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or
-    /// `zero force`.
+    /// Returns in words where the loading turns whose adhesion vanishes at this boundary: `first
+    /// touch` or `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"
@@ -175,7 +175,6 @@ impl Boundaries {
     /// the tables. `over` is the parameter, κ or e_el/γ, in which the boundaries are returned.
     /// `levels` are the shares of the ideal adhesion force F_a,max below which adhesion counts as
     /// vanished.
-    /// `levels` has one or several [`AdhesionBoundary::level`].
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither

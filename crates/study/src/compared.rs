@@ -29,7 +29,8 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Returns the difference between the ratio and 1.
+    /// Returns [`Compared::ratio`] − 1, the relative difference between the mean over the profiles
+    /// and the mean over the square surfaces.
     pub fn difference(&self) -> f64 {
         self.ratio - 1.0
     }
@@ -48,8 +49,8 @@ pub(super) struct Values {
 }
 
 impl Values {
-    /// Compares the statistics over profiles and squares and the ratio of their means; `None` if
-    /// there are no values.
+    /// Returns the statistics of the values over profiles and over square surfaces, with the ratio
+    /// of the two means; `None` if there are no values.
     pub fn compared(self) -> Option<Compared> {
         let bounds = Quantity::AdhesionForce.bounds();
         let grid = self.grid_error();

@@ -135,8 +135,9 @@ pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError>
 /// that the scene names.
 ///
 /// # Errors
-/// Returns the same errors as [`compute`]. An axis of an option of the files, such as
-/// `roughness.row`, is an error too, because a measured roughness in memory has no such option.
+/// Returns the same errors as [`compute`]. It is also an error if an axis varies an option for
+/// reading files, such as `roughness.row`, because a measured roughness in memory has no such
+/// option.
 pub fn compute_with_measured(
     plan: &Plan,
     measured: Arc<MeasuredRoughness>,

@@ -100,8 +100,8 @@ pub struct Grid {
     /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
     /// computed. An error states why a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
-    /// For each cell, the index of the cell whose results are shown in its place: its own index or,
-    /// until it is computed, that of a cell of a coarser grid.
+    /// For each cell, the index of the cell whose results are shown in its place. This is its own
+    /// index or, until the cell is computed, the index of a cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 

@@ -320,9 +320,9 @@ impl Question {
     }
 }
 
-/// Returns the quantity of a loop turned at first touch that corresponds to an adhesion force over
-/// the preload; `None` for other quantities. The quantity at first touch is the smallest one, since
-/// the adhesion force never falls with the preload.
+/// Returns the quantity without a preload that corresponds to `quantity`, such as F_a(d=0) for F_a.
+/// `None` if `axis` is not the preload, or if `quantity` is no adhesion force. A loop that turns at
+/// first touch has the smallest adhesion force, since this force never falls with the preload.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => {

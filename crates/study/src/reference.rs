@@ -151,7 +151,7 @@ pub struct Reference {
     /// adhesion, one for each source.
     pub budget: ReferenceBudget,
     /// Premises of the model that profiles of the scene do not meet, each with the number of these
-    /// profiles among the first [`Reference::profiles_for_warnings`].
+    /// profiles. Only the first [`Reference::profiles_for_warnings`] profiles are checked.
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of convolutions over the grid of a square surface that the solver computed for all

@@ -27,8 +27,6 @@ pub struct ReferenceBudget {
     /// Lower bound of the error of the model: the part of the magnitude of `difference` that
     /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
     /// and `None` if one of these errors is unknown.
-    /// `difference` that exceeds the errors `sample` and `grid`. It is 0 if these errors can
-    /// explain the difference, and `None` if one of these errors is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,

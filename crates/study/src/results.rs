@@ -207,8 +207,8 @@ impl Results {
         self.set_warnings(solved.line, solved.warnings);
     }
 
-    /// Stores, for each cell with such warnings, the premises of the model that it does not meet on
-    /// the profile with the index `line`.
+    /// Stores the premises of the model that cells do not meet on the profile with the index
+    /// `line`. `warnings` has the number of each such cell, with its premises.
     pub(super) fn set_warnings(&mut self, line: u64, warnings: Vec<(u64, Vec<Warning>)>) {
         for (cell, warnings) in warnings {
             let place = cell * self.plan.lines + line;
@@ -216,7 +216,7 @@ impl Results {
         }
     }
 
-    /// Reads all shard files of a study.
+    /// Reads the files of results of a study, one for each process that has worked on the study.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or if two records of the same cell and profile
@@ -353,8 +353,8 @@ impl Results {
             .map(String::as_str)
     }
 
-    /// Returns the reason why a cell has no values; `None` unless it cannot be computed on all
-    /// profiles.
+    /// Returns the reason why a cell has no values, if it cannot be computed on any profile;
+    /// otherwise `None`.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());

@@ -44,8 +44,8 @@ impl Shard {
             .ok_or_else(allowed)
     }
 
-    /// Returns the indices of the units of work that belong to this shard, if the plan has `units`
-    /// units.
+    /// Returns the indices of the units of work that this part of the plan contains. The whole plan
+    /// has `units` units, each of which one thread computes.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

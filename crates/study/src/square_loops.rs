@@ -35,8 +35,6 @@ impl SquareLoops {
     /// [`ReferenceOptions::of`]. `simulation` finds the measured files of the scene in their
     /// folder. `control` receives the curves so far at the beginning, after each hundredth of the
     /// computation, and after each square surface.
-    /// `control` receives the curves so far at the beginning, after each hundredth of the
-    /// computation, and after each square surface.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].

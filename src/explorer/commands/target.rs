@@ -45,8 +45,8 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
 }
 
-/// Returns the name of the number whose value is sought if the selected row is the preload or
-/// another number of the scene.
+/// Returns the name of the number whose value an inverse question seeks: the preload if a row of
+/// the loading is selected, otherwise the parameter of the selected row.
 pub fn name(app: &App) -> String {
     match app.edit.parameter() {
         Some(parameter) if sought(parameter) != Some("preload") => parameter.name(),
@@ -126,7 +126,8 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     }
 }
 
-/// Returns the answer as text, or a text about what is missing; `None` if no target is being typed.
+/// Returns the answer to the inverse question as text, or a text about what is missing; `None` if
+/// the user is typing no target.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     if let Err(why) = Question::parse_condition(typed) {

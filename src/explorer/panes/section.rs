@@ -52,7 +52,6 @@ pub fn panel(
 /// Returns the chart of a section, a part of the profile with its contact, for an exported file. It
 /// does not depend on the size of the pane. `part` chooses the springs, and `z` is the range of
 /// heights in m.
-/// `part` chooses the springs. `z` is the range of heights in m.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,
