@@ -261,8 +261,8 @@ pub fn model_words(reference: &Reference) -> String {
 }
 
 /// Returns which waves are compared if the squares lack waves of the scene; otherwise an empty
-/// text. The waves are given by their numbers of periods over the length, for example `, of waves 4
-/// to 8 of 4 to 3 200`.
+/// text. The waves are given by their numbers of periods over the length, for example
+/// `, of waves 4 to 8 of 4 to 3 200`.
 pub fn omitted_waves(reference: &Reference) -> String {
     let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
         return String::new();

@@ -154,8 +154,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns in words where the loading turns whose adhesion vanishes at this boundary: `first
-    /// touch` or `zero force`.
+    /// Returns in words the point at which the loading turns, `first touch` or `zero force`. The
+    /// boundary is that of the adhesion after this turn.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"
