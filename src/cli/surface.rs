@@ -210,8 +210,8 @@ pub struct SurfaceTask {
     pub profiles: Option<u32>,
     /// Number of threads. The results do not depend on this number.
     pub jobs: usize,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words, such as an option of the
-    /// command line.
+    /// Function that states in words how the user takes a [`Remedy`](asperity_data::Remedy), a step
+    /// that removes the cause of an error or a warning, such as an option of the command line.
     pub wording: Wording,
 }
 

@@ -11,7 +11,8 @@ use asperity_scene::library::{Entry, Source};
 use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
-/// A prompt. While it is open, it receives all keys.
+/// Line below the panes in which the user types a text or answers a question. While the prompt is
+/// open, it receives all keys.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,

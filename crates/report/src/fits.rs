@@ -277,8 +277,9 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

@@ -28,13 +28,14 @@ pub struct PreloadReport<'a> {
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Quantities [`Results::OF_PRELOADS`] computed so far, for each preload and each profile.
+    /// Results computed so far, such as the adhesion force, for each preload and each profile. The
+    /// quantities are [`Results::OF_PRELOADS`].
     pub results: &'a Results,
     /// Adhesion force of the first profile as a function of the preload; `None` for a report
     /// without a figure.
     pub staircase: Option<&'a Staircase>,
-    /// True if the table has a row for each preload of the [`Self::staircase`]; false if it has a
-    /// row for each preload and each profile.
+    /// True if the table has a row for each preload of the curve in [`Self::staircase`]. False if
+    /// it has a row for each preload and each profile.
     pub curves: bool,
 }
 

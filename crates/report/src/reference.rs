@@ -30,8 +30,9 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

@@ -33,10 +33,10 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not
-    /// above zero. `estimate` gives [`Budget::grid`], and `ensemble` gives [`Budget::sample`].
-    /// `deviation` is the standard deviation of the adhesion force in N due to the uncertainty of
-    /// the spectrum of a measured surface.
+    /// Collects the errors of the adhesion force of a computed scene; `None` if this force is not
+    /// above zero. `estimate` gives the error due to the number of springs, and `ensemble` the
+    /// error due to the number of profiles. `deviation` is the standard deviation of the adhesion
+    /// force in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,

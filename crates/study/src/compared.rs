@@ -21,10 +21,11 @@ pub struct Compared {
     /// Mean of the quantity over the profiles divided by its mean over the square surfaces.
     pub ratio: f64,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t;
-    /// `None` for fewer than two profiles or squares.
+    /// `None` for fewer than two profiles or square surfaces.
     pub error: Option<f64>,
-    /// Relative difference between the mean over the squares and the mean over the same squares
-    /// with half as many grid cells along the side; `None` if half as many cells are too few.
+    /// Relative error of the mean over the square surfaces due to their grid: its difference from
+    /// the mean over the same surfaces with half as many grid cells along the side. `None` if half
+    /// as many cells are too few.
     pub grid: Option<f64>,
 }
 

@@ -95,8 +95,8 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes a plan in memory: the recorded quantities for each combination of values on the axes (a
-/// [cell](Plan)), on each random profile. If a cell cannot be computed on a profile,
+/// Computes a plan in memory. The recorded quantities are computed for each combination of values
+/// on the axes, a [cell](Plan), on each random profile. If a cell cannot be computed on a profile,
 /// [`Results::failed`] has the reason. `control` reports how many pairs of a cell and a profile are
 /// computed.
 ///
@@ -131,8 +131,8 @@ pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError>
     compute_on(plan, measured, control)
 }
 
-/// Computes a plan in memory as [`compute`] does. The given measured roughness replaces the files
-/// that the scene names.
+/// Computes a plan in memory, as [`compute`] does, with a measured roughness that the caller has
+/// read. This roughness replaces the files that the scene names.
 ///
 /// # Errors
 /// Returns the same errors as [`compute`]. It is also an error if an axis varies an option for

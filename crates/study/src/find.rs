@@ -232,8 +232,8 @@ impl Found {
         Some(self.question.allowed().nearest(value))
     }
 
-    /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile
-    /// has a value.
+    /// Returns the smallest and the largest number over the profiles at which the quantity crosses
+    /// the target, in SI units; `None` if no profile has such a number.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values: Vec<f64> = self.values().into_iter().flatten().collect();
         let least = values.iter().copied().reduce(f64::min)?;

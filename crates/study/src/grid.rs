@@ -94,8 +94,8 @@ pub struct Grid {
     /// Values on all other axes of the study, which are the same in the whole grid, as text such as
     /// `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the
-    /// profiles in each regime.
+    /// Quantities that the grid shows, except regimes. For regimes, [`GridCell::regimes`] has the
+    /// number of profiles in each regime.
     pub layers: Vec<GridLayer>,
     /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
     /// computed. An error states why a cell cannot be computed.
@@ -106,8 +106,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid from its axes, fixed values, layers and cells, as the fields of [`Grid`]
-    /// describe them.
+    /// Creates a grid from its axes, fixed values, layers and cells. The fields of [`Grid`] with
+    /// the same names describe these arguments.
     pub fn new(
         across: Axis,
         up: Option<Axis>,

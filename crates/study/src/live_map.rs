@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a [`LiveMap`]: the numbers of values on its two axes for which it is computed.
+/// Resolution of a [`LiveMap`]: how many values each of its two axes has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 values of κ or e_el/γ and 5 values of H.

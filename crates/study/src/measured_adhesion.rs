@@ -31,10 +31,10 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the
-    /// fit and computed to first order. It is limited so that the changed force is between zero and
-    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
-    /// change.
+    /// Change of F_a in N for one random change of the spectrum. The change of the spectrum is
+    /// drawn from the uncertainty of the fit, and the change of F_a is computed to first order. It
+    /// is limited so that the changed force is between zero and [`ProfileAdhesion::largest_force`].
+    /// `None` if there is no adhesion force before or after the change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
     /// is unknown.

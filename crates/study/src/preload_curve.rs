@@ -124,9 +124,9 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns the statistics over the computed profiles of the adhesion force in N after a preload
-    /// in N. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two profiles
-    /// are computed.
+    /// Returns the statistics of the adhesion force in N after a preload in N, over the computed
+    /// profiles. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two
+    /// profiles are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         for (place, statistics) in self.results.spread_of_adhesion() {
             if (place - preload).abs() <= SAME * preload.abs() {

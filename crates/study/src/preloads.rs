@@ -147,7 +147,7 @@ impl Axis {
 /// preloads it jumps to a larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
-    /// Scale, linear or logarithmic, of the axis of preloads for which the staircase was computed.
+    /// Scale, linear or logarithmic, of the axis of preloads.
     pub scale: AxisScale,
     /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first
     /// touch.

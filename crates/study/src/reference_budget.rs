@@ -18,8 +18,9 @@ pub struct ReferenceBudget {
     /// If the profile model is exact, its whole difference from the square surfaces is an error of
     /// their grid. The larger of the two differences is then the error.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
-    /// ratio; `None` for fewer than two profiles or square surfaces.
+    /// Error due to the finite numbers of profiles and square surfaces: half the width of the 95 %
+    /// confidence interval of [`Compared::ratio`], divided by this ratio. `None` for fewer than two
+    /// profiles or square surfaces.
     pub sample: Option<f64>,
     /// Mean over the profiles divided by the mean over the square surfaces, minus 1; `None` if this
     /// ratio is unknown.

@@ -160,9 +160,10 @@ impl Results {
         })
     }
 
-    /// Computes a study in memory: a checked scene on `lines` random profiles, with the recorded
-    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the
-    /// loading of the scene. `control` reports the results so far after each profile.
+    /// Computes a checked scene on `lines` random profiles, as a study in memory. `record` are the
+    /// recorded quantities. If `preloads` are given, they are the only axis of the study: preloads
+    /// in N that replace the loading of the scene. `control` reports the results so far after each
+    /// profile.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if `lines` is above 1 and the profile of the
@@ -404,9 +405,10 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`,
-    /// in the order of [`Plan::record`]. `None` if they are not computed or cannot be computed. A
-    /// quantity without a value is NaN. A regime is an index into [`asperity_scene::Regime::ALL`].
+    /// Returns the values of the recorded quantities in a [cell](Plan) on the profile with the
+    /// index `line`, in the order of [`Plan::record`]. `None` if they are not computed or cannot be
+    /// computed. A quantity without a value is NaN. A regime is given as its index in
+    /// [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }

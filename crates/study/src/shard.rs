@@ -25,7 +25,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Shard that is the whole plan, for a study that is not divided.
+    /// The whole plan as a single part, for a study that is not divided.
     pub const WHOLE: Shard = Shard {
         number: 1,
         count: 1,

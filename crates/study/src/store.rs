@@ -50,7 +50,7 @@ pub struct Folder {
 /// First line of a file of results, [`ShardFile`], which states the process that wrote the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
-    /// Version of the format of the file, [`STORE_VERSION`].
+    /// Version of the format of the file.
     pub format: u32,
     /// Checksum (CRC-32) of the text of the plan as 8 hexadecimal digits.
     pub plan: String,

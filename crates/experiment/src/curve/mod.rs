@@ -60,8 +60,8 @@ pub struct MeasuredCurve {
     pub(crate) free_at_end: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force in N, from the points before contact or from
-    /// [`CurveOptions::noise`].
+    /// Standard deviation of the noise of the force in N. It is that of the points before contact,
+    /// or the value [`CurveOptions::noise`] if it is given.
     pub noise: f64,
     /// Features that are computed from the curve without a model, such as its jumps.
     pub features: CurveFeatures,

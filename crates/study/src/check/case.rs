@@ -35,8 +35,8 @@ pub struct Case {
     /// How the correct result of the case is known: `closed form`, `independent computation` or
     /// `self-consistency`.
     pub evidence: &'static str,
-    /// Name of the quantity whose error must not exceed the bound of a
-    /// [`Check`](crate::checks::Check).
+    /// Name of the quantity whose error is measured, such as the pull-off force. The error must not
+    /// exceed the bound of a [`Check`](crate::checks::Check).
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,
