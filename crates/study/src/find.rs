@@ -628,9 +628,9 @@ mod tests {
                 && force(preload) == stair
                 && force(preload * (1.0 - 4.0 * WITHIN)) < stair
         );
-        // The answer depends on the searched range. Below the preload of the step of F_a, there is
-        // no answer. Above it, the answer is the smallest searched preload, because the target is
-        // reached there.
+        // The answer depends on the searched range. In a range below the step of F_a, there is no
+        // answer. In a range from the step on, or above it, the answer is the smallest searched
+        // preload, because F_a reaches the target there.
         assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
         assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
         let above = ask(Some((1e-3, 2e-3)));
