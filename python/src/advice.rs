@@ -3,8 +3,8 @@
 
 use asperity::data::Remedy;
 
-/// Returns the words of Python for a remedy: an argument with its value, or an entry of the
-/// dictionary `options` of `asperity.fit`.
+/// Returns how a remedy, a step that removes the cause of an error or a warning, is written in
+/// Python: an argument with its value, or an entry of the dictionary `options` of `asperity.fit`.
 pub fn argument(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "channel or surface_name with its name",

@@ -21,8 +21,8 @@ pub fn unit_of(path: &str, variant: &str) -> &'static str {
     field(path, Some(variant)).map_or("1", |field| field.unit)
 }
 
-/// Returns the number if a scene allows it at the path. Otherwise the error names the Python
-/// argument.
+/// Returns `number` if a scene allows this value in the field at `path`. Otherwise returns an error
+/// that names the Python argument `argument`.
 #[pyfunction]
 pub fn in_field(number: f64, path: &str, variant: &str, argument: &str) -> Result<f64, Failure> {
     match field(path, Some(variant)) {

@@ -191,8 +191,8 @@ fn in_unicode(file: &Path) -> String {
     file.to_string_lossy().into_owned()
 }
 
-/// Task of analysing a measured surface, and of computing the adhesion of the equivalent line of
-/// this surface.
+/// Task of analysing a measured surface and of computing its adhesion. The adhesion is computed on
+/// the equivalent line, a profile that replaces the surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceTask {
     /// Files of the surface, and the options for reading and analysing them.
@@ -210,8 +210,8 @@ pub struct SurfaceTask {
     pub profiles: Option<u32>,
     /// Number of threads. The results do not depend on this number.
     pub jobs: usize,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words, such as an option of the
-    /// command line.
+    /// Function that states in words how the user takes a [`Remedy`](asperity_data::Remedy), a step
+    /// that removes the cause of an error or a warning, such as an option of the command line.
     pub wording: Wording,
 }
 
@@ -288,9 +288,9 @@ impl SurfaceTask {
         })
     }
 
-    /// Creates a scene in which a body with the effective modulus `modulus` (in Pa) has the profile
-    /// of the equivalent line. The length of the profile is the length of the scan, or that of the
-    /// shorter scan if both faces were measured.
+    /// Creates a scene in which a body with the effective modulus `modulus` (in Pa) has the
+    /// equivalent line, a profile that replaces the measured surface. The length of the profile is
+    /// the length of the scan, or that of the shorter scan if both faces were measured.
     pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
         let name = Path::new(&self.measured.file)
             .file_name()
@@ -318,7 +318,7 @@ impl SurfaceTask {
     }
 
     /// Makes the report on analysed faces. If `computes_adhesion` is true and a work of adhesion is
-    /// given, also computes the adhesion of the equivalent line on random profiles.
+    /// given, the adhesion is computed too, on random profiles that replace the measured surface.
     ///
     /// # Errors
     /// Returns an error for a value that a scene does not allow, if a profile cannot be computed,

@@ -30,11 +30,11 @@ pub enum Action {
     Listed(Vec<Openable>),
     /// The paths that begin with the typed path have been found.
     Completed(Vec<String>),
-    /// Opening the path in the first text has succeeded with a scene, a study or a force curve, or
-    /// has failed for the reason in the second text.
+    /// The explorer has opened the path in the first text: a scene, a study or a force curve. If
+    /// the path could not be opened, the second text is the reason.
     Opened(String, Result<Opened, String>),
-    /// Reading the measured curve again, with other options, has succeeded, or has failed for the
-    /// reason in the text.
+    /// The measured curve has been read again with other options. If it could not be read, the text
+    /// is the reason.
     CurveRead(CurveRequest, Result<Box<Measured>, String>),
     Mouse(Mouse),
 }

@@ -3,8 +3,9 @@
 
 use asperity_data::Remedy;
 
-/// Returns how the user applies a remedy in the explorer. If the explorer has no row for the
-/// remedy, the words describe an option of the command line.
+/// Returns how the user takes a remedy, a step that removes the cause of an error or a warning, in
+/// the explorer. If the explorer has no row for the remedy, the words describe an option of the
+/// command line.
 pub fn row(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "the row roughness.surface_name",

@@ -30,7 +30,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
-    /// True to show quantities in units of F_a,max, h and L; false to show them in SI units.
+    /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
+    /// the rms height h or the length L; false to show all in SI units.
     pub normalised: bool,
     /// True if the area that represents the dissipated energy is shaded.
     pub loss: bool,
@@ -155,8 +156,9 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// Adds a warning and an offer to the message that is shown for the opened scene, so that all
-    /// three are one message. Warnings and errors come first.
+    /// Adds a warning and an offer, such as to restore unsaved changes, to the message that is
+    /// shown for the opened scene, so that all three are one message. Warnings and errors come
+    /// first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
         let mut done = None;
@@ -185,7 +187,8 @@ impl App {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
-    /// Returns the style of a meaning in the theme of the user.
+    /// Returns the style, such as a colour, that the theme of the user has for a text or a line
+    /// with this meaning.
     pub fn style(&self, meaning: Meaning) -> Style {
         self.view.appearance.theme.style(meaning)
     }

@@ -50,7 +50,7 @@ pub struct Autosave {
     own: Option<File>,
 }
 
-/// Returns the folder of the copies; `None` if the system has no such folder.
+/// Returns the folder for copies of unsaved changes; `None` if the system has no such folder.
 pub fn folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     let state = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());

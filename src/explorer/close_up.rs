@@ -7,7 +7,8 @@ use asperity_contact::motion::Leg;
 use asperity_report::{LineColumns, Part, SectionContact};
 use std::ops::Range;
 
-/// Makes the close-up of the requested springs, and of the patch that is nearest to their middle.
+/// Makes the close-up, which shows a few springs of the profile enlarged: the requested springs,
+/// and the patch that is nearest to their middle.
 pub fn close_up(
     contact: &SectionContact<'_>,
     leg: &Leg,

@@ -123,8 +123,8 @@ impl Editor {
         }
     }
 
-    /// Makes a document the explored scene. Undo returns to the previous document. If the two
-    /// documents are the same, nothing is added to the history.
+    /// Makes the scene in a document the explored scene. Undo returns to the previous document. If
+    /// the two documents are the same, nothing is added to the history.
     pub fn adopt(&mut self, document: Document) {
         self.adopt_all(Edited {
             document,

@@ -11,8 +11,8 @@ pub struct Ghost {
 }
 
 impl Ghost {
-    /// Returns the changes from the ghost to the scene `present` as text. `words` formats a single
-    /// change.
+    /// Returns the changes from the ghost, a scene kept for comparison, to the scene `present` as
+    /// text. `words` formats a single change.
     pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();

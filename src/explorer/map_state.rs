@@ -13,7 +13,8 @@ pub struct MapState {
     pub quantity: Quantity,
     /// A finished study. It stays open until another study is opened.
     pub study: Option<OpenStudy>,
-    /// True if the map of the study is shown instead of the live map.
+    /// True if the map of the study is shown instead of the live map, which the explorer computes
+    /// for the present scene.
     pub of_study: bool,
     /// True if the last edit moved the mark. A further move of the mark then belongs to the same
     /// edit.
@@ -87,8 +88,9 @@ impl MapState {
         Plan::of_map(scene).ok()
     }
 
-    /// Returns a text that identifies the live map of a scene. It does not depend on κ and H, which
-    /// are the axes of the map. Returns `None` if the scene has no live map.
+    /// Returns a text that identifies the live map, which the explorer computes for a scene. The
+    /// text does not depend on κ and H, which are the axes of the map. Returns `None` if the scene
+    /// has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -61,8 +61,8 @@ impl Opening {
         Self::with(name, open)
     }
 
-    /// Opens what an argument of the command line names. This can be a stream, see
-    /// [`open_argument`], or anything that [`Self::of`] opens.
+    /// Opens what an argument of the command line names: a scene, the folder of a study, or a
+    /// stream such as standard input.
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }

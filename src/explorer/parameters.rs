@@ -78,9 +78,11 @@ pub enum Setting {
     Field,
     /// The row cannot be changed, because it is the heading of a group.
     Heading,
-    /// κ or e_el/γ. The scene file states only γ, κ or e_el/γ; a new value replaces the stated one.
+    /// The row is κ or e_el/γ. The scene file states only one of γ, κ and e_el/γ, so a new value
+    /// here replaces the stated one.
     RoughnessParameter(RoughnessParameter),
-    /// γ. The scene file states only γ, κ or e_el/γ; a new value replaces the stated one.
+    /// The row is γ. The scene file states only one of γ, κ and e_el/γ, so a new value here
+    /// replaces the stated one.
     WorkOfAdhesion,
     /// Option for reading the measured curve. The number is its index in
     /// [`curve_options::OPTIONS`].

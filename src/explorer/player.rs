@@ -93,8 +93,8 @@ impl Player {
         }
     }
 
-    /// Returns the position that lies further on by `share` times the length of the stage, limited
-    /// to the ends of the stage.
+    /// Returns the position of the animation after it has moved on by `share` times the length of
+    /// the stage. The position stays between the ends of the stage.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
         let reached = self.share(legs) + share;
         let start = start_of(legs, self.leg);

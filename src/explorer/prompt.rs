@@ -12,7 +12,8 @@ use super::text_line::TextLine;
 use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
-/// A prompt. While it is open, it receives all keys.
+/// Line below the panes in which the user types a text or answers a question. While the prompt is
+/// open, it receives all keys.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,

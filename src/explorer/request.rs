@@ -100,7 +100,8 @@ pub enum Focus {
 }
 
 impl Focus {
-    /// Returns true if only the solver can determine the spring in the focus.
+    /// Returns true if only the solver can determine which spring is the focus, the middle of the
+    /// close-up.
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }

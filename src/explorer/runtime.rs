@@ -48,8 +48,8 @@ impl Engine {
         }
     }
 
-    /// Creates an engine in which solver and studies answer at once. It performs only the studies
-    /// for which `performs` returns true.
+    /// Creates an engine in which solver and studies (background computations) answer at once. It
+    /// performs only the studies for which `performs` returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         Engine {
@@ -83,7 +83,8 @@ fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
 pub struct Runtime {
     pub app: App,
     pub engine: Engine,
-    /// Generation of the scene in the last request to the solver.
+    /// Generation of the scene in the last request to the solver. The generation is a number that
+    /// grows by 1 whenever the scene changes.
     pub asked: u64,
     /// Folder to which the paths of files are relative; empty for the working folder.
     pub folder: PathBuf,

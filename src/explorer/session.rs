@@ -84,7 +84,7 @@ pub struct SessionEnd {
     pub signal: Option<i32>,
 }
 
-/// Function that draws the state of the explorer; see [`super::view::draw`].
+/// Function that draws the state of the explorer on the screen of the terminal.
 pub type Draw = fn(&mut Frame<'_>, &App);
 
 /// What a thread can send to the main loop of the session.

@@ -22,7 +22,7 @@ pub struct ContactSnapshot {
     pub generation: u64,
     pub drive: Drive,
     pub line: LineFacts,
-    /// The focus of the close-up that the request named.
+    /// Spring or patch in the middle of the close-up, as the request named it.
     pub focus: Focus,
     /// Point of the force curve that the snapshot shows, with the indentation, the force, the
     /// number of springs in contact and the number of patches.

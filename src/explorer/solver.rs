@@ -92,8 +92,9 @@ struct ShownState {
 }
 
 impl Solver {
-    /// Creates a solver that computes scenes with the function `solve`. It computes a scene only
-    /// while `awaited` is the generation of this scene.
+    /// Creates a solver that computes scenes with the function `solve`. It stops the computation of
+    /// a scene when `awaited` is no longer the generation of this scene, a number that grows
+    /// whenever the scene changes.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
         Solver {
             solve,
@@ -103,7 +104,7 @@ impl Solver {
         }
     }
 
-    /// Answers a request. Computations of scenes of other generations stop.
+    /// Answers a request. Computations for earlier or later versions of the scene stop.
     pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);

@@ -36,8 +36,8 @@ pub struct Study {
 }
 
 impl Study {
-    /// Creates a study. Its key identifies the scene or the parameters on which its value depends.
-    /// The explorer shows each intermediate value that `run` reports.
+    /// Creates a study (background computation). Its key identifies the scene or the parameters on
+    /// which its value depends. The explorer shows each intermediate value that `run` reports.
     pub fn new<T: Any + Clone + Send + Sync, E: Remedied>(
         key: impl ToString,
         is_long: bool,
@@ -66,8 +66,8 @@ impl Study {
         self.kind == TypeId::of::<T>()
     }
 
-    /// Performs the study and reports its value. After `stop` has returned true, nothing is
-    /// reported. A panic counts as a failure of the study.
+    /// Performs the study (background computation) and reports its value. After `stop` has returned
+    /// true, nothing is reported. A panic counts as a failure of the study.
     pub fn perform(
         self,
         simulation: &mut Simulation,
@@ -106,8 +106,8 @@ impl Study {
     }
 }
 
-/// Returns the key for studies of the random profiles of a scene. It does not depend on the texts
-/// of the scene, such as its title.
+/// Returns the key for studies (background computations) on random profiles of a scene. It does not
+/// depend on the texts of the scene, such as its title.
 pub fn ensemble_key(scene: &Scene) -> String {
     let scene = Scene {
         title: String::new(),
@@ -118,7 +118,8 @@ pub fn ensemble_key(scene: &Scene) -> String {
     format!("ensemble of {scene:?}")
 }
 
-/// Message from a study: its intermediate value, or the result with which the study ended.
+/// Message from a study (background computation): its intermediate value, or the result with which
+/// the study ended.
 #[derive(Clone, Debug)]
 pub struct Finding {
     kind: TypeId,
@@ -133,7 +134,7 @@ struct Slot {
     end: Option<Result<(), String>>,
 }
 
-/// Newest value of each study, at most one value of each type.
+/// Newest value of each study (background computation). There is at most one value of each type.
 #[derive(Clone, Debug, Default)]
 pub struct Findings(HashMap<TypeId, Slot>);
 
@@ -200,8 +201,8 @@ impl Findings {
         }
     }
 
-    /// Returns the studies in this list that have not ended yet. From now on, their messages are
-    /// stored.
+    /// Returns the studies (background computations) in this list that have not ended yet. From now
+    /// on, their messages are stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
             let slot = self.0.entry(study.kind).or_insert_with(|| Slot {
@@ -224,7 +225,8 @@ pub struct StudyThread {
 }
 
 impl StudyThread {
-    /// Starts the thread that performs the studies. `report` receives their messages.
+    /// Starts the thread that performs the studies (background computations). `report` receives the
+    /// messages of the studies.
     pub fn start(report: impl Fn(Finding) + Send + 'static) -> std::io::Result<Self> {
         let (orders, inbox) = channel();
         let newest = Arc::new(AtomicU64::new(0));
@@ -236,7 +238,8 @@ impl StudyThread {
         Ok(StudyThread { orders, newest })
     }
 
-    /// Stops the studies that are being performed, and starts these studies.
+    /// Stops the studies (background computations) that are being performed, and starts the given
+    /// ones.
     pub fn ask(&self, studies: Vec<Study>) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
         // Sending cannot fail, because the thread ends only together with the explorer.

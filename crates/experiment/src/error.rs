@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// The curve, or the part of it, whose points are counted.
+/// Part of a curve that has too few points, or the whole curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountedPart {
     /// The whole curve.
@@ -79,7 +79,7 @@ pub enum ExperimentError {
          stated number of points before contact, or the retraction alone"
     )]
     BeginsInContact,
-    /// The force of the approach stays on one straight line.
+    /// The force of the approach stays on one straight line, so that no contact is found.
     #[error("{}", no_contact(*range, *noise))]
     NoContact {
         /// Change of the force in N along the line.

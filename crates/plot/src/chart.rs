@@ -422,7 +422,7 @@ pub struct Class {
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
-    /// Ink of the class in a terminal without colours.
+    /// Meaning of the class, which determines its colour or style in a terminal without colours.
     pub ink: Ink,
 }
 
@@ -444,15 +444,15 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the index of the colour band that contains a value, from 0 for the lowest values to
-    /// [`Shades::BANDS`] − 1 for the highest values.
+    /// Returns the index of the colour band that contains a value. The colour scale is divided into
+    /// [`Shades::BANDS`] bands, and band 0 has the lowest values.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders between the map cells along an axis, as coordinates (see
-    /// [`ChartAxis::span`]). There is one cell around each of `values`, so there is one more border
-    /// than values.
+    /// Returns the borders between the map cells along an axis. There is one cell around each of
+    /// `values`, so there is one more border than values. A border is a coordinate: a number on a
+    /// linear axis, and the decadic logarithm of a number on a logarithmic axis.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let coordinates: Vec<f64> = values
             .iter()
@@ -487,7 +487,8 @@ impl HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
-    /// Lines, areas or markers that the legend shows before the name, each with its ink.
+    /// Lines, areas or markers that the legend shows before the name, each with the meaning that
+    /// determines its colour.
     pub samples: Vec<(Ink, Sample)>,
 }
 

@@ -110,8 +110,9 @@ impl TextBox {
     }
 }
 
-/// Returns the value of the attribute `name` of an SVG element. `element` is one of the texts that
-/// [`elements`] returns. Returns NaN if the attribute is missing or is not a number.
+/// Returns the number in the attribute `name` of an SVG element. `element` is a text with the name
+/// and the attributes of the element, as [`elements`] returns it. Returns NaN if the attribute is
+/// missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let Some((_, rest)) = element.split_once(&format!(" {name}=\"")) else {
         return f64::NAN;

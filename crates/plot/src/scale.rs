@@ -2,8 +2,8 @@
 
 use asperity_data::AxisScale;
 
-/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). The upper
-/// end is above the lower end.
+/// Range of coordinates along an axis. The coordinate of a number is the number itself on a linear
+/// axis, and its decadic logarithm on a logarithmic axis. The upper end is above the lower end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     pub low: f64,

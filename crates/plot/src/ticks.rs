@@ -11,7 +11,8 @@ const PLAIN: RangeInclusive<f64> = -3.5..=4.5;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Coordinate of the tick; see [`ChartAxis::span`](crate::ChartAxis::span).
+    /// Coordinate of the tick: its number on a linear axis, the decadic logarithm of its number on
+    /// a logarithmic axis.
     pub at: f64,
     /// Number or name that is written at the tick; `None` for a minor tick.
     pub label: Option<Label>,

@@ -36,8 +36,9 @@ pub struct EnsembleFitReport<'a> {
     pub fit: &'a EnsembleFit,
     /// True if the user stated a standard error of the rms height or of the Hurst exponent.
     pub has_roughness_errors: bool,
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

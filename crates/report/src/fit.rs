@@ -32,8 +32,9 @@ pub struct FitReport<'a> {
     pub curve: &'a MeasuredCurve,
     /// Fitted parameters of the scene, and how well it describes the curve.
     pub fit: &'a FitResult,
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

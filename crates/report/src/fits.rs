@@ -33,8 +33,8 @@ pub struct CurveRow {
     /// an end of the searched range. This bound is then the lower or the upper end, and the other
     /// two numbers are `None`.
     pub parameters: Vec<[Option<f64>; 3]>,
-    /// Numbers of the curve and of its fit in the order of `FACTS`, in SI units; `None` for an
-    /// unknown number.
+    /// Numbers of the curve and of its fit, such as the pull-off force, in SI units and in the
+    /// order of `FACTS`; `None` for an unknown number.
     pub facts: [Option<f64>; FACTS.len()],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
@@ -277,8 +277,9 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

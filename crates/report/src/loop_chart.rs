@@ -284,13 +284,14 @@ pub struct ForceLoop<'a> {
     pub name: Option<Label>,
     /// True if the names of the marked points in the legend are written without the forces.
     pub without_forces: bool,
-    /// Ink of the whole loop. With `None`, the loading has [`Ink::Loading`], and the unloading has
-    /// [`Ink::Unloading`].
+    /// Meaning of the whole loop, which determines its colour. With `None`, the loading has
+    /// [`Ink::Loading`], and the unloading has [`Ink::Unloading`].
     pub ink: Option<Ink>,
-    /// Stroke of loading and unloading. With `None`, the loading is dotted, and the unloading has
-    /// the stroke [`Self::unloading`].
+    /// Pattern of the lines of loading and unloading. With `None`, the loading is dotted, and the
+    /// unloading has the pattern [`Self::unloading`].
     pub stroke: Option<Stroke>,
-    /// Stroke of the unloading if [`Self::stroke`] is `None`. With `None`, this is a solid line.
+    /// Pattern of the line of the unloading if [`Self::stroke`] is `None`. With `None`, this line
+    /// is solid.
     pub unloading: Option<Stroke>,
 }
 

@@ -28,20 +28,21 @@ pub struct PreloadReport<'a> {
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Quantities [`Results::OF_PRELOADS`] computed so far, for each preload and each profile.
+    /// Results computed so far, such as the adhesion force, for each preload and each profile. The
+    /// quantities are [`Results::OF_PRELOADS`].
     pub results: &'a Results,
     /// Adhesion force of the first profile as a function of the preload; `None` for a report
     /// without a figure.
     pub staircase: Option<&'a Staircase>,
-    /// True if the table has a row for each preload of the [`Self::staircase`]; false if it has a
-    /// row for each preload and each profile.
+    /// True if the table has a row for each preload of the curve in [`Self::staircase`]. False if
+    /// it has a row for each preload and each profile.
     pub curves: bool,
 }
 
 impl<'a> PreloadReport<'a> {
-    /// Returns the figure: the [`preload_chart`], and the [`distribution`] of the adhesion force at
-    /// the largest preload. `None` if there is no [`Self::staircase`]. If `has_values` is true, the
-    /// legend states the values of F_a(d=0) and F_a(F=0).
+    /// Returns the figure of two charts: the adhesion force over the preload, and its distribution
+    /// over the profiles at the largest preload. `None` if there is no [`Self::staircase`]. If
+    /// `has_values` is true, the legend states the values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let staircase = self.staircase?;
         let spread = self.results.spread_of_adhesion();
@@ -261,8 +262,9 @@ impl<'a> StaircaseJson<'a> {
     }
 }
 
-/// Returns a figure of two charts. On the left is `chart`, which is a [`preload_chart`], and on the
-/// right `beside`, which is a [`distribution`].
+/// Returns a figure of two charts. On the left is `chart`, the adhesion force over the preload (see
+/// [`preload_chart`]). On the right is `beside`, the distribution of the adhesion force over the
+/// profiles (see [`distribution`]).
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);

@@ -30,8 +30,9 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 
@@ -60,8 +61,8 @@ const LONG: f64 = 10.0;
 /// computed.
 const LEAST_SHARE: f64 = 0.02;
 
-/// Progress of a comparison of a scene with three dimensions, in words. Such a comparison computes
-/// the contact of several random rough squares.
+/// Progress, in words, of the comparison of a scene on profiles with the same scene in three
+/// dimensions. Such a comparison computes the contact of several random rough squares.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -222,9 +223,10 @@ fn error_sentence(reference: &Reference) -> String {
     }
 }
 
-/// Returns in words the difference between the results with profiles and in three dimensions, with
-/// its interval and with the compared waves: `line against three dimensions, +4 ± 45 %`. Returns
-/// `None` if the difference is unknown.
+/// Returns in words the relative difference between the results with profiles and in three
+/// dimensions, with its 95 % interval: `line against three dimensions, +4 ± 45 %`. If the squares
+/// lack waves of the scene, the words also state which waves are compared. Returns `None` if the
+/// difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
@@ -259,8 +261,9 @@ pub fn model_words(reference: &Reference) -> String {
     }
 }
 
-/// Returns which waves are compared, for example `, of waves 4 to 8 of 4 to 3 200`, if the squares
-/// do not have all waves of the scene; otherwise an empty text.
+/// Returns which waves are compared if the squares lack waves of the scene; otherwise an empty
+/// text. The waves are given by their numbers of periods over the length, for example
+/// `, of waves 4 to 8 of 4 to 3 200`.
 pub fn omitted_waves(reference: &Reference) -> String {
     let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
         return String::new();

@@ -29,8 +29,8 @@ pub struct ReversalReport<'a> {
     pub scene: &'a Scene,
     /// Force F(d_r, d) along the unloading from each turning point d_r.
     pub map: &'a ReversalMap,
-    /// Adhesion force as a function of the preload, with the quantities [`Results::OF_PRELOADS`];
-    /// `None` if no preload presses the bodies together.
+    /// Adhesion force and other quantities of the unloading ([`Results::OF_PRELOADS`]) as functions
+    /// of the preload; `None` if no preload presses the bodies together.
     pub preloads: Option<&'a Results>,
     /// Adhesion force of one profile as a function of the preload, for the figure; `None` for a
     /// figure without this curve.
@@ -167,7 +167,8 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
 }
 
 /// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the
-/// turning point d_r. [`ReversalReport`] defines the function.
+/// turning point d_r. The function is half the force at the turning point minus half the force at d
+/// on the unloading from there.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     let points = drawn_indices(map.points.len());
     let turns = drawn_indices(map.reversals.len());

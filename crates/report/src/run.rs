@@ -37,8 +37,9 @@ pub struct RunReport<'a> {
     /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
     /// if it was not computed.
     pub deviation: Option<f64>,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`](asperity_data::Remedy), a step
+    /// that removes the cause of an error or a warning. The words name an option of the command
+    /// line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 

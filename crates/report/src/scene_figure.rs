@@ -54,8 +54,8 @@ pub struct ContactSets {
 }
 
 impl ContactSets {
-    /// Begins a collection without patches. [`Self::patches_figure`] is only possible if
-    /// `over_indentation` is true.
+    /// Begins a collection without patches. If `over_indentation` is true, the patches at many
+    /// indentations are collected, which [`Self::patches_figure`] needs.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets {
             over_indentation,

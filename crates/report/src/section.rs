@@ -35,7 +35,7 @@ pub struct Part {
 /// Largest number of columns with which a profile is drawn in the picture of a file.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`]
+/// Lowest and highest point of a profile in each column of a chart. [`SectionContact::section`]
 /// stores these points, because its next call often needs them again.
 #[derive(Default)]
 pub struct LineColumns {
@@ -152,8 +152,8 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the index range of each patch within the range `springs`, that is, of neighbouring
-    /// springs in contact.
+    /// Returns the patches, each an index range of neighbouring springs in contact, as far as they
+    /// lie in the range `springs`.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = springs;
         let first = self.patches.partition_point(|patch| patch.last < start);

@@ -558,7 +558,8 @@ mod tests {
         }
     }
 
-    /// Results over H and κ, as a map of two quantities. Some cells are missing.
+    /// Returns a study with the axes H and κ, so that its results are drawn as a map. Some cells
+    /// are missing.
     fn phase_map() -> Study {
         let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
         let places = kappas().values;

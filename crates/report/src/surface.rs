@@ -60,8 +60,9 @@ pub struct SurfaceReport {
     /// profiles; `None` if the user has not asked for the adhesion. The second value is `None` if
     /// the adhesion was not computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
-    /// Function that states a [`Remedy`] in words: as an option of the
-    /// command line, a row of the explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
+    /// of an error or a warning. The words name an option of the command line, a row of the
+    /// explorer or an argument of Python.
     pub wording: Wording,
 }
 

@@ -23,7 +23,8 @@ pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> 
 }
 
 /// Returns texts on the premises that are not met in some of `records` records of a study:
-/// `On 12 of 16 records: ` and then the warning, as in [`counted_texts`].
+/// `On 12 of 16 records: ` and then the warning. If a premise is met in none of the records, the
+/// number is left out.
 pub fn counted_record_texts(warnings: &[CountedWarning], records: u64) -> Vec<String> {
     texts_with_shares(warnings, records, "records")
 }

@@ -59,8 +59,8 @@ pub enum Spacing {
 /// Axis of a study: a quantity of the scene that the study varies, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names
-    /// in [`Axis::DERIVED`].
+    /// Path of the field of the scene that varies, such as `roughness.hurst`. For a quantity
+    /// without a field, this is one of the names [`Axis::DERIVED`], such as `preload`.
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
@@ -78,10 +78,10 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although a scene has no field for them. They
-    /// are `preload` (in units of E* h L), `preload_in_N` and `springs_per_wave` (number of springs
-    /// per shortest wave of the roughness). E* is the effective modulus, h the rms height and L the
-    /// length of the profile.
+    /// Quantities that an axis may vary although a scene has no field for them: `preload` (in units
+    /// of E* h L), `preload_in_N`, and `springs_per_wave` (number of springs per shortest wave of
+    /// the roughness). E* is the effective modulus, h the rms height and L the length of the
+    /// profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
     /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The
@@ -289,9 +289,9 @@ impl Axis {
         )
     }
 
-    /// Returns the value of the axis that is `steps` places after `value`, or before `value` if
-    /// `steps` is negative. If the axis has fewer values in this direction, its last value in this
-    /// direction is returned; if it has none, `None`. The values of the axis must ascend.
+    /// Returns the value of the axis that lies `steps` values after `value`, or before `value` if
+    /// `steps` is negative. The values of the axis must ascend. If there are fewer values in this
+    /// direction, the last of them is returned. If there is none, `None` is returned.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let values = &self.values;
         let apart = APART * value.abs();
@@ -395,7 +395,7 @@ fn nearest_path(path: &str) -> String {
 }
 
 impl Target {
-    /// Returns the quantity at a path.
+    /// Returns the quantity that a path names, such as `roughness.hurst` or `preload`.
     ///
     /// # Errors
     /// Returns an error with the nearest path if no number has this path.
@@ -426,7 +426,8 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// Returns the parameter if the quantity is κ or e_el/γ, which replaces a work of adhesion.
+    /// Returns κ or e_el/γ if the quantity is one of these parameters; otherwise `None`. A scene
+    /// may state such a parameter in place of a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),

@@ -29,11 +29,12 @@ const RESAMPLING_SEED: u64 = 2012;
 /// the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
-    /// Values on the axes of the study other than κ or e_el/γ, in the order of
+    /// Values on the axes of the study other than κ or e_el/γ, one for each axis in
     /// [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the
-    /// loading turns at first touch, or F_a(F=0)/F_a,max if it turns at zero force.
+    /// Quantity whose mean over the profiles decides whether adhesion has vanished:
+    /// F_a(d=0)/F_a,max if the loading turns at first touch, or F_a(F=0)/F_a,max if it turns at
+    /// zero force.
     pub protocol: Quantity,
     /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -41,8 +42,8 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random
-/// profiles stays below [`AdhesionBoundary::level`].
+/// Value of κ or e_el/γ at which adhesion vanishes. For all larger values, the mean adhesion force
+/// over the random profiles is below a given share of F_a,max, [`AdhesionBoundary::level`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary
@@ -51,8 +52,9 @@ pub struct Crossing {
     /// Position of the boundary: `Equal` within the studied range, `Less` below this range,
     /// `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` for fewer than two
-    /// profiles, or if the scatter of the profiles allows a boundary beyond the studied range.
+    /// Ends of the 95 % confidence interval of the boundary [`Crossing::value`]. `None` for fewer
+    /// than two profiles, or if the scatter of the profiles allows a boundary beyond the studied
+    /// range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -68,8 +70,8 @@ impl Crossing {
         }
     }
 
-    /// Returns [`Crossing::value`] with its 95 % confidence interval; `None` if the boundary lies
-    /// beyond the studied range.
+    /// Returns the value of κ or e_el/γ at the boundary, with its 95 % confidence interval; `None`
+    /// if the boundary lies beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
@@ -84,8 +86,9 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries: at most one for each combination of values on [`Boundaries::others`], turning
-    /// point of the loading and share of F_a,max.
+    /// Boundaries that were found. There is at most one for each combination of three choices:
+    /// values on the axes [`Boundaries::others`], turning point of the loading, and share of
+    /// F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -153,8 +156,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or
-    /// `zero force`.
+    /// Returns in words the point at which the loading turns, `first touch` or `zero force`. The
+    /// boundary is that of the adhesion after this turn.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"
@@ -165,14 +168,15 @@ impl AdhesionBoundary {
 }
 
 impl Boundaries {
-    /// Usual values of [`AdhesionBoundary::level`]: shares of F_a,max below which adhesion counts
-    /// as vanished.
+    /// Shares of F_a,max below which adhesion usually counts as vanished, for the argument `levels`
+    /// of [`Boundaries::of`].
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
     /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the
     /// folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has written
     /// the tables. `over` is the parameter, κ or e_el/γ, in which the boundaries are returned.
-    /// `levels` has one or several [`AdhesionBoundary::level`].
+    /// `levels` are the shares of the ideal adhesion force F_a,max below which adhesion counts as
+    /// vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither

@@ -21,9 +21,10 @@ pub struct Budget {
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a
     /// measured surface.
     pub surface: Option<f64>,
-    /// Smallest error of the model that a comparison with three dimensions shows: the relative
-    /// difference between the mean adhesion force on profiles and on the same bodies in three
-    /// dimensions, as far as it exceeds the errors of the sample and of the grid of these bodies.
+    /// Lower bound of the error of the model, from a comparison with bodies in three dimensions.
+    /// The comparison gives the relative difference between the mean adhesion force on profiles and
+    /// on these bodies. The bound is the part of this difference that exceeds the errors of the
+    /// sample and of the grid of the bodies.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`;
     /// `None` if no error is known, or if a premise of the model does not hold, which may cause a
@@ -32,10 +33,10 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not
-    /// above zero. `estimate` gives [`Budget::grid`], and `ensemble` gives [`Budget::sample`].
-    /// `deviation` is the standard deviation of the adhesion force in N due to the uncertainty of
-    /// the spectrum of a measured surface.
+    /// Collects the errors of the adhesion force of a computed scene; `None` if this force is not
+    /// above zero. `estimate` gives the error due to the number of springs, and `ensemble` the
+    /// error due to the number of profiles. `deviation` is the standard deviation of the adhesion
+    /// force in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,

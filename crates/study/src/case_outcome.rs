@@ -9,7 +9,7 @@ use asperity_scene::{Governing, Regime, Scene};
 
 /// Outcome of one loading on one profile. A result that the loading does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
-    /// Governing parameters.
+    /// Governing parameters of the computed scene, such as κ.
     pub governing: Governing,
     /// Properties of the profile, which are computed if a study records them.
     pub profile: ProfileRecord,

@@ -32,7 +32,7 @@ pub(super) struct Cells<'p> {
 
 /// All cells of a plan that differ only in the preload, on one profile, computed with one loading.
 pub(super) struct Streak {
-    /// Cells of the streak, one for each preload.
+    /// Cells of the streak, one for each preload. A cell is one combination of values on the axes.
     pub cells: Range<u64>,
     /// Index of the profile, counted from 0.
     pub line: u64,
@@ -64,13 +64,17 @@ impl<'p> Cells<'p> {
         }
     }
 
-    /// Returns the number of units.
+    /// Returns the number of units. A unit is the work that one thread does on one random profile
+    /// with the same roughness.
     pub fn units(&self) -> u64 {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// Returns the streaks of a unit, in an order in which few parts of the profile have to be made
-    /// again. Units with the same spectrum are consecutive.
+    /// Returns the streaks of the unit number `unit`. A streak consists of all cells of the plan
+    /// that differ only in the preload, on one random profile. A unit is the part of the plan that
+    /// one thread computes on such a profile. The streaks are ordered so that as little of the
+    /// profile as possible is computed again from one streak to the next. Units with the same
+    /// spectrum have consecutive numbers.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let start = unit % self.chunks * self.chunk;
         let group_and_line = unit / self.chunks;

@@ -21,15 +21,17 @@ pub struct Compared {
     /// Mean of the quantity over the profiles divided by its mean over the square surfaces.
     pub ratio: f64,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t;
-    /// `None` for fewer than two profiles or squares.
+    /// `None` for fewer than two profiles or square surfaces.
     pub error: Option<f64>,
-    /// Relative difference between the mean over the squares and the mean over the same squares
-    /// with half as many grid cells along the side; `None` if half as many cells are too few.
+    /// Relative error of the mean over the square surfaces due to their grid: its difference from
+    /// the mean over the same surfaces with half as many grid cells along the side. `None` if half
+    /// as many cells are too few.
     pub grid: Option<f64>,
 }
 
 impl Compared {
-    /// Returns the difference between the ratio and 1.
+    /// Returns [`Compared::ratio`] − 1, the relative difference between the mean over the profiles
+    /// and the mean over the square surfaces.
     pub fn difference(&self) -> f64 {
         self.ratio - 1.0
     }
@@ -48,8 +50,8 @@ pub(super) struct Values {
 }
 
 impl Values {
-    /// Compares the statistics over profiles and squares and the ratio of their means; `None` if
-    /// there are no values.
+    /// Returns the statistics of the values over profiles and over square surfaces, with the ratio
+    /// of the two means; `None` if there are no values.
     pub fn compared(self) -> Option<Compared> {
         let bounds = Quantity::AdhesionForce.bounds();
         let grid = self.grid_error();

@@ -30,9 +30,9 @@ const ROUNDING: f64 = 1e-9;
 
 impl Reference {
     /// Compares the contact of a checked scene on random profiles with its contact on random square
-    /// surfaces in three dimensions. `simulation` has the folder of the measured files of the
-    /// scene. `control` receives each event. Only the computing times depend on the number of
-    /// threads.
+    /// surfaces in three dimensions. `simulation` finds the measured files of the scene in their
+    /// folder. `control` receives each event. The number of threads changes only the computing
+    /// times, not the results.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no body in three dimensions

@@ -22,17 +22,19 @@ use std::thread::Builder;
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
-    /// For each cell with such warnings, its number and the premises of the model that it does not
-    /// meet.
+    /// Premises of the model that cells of the streak do not meet: the number of each such cell,
+    /// with its premises.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
 /// Streaks of a plan, with what is needed to compute those that are missing.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
-    /// Numbers of the units of the plan that are to be computed.
+    /// Numbers of the units that are to be computed. A unit is the part of the plan that one thread
+    /// computes on one random profile.
     pub units: &'a [u64],
-    /// Returns true for a streak of which at least one record is missing and has to be computed.
+    /// Function that returns true if at least one record of a streak is missing, so that the streak
+    /// has to be computed. A streak consists of all cells that differ only in the preload.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
     /// Measured roughness of the plan, if it has one. The files are read once, so that all threads
     /// compute from the same bytes.
@@ -40,9 +42,10 @@ pub(super) struct Streaks<'a> {
 }
 
 impl Streaks<'_> {
-    /// Computes the missing streaks on `threads` threads. The computation ends when `stop` returns
-    /// true after a streak, or when `receive` returns false. `receive` is called with each computed
-    /// streak on the thread that computed it.
+    /// Computes the missing streaks on `threads` threads. A streak consists of all cells that
+    /// differ only in the preload, on one profile. `receive` is called with each computed streak,
+    /// on the thread that computed the streak. The computation ends early if `stop` returns true
+    /// after a streak, or if `receive` returns false.
     ///
     /// # Errors
     /// Returns an error if the memory does not suffice for a record.
@@ -92,8 +95,8 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes a plan in memory: the recorded quantities for each combination of values on the axes (a
-/// [cell](Plan)), on each random profile. If a cell cannot be computed on a profile,
+/// Computes a plan in memory. The recorded quantities are computed for each combination of values
+/// on the axes, a [cell](Plan), on each random profile. If a cell cannot be computed on a profile,
 /// [`Results::failed`] has the reason. `control` reports how many pairs of a cell and a profile are
 /// computed.
 ///
@@ -128,12 +131,13 @@ pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError>
     compute_on(plan, measured, control)
 }
 
-/// Computes a plan in memory as [`compute`] does. The given measured roughness replaces the files
-/// that the scene names.
+/// Computes a plan in memory, as [`compute`] does, with a measured roughness that the caller has
+/// read. This roughness replaces the files that the scene names.
 ///
 /// # Errors
-/// Returns the same errors as [`compute`]. An axis of an option of the files, such as
-/// `roughness.row`, is an error too, because a measured roughness in memory has no such option.
+/// Returns the same errors as [`compute`]. It is also an error if an axis varies an option for
+/// reading files, such as `roughness.row`, because a measured roughness in memory has no such
+/// option.
 pub fn compute_with_measured(
     plan: &Plan,
     measured: Arc<MeasuredRoughness>,

@@ -42,8 +42,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the number of waves that belongs to a value, or the value itself if whole numbers
-    /// are allowed; `None` if any value is allowed.
+    /// Returns the number of waves on the length that follows from a value of the searched number.
+    /// If whole numbers are allowed, returns the value itself. `None` if any value is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -146,8 +146,8 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Creates coordinates on a scale. If the range begins at or below zero, the scale is linear.
-    /// Returns `None` if the range contains no allowed number.
+    /// Creates coordinates on a linear or logarithmic scale. If the range begins at or below zero,
+    /// the scale is linear. Returns `None` if the range contains no allowed number.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
         let scale = if ends[0] > 0.0 {
@@ -212,9 +212,9 @@ impl Coordinates {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Returns the difference in coordinates of two numbers that differ by the share `share` of
-    /// themselves. The numbers are near that one of the coordinates `places` that is farther from
-    /// zero.
+    /// Converts a relative difference of numbers to a difference of coordinates. `share` is the
+    /// difference of two numbers divided by their size. `places` are two numbers of the range, and
+    /// the difference is taken near the number with the larger magnitude.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {

@@ -17,13 +17,14 @@ pub struct Criterion {
     /// Value of the number that is compared with [`Criterion::threshold`]; `None` if the scene does
     /// not determine this number.
     pub value: Option<f64>,
-    /// Value of [`Criterion::value`] at which [`Criterion::sticks`] changes.
+    /// Value that separates bodies that adhere without a preload from bodies that do not. It is
+    /// compared with [`Criterion::value`].
     pub threshold: f64,
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory
     /// are not met, or if the number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why [`Criterion::sticks`] is `None`, or a remark on how [`Criterion::value`] was
-    /// computed.
+    /// Reason why there is no verdict [`Criterion::sticks`], or a remark on how
+    /// [`Criterion::value`] was computed.
     pub reason: Option<String>,
 }
 

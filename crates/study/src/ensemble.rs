@@ -33,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table with one row for each profile shows in addition to
+    /// Quantities that a table with one row for each profile shows after the quantities
     /// [`Ensemble::NUMBERS`].
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
@@ -50,9 +50,9 @@ impl Ensemble {
         if several { Ensemble::PROFILES } else { 1 }
     }
 
-    /// Computes a checked scene on `profiles` random profiles. The recorded quantities are
-    /// [`Ensemble::NUMBERS`], `further` and [`Quantity::REGIMES`]. `control` reports the ensemble
-    /// of the profiles computed so far after each profile.
+    /// Computes a checked scene on `profiles` random profiles. Recorded are the main results
+    /// ([`Ensemble::NUMBERS`]), the quantities `further`, and the regimes of adhesion. After each
+    /// profile, `control` reports the ensemble of the profiles computed so far.
     ///
     /// # Errors
     /// Returns an error if zero profiles or zero threads are requested, if several profiles are
@@ -135,8 +135,9 @@ impl Ensemble {
         self.results.warnings(0)
     }
 
-    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
-    /// [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
+    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
+    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

@@ -77,8 +77,8 @@ pub enum StudyError {
         /// The two files whose results differ.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for this number of records. [`Plan`](crate::Plan) explains what
-    /// a record is.
+    /// The memory does not suffice for this number of records. A record has the recorded quantities
+    /// for one combination of values on the axes, on one random profile.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
     /// The study needs more memory on the requested number of threads than the system provides.

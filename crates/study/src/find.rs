@@ -32,8 +32,8 @@ pub struct Found {
     /// could be computed with all searched values.
     pub refused: Option<String>,
     /// Premises of the model that the profiles do not meet, each with the number of these profiles.
-    /// The scene has the median answer or, if there is no median answer, is the scene of the
-    /// question.
+    /// The premises are checked on the scene in which the number has its median answer. If there is
+    /// no median answer, they are checked on the scene of the question.
     pub warnings: Vec<CountedWarning>,
 }
 
@@ -168,9 +168,9 @@ impl Found {
         Err(question.refused(&found, "a number that changes the quantity"))
     }
 
-    /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the
-    /// number; `None` for a profile without a crossing. If a preload is sought and the smallest
-    /// searched preload suffices to reach the target, this preload is returned.
+    /// Returns for each profile the smallest number at which the quantity crosses the target, in SI
+    /// units; `None` for a profile without a crossing in the searched range. If a preload is sought
+    /// and the smallest searched preload already reaches the target, this preload is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers
             .iter()
@@ -178,13 +178,15 @@ impl Found {
             .collect()
     }
 
-    /// Returns the number of profiles without a value in [`Found::values`].
+    /// Returns the number of profiles on which the quantity does not cross the target in the
+    /// searched range.
     pub fn unreached(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }
 
-    /// Returns the smallest and the largest value of the quantity in [`Answer::reachable`] of all
-    /// profiles; `None` if the quantity has no value on any profile.
+    /// Returns the smallest and the largest value of the quantity on all profiles, among the
+    /// numbers at which the quantity was computed. `None` if the quantity has no value on any
+    /// profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let mut reachable: Option<(f64, f64)> = None;
         for (low, high) in self.answers.iter().filter_map(|answer| answer.reachable) {
@@ -217,10 +219,12 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share`
-    /// of 0.5. A profile without a value counts as beyond the searched range. If only some values
-    /// are allowed, such as whole numbers or lengths with a whole number of waves, the nearest
-    /// allowed value is returned. Returns `None` if the quantile lies beyond the searched range.
+    /// Returns a quantile over all profiles of the number at which the quantity crosses the target,
+    /// such as the median for a `share` of 0.5. A profile without a crossing counts as beyond the
+    /// searched range. Returns `None` if the quantile lies beyond this range.
+    ///
+    /// If only some values of the number are allowed, such as whole numbers or lengths with a whole
+    /// number of waves, the nearest allowed value is returned.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         // A quantile interpolated between a finite and an infinite value is not finite.
         let value = quantile(&self.ascending(), share).filter(|value| value.is_finite())?;
@@ -228,8 +232,8 @@ impl Found {
         Some(self.question.allowed().nearest(value))
     }
 
-    /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile
-    /// has a value.
+    /// Returns the smallest and the largest number over the profiles at which the quantity crosses
+    /// the target, in SI units; `None` if no profile has such a number.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values: Vec<f64> = self.values().into_iter().flatten().collect();
         let least = values.iter().copied().reduce(f64::min)?;
@@ -624,8 +628,9 @@ mod tests {
                 && force(preload) == stair
                 && force(preload * (1.0 - 4.0 * WITHIN)) < stair
         );
-        // The answer depends on the searched range: it may lie below the step, above the step with
-        // the same F_a, or above the next step.
+        // The answer depends on the searched range. In a range below the step of F_a, there is no
+        // answer. In a range from the step on, or above it, the answer is the smallest searched
+        // preload, because F_a reaches the target there.
         assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
         assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
         let above = ask(Some((1e-3, 2e-3)));

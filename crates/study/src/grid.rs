@@ -9,22 +9,23 @@ use asperity_scene::{Regime, RoughnessParameter};
 /// A mean counts as small if it is less than the largest mean divided by this number.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value
-/// on the vertical axis.
+/// Results of a study in one cell of a [`Grid`]. A cell belongs to one value on the horizontal axis
+/// and one value on the vertical axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
     /// Statistics over the random profiles for each quantity of the grid, in the order of
     /// [`Grid::layers`]; `None` if the quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for
-    /// [`Quantity::RegimeAfterZeroForce`].
+    /// Number of profiles in each regime of adhesion, counted twice: first with the regime that
+    /// follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows from
+    /// F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime: the regime
-    /// [`Quantity::RegimeAfterZeroForce`] if `quantity` is this regime, otherwise
-    /// [`Quantity::Regime`].
+    /// Returns the number of profiles in each regime of adhesion. The regime follows from F_a(F=0)
+    /// if `quantity` is [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other
+    /// quantity.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -93,20 +94,20 @@ pub struct Grid {
     /// Values on all other axes of the study, which are the same in the whole grid, as text such as
     /// `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the
-    /// profiles in each regime.
+    /// Quantities that the grid shows, except regimes. For regimes, [`GridCell::regimes`] has the
+    /// number of profiles in each regime.
     pub layers: Vec<GridLayer>,
     /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
     /// computed. An error states why a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
-    /// For each cell, the index of the cell whose results are shown in its place: its own index or,
-    /// until it is computed, that of a cell of a coarser grid.
+    /// For each cell, the index of the cell whose results are shown in its place. This is its own
+    /// index or, until the cell is computed, the index of a cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates a grid from its axes, fixed values, layers and cells, as the fields of [`Grid`]
-    /// describe them.
+    /// Creates a grid from its axes, fixed values, layers and cells. The fields of [`Grid`] with
+    /// the same names describe these arguments.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -161,9 +162,10 @@ impl Grid {
             .any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the
-    /// row of this cell. An incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell
-    /// nearby in place of a missing one. `None` if the map shows no cell there.
+    /// Returns the [cell](GridCell) that a map shows at a column and a row, with the column and the
+    /// row to which this cell belongs. An incomplete [`LiveMap`](crate::maps::LiveMap) shows a
+    /// computed cell nearby in place of a missing cell, so that the returned column and row may
+    /// differ from the given ones. `None` if the map shows no cell there.
     pub fn shown(
         &self,
         column: usize,
@@ -188,11 +190,13 @@ impl Grid {
     }
 
     /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is
-    /// true, a cell that is not computed yet has the statistics of the cell that [`Grid::shown`]
-    /// returns for it. If the quantity is a regime, its value in a cell is the most frequent
-    /// regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer than
-    /// three quarters of the profiles are in this regime, the value is halfway between the values
-    /// of the two most frequent regimes.
+    /// true, a cell that is not computed yet gets the statistics of the computed cell nearby that a
+    /// map shows in its place.
+    ///
+    /// If the quantity is a regime, its value in a cell is the most frequent regime: 0
+    /// (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer than three
+    /// quarters of the profiles are in this regime, the value is halfway between the values of the
+    /// two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self
             .layers
@@ -207,10 +211,11 @@ impl Grid {
         cells.map(|cell| cell?.statistics[layer?]).collect()
     }
 
-    /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is
-    /// known in any cell. `quantity` chooses the regime as in [`GridCell::regimes_of`]. If `whole`
-    /// is true, a cell that is not computed yet has the regime of the cell that [`Grid::shown`]
-    /// returns for it.
+    /// Returns the most frequent regime of each [cell](GridCell), row by row. The list is empty if
+    /// no regime is known in any cell. The regime follows from F_a(F=0) if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity. If `whole` is
+    /// true, a cell that is not computed yet gets the regime of the computed cell nearby that a map
+    /// shows in its place.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let mut regimes = Vec::new();
         for cell in self.each(whole) {
@@ -244,8 +249,9 @@ impl Grid {
         (column, row)
     }
 
-    /// Returns what [`Grid::shown`] returns for the [cell](GridCell) nearest to a place. If the
-    /// place lies beyond the grid, this cell is at the edge of the grid.
+    /// Returns the [cell](GridCell) that a map shows nearest to a place, with the column and the
+    /// row to which this cell belongs. If the place lies beyond the grid, this cell is at the edge
+    /// of the grid. `None` if the map shows no cell there.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let (columns, rows) = self.size();

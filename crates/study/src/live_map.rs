@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a [`LiveMap`]: the values on the two axes for which the map is computed.
+/// Resolution of a [`LiveMap`]: how many values each of its two axes has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 values of κ or e_el/γ and 5 values of H.
@@ -92,8 +92,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the [cells](Plan) that belong to a [`Level`], in groups of cells with
-    /// the same value of H.
+    /// Returns the numbers of the [cells](Plan) that a map of this resolution contains, in groups
+    /// of cells with the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let parameters = level.places_on(plan, 0);
@@ -131,8 +131,8 @@ impl LiveMap {
             .all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no
-    /// such level.
+    /// Returns the finest resolution at which no [cell](Plan) of the map is left to compute; `None`
+    /// if the map is not complete at any resolution.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }

@@ -60,8 +60,8 @@ impl Plan {
     /// [`LiveMap`](crate::maps::LiveMap) of a scene with self-affine roughness.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. Its axes are κ
-    /// and, if the roughness has a Hurst exponent H, also H.
+    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. The axes of the
+    /// plan are κ and, if the roughness of the scene has a Hurst exponent H, also H.
     ///
     /// # Errors
     /// Returns an error with the reason if the scene has no map, for example because the body is

@@ -31,10 +31,10 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the
-    /// fit and computed to first order. It is limited so that the changed force is between zero and
-    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
-    /// change.
+    /// Change of F_a in N for one random change of the spectrum. The change of the spectrum is
+    /// drawn from the uncertainty of the fit, and the change of F_a is computed to first order. It
+    /// is limited so that the changed force is between zero and [`ProfileAdhesion::largest_force`].
+    /// `None` if there is no adhesion force before or after the change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
     /// is unknown.
@@ -103,8 +103,8 @@ fn run_on(
 pub struct MeasuredAdhesion {
     /// Adhesion of each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
-    /// True if the error of the elastic energy of the spectrum is at most as large as the energy
-    /// itself. Otherwise the uncertainty of the force due to the spectrum is not known.
+    /// True if the uncertainty of the force due to the spectrum is known. It is known if the error
+    /// of the elastic energy of the spectrum is at most as large as this energy.
     pub is_fit_known: bool,
 }
 
@@ -180,13 +180,14 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, control)
     }
 
-    /// Largest number of springs of a scene that [`MeasuredAdhesion::quick_deviation`] computes.
+    /// Largest number of springs of a scene for which [`MeasuredAdhesion::quick_deviation`]
+    /// computes a deviation.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
-    /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
-    /// [`MeasuredAdhesion::fit_deviation`] in N. `None` if the scene has more than
-    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, does not make random profiles from a measured
-    /// surface, or cannot be computed.
+    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
+    /// measured spectrum, computed on `count` random profiles of a scene. `None` if the scene has
+    /// more than [`MeasuredAdhesion::MOST_SPRINGS`] springs, does not make random profiles from a
+    /// measured surface, or cannot be computed.
     ///
     /// # Errors
     /// Returns an error if `control` stops the computation.
@@ -205,8 +206,9 @@ impl MeasuredAdhesion {
         }
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as
-    /// [`MeasuredAdhesion::of`] does. `control` reports the number of computed profiles.
+    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of `line`. The
+    /// first profile has the seed of the scene, and the others have the seeds that follow.
+    /// `control` reports the number of computed profiles.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed, or if `control` stops the computation.
@@ -260,9 +262,10 @@ impl MeasuredAdhesion {
         rms(changes.flatten())
     }
 
-    /// Returns two forces in N, the median adhesion force minus and plus
-    /// [`MeasuredAdhesion::fit_deviation`], limited to forces from zero to
-    /// [`MeasuredAdhesion::largest_force`]. `None` without a deviation.
+    /// Returns the median adhesion force in N minus and plus its standard deviation due to the
+    /// uncertainty of the spectrum, [`MeasuredAdhesion::fit_deviation`]. Both forces are limited to
+    /// the range from zero to [`MeasuredAdhesion::largest_force`]. `None` if the deviation is
+    /// unknown.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let deviation = self.fit_deviation()?;
         let median = self.adhesion_force()?.quartiles[1];
@@ -272,8 +275,9 @@ impl MeasuredAdhesion {
         Some((low, high))
     }
 
-    /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
-    /// [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
+    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
+    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let after_touch = self.profiles.iter().map(|profile| profile.regime);
         let after_zero_force = self

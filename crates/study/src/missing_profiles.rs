@@ -11,7 +11,7 @@ use asperity_scene::{RunError, Simulation};
 /// Profiles of a plan that are not computed yet. Each of them is computed in all cells of the plan.
 pub(super) struct MissingProfiles {
     pub plan: Plan,
-    /// Indices of the profiles.
+    /// Indices of the random profiles that are to be computed, from 0.
     pub lines: Vec<u64>,
     /// What happens if a cell cannot be computed.
     pub failures: Failures,
@@ -30,8 +30,8 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// For each cell with such warnings, its number and the premises of the model that it does not
-    /// meet.
+    /// Premises of the model that cells do not meet on this profile: the number of each such cell,
+    /// with its premises.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 

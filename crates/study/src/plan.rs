@@ -58,8 +58,8 @@ pub struct Plan {
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
-    /// Seed of the first random profile. The other profiles have the next seeds. All [cells](Plan)
-    /// have the same seeds.
+    /// Seed of the first random profile. The other profiles have the seeds that follow. All
+    /// [cells](Plan) have the same seeds.
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,

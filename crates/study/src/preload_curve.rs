@@ -41,9 +41,10 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the
-    /// preloads, linear or logarithmic. If `begun` is an incomplete curve on the same scale, only
-    /// the missing parts are computed. `control` reports the curve so far after each part.
+    /// Computes the adhesion force as a function of the preload for a scene whose outcome is
+    /// already known. `scale` is the scale of the preloads, linear or logarithmic. If `begun` is an
+    /// incomplete curve on the same scale, only its missing parts are computed. `control` reports
+    /// the curve so far after each part.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no adhesion or no stage
@@ -112,8 +113,8 @@ impl PreloadCurve {
         })
     }
 
-    /// Returns true if the curve is complete: the staircase, and all [`PreloadCurve::PROFILES`]
-    /// random profiles.
+    /// Returns true if the curve is complete for the scene's own profile and for all
+    /// [`PreloadCurve::PROFILES`] random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
@@ -123,9 +124,9 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns the statistics over the computed profiles of the adhesion force in N after a preload
-    /// in N. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two profiles
-    /// are computed.
+    /// Returns the statistics of the adhesion force in N after a preload in N, over the computed
+    /// profiles. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two
+    /// profiles are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         for (place, statistics) in self.results.spread_of_adhesion() {
             if (place - preload).abs() <= SAME * preload.abs() {

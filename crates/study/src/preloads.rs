@@ -147,7 +147,7 @@ impl Axis {
 /// preloads it jumps to a larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
-    /// Scale, linear or logarithmic, of the axis of preloads for which the staircase was computed.
+    /// Scale, linear or logarithmic, of the axis of preloads.
     pub scale: AxisScale,
     /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first
     /// touch.
@@ -160,10 +160,10 @@ pub struct Staircase {
 }
 
 impl Staircase {
-    /// Computes the staircase of a checked scene at the preloads in N of an axis. Further preloads
-    /// are added until each step lies between two preloads that are at most 1/2048 of the axis
-    /// apart, on the scale of the axis. `control` reports the staircase at the preloads of the
-    /// axis, and again after each refinement.
+    /// Computes the adhesion force of a checked scene at the preloads in N of an axis. Further
+    /// preloads are then added, until every jump of the adhesion force lies between two preloads
+    /// that differ by at most 1/2048 of the axis, on the scale of the axis. `control` reports the
+    /// staircase at the preloads of the axis, and again after each refinement.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of
@@ -223,8 +223,8 @@ impl Staircase {
         Ok(staircase)
     }
 
-    /// Returns true if every step is known to lie between two preloads that are at most 1/2048 of
-    /// the axis of preloads apart, on the scale of the axis.
+    /// Returns true if every jump of the adhesion force is known to lie between two preloads that
+    /// differ by at most 1/2048 of the axis of preloads, on the scale of the axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }

@@ -55,8 +55,9 @@ pub fn warnings_on_profiles(
     Ok(counted)
 }
 
-/// Returns the premises of the model that the unloading from the deepest turning point of a map
-/// does not meet, and those that the scene does not meet on its own profile.
+/// Returns the premises of the model that are not met by the unloading from the deepest turning
+/// point of `map`, or by the scene on its own profile. The map has the unloadings of the scene from
+/// many turning points.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene cannot be made.

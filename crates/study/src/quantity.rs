@@ -207,9 +207,9 @@ impl Quantity {
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns where the loading turns for the regimes that are shown on a map of this quantity:
-    /// `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and `turned at first touch`
-    /// for any other quantity.
+    /// Returns in words where the loading turns. The regimes on a map of this quantity are those
+    /// after this turn: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and
+    /// `turned at first touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "turned at zero force"
@@ -218,8 +218,8 @@ impl Quantity {
         }
     }
 
-    /// Returns the text of [`Quantity::protocol`] in short: `F=0` for zero force, `d=0` for first
-    /// touch.
+    /// Returns a short text for the point at which the loading turns: `F=0` for zero force, `d=0`
+    /// for first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "F=0"

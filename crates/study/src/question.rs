@@ -80,8 +80,8 @@ pub struct Answer {
     pub may_miss: bool,
     /// True if the crossings follow from a proof: the quantity is monotonic, or is known in closed
     /// form, or was computed at all allowed numbers. Otherwise the quantity was computed only at
-    /// [`Answer::tried`] numbers. Two crossings are then missed if the quantity passes the target
-    /// and comes back between two neighbouring numbers.
+    /// some numbers. Two crossings are then missed if the quantity passes the target and comes back
+    /// between two neighbouring numbers.
     pub is_proven: bool,
     /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
@@ -151,12 +151,14 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes the question at which value of the number at `path` a quantity has a given value. The
-    /// question is for `profiles` random profiles of a checked scene. `path` may be `preload`.
+    /// Makes the question: at which value of the number at `path` does a quantity have a given
+    /// value? `path` may be `preload`. `condition` is the quantity and its wanted value in SI
+    /// units. The question is for `profiles` random profiles of a checked scene.
+    ///
     /// Numbers from a hundredth to a hundred times the value in the scene are searched. If the
     /// allowed range of the number is narrow, as for the Hurst exponent, nearly the whole allowed
     /// range is searched. Preloads are searched from 0 N to a hundred times the largest force to
-    /// which the scene is loaded. `condition` is the quantity and its wanted value in SI units.
+    /// which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
@@ -320,9 +322,9 @@ impl Question {
     }
 }
 
-/// Returns the quantity of a loop turned at first touch that corresponds to an adhesion force over
-/// the preload; `None` for other quantities. The quantity at first touch is the smallest one, since
-/// the adhesion force never falls with the preload.
+/// Returns the quantity without a preload that corresponds to `quantity`, such as F_a(d=0) for F_a.
+/// `None` if `axis` is not the preload, or if `quantity` is no adhesion force. A loop that turns at
+/// first touch has the smallest adhesion force, since this force never falls with the preload.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => {

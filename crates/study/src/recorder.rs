@@ -52,7 +52,8 @@ fn turn_of(loading: &[Move]) -> Option<Move> {
 }
 
 impl<'p> Recorder<'p> {
-    /// Creates a recorder that stops within a case as soon as `stop` returns true.
+    /// Creates a recorder, which computes the cells of a plan and returns their recorded
+    /// quantities. It stops within the computation of a cell as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
         Recorder {
             plan,
@@ -63,13 +64,14 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Returns and removes the warnings collected so far: for each cell, its number and the
-    /// premises of the model that it does not meet.
+    /// Returns and removes the warnings collected so far: the number of each cell that does not
+    /// meet all premises of the model, with the premises that it does not meet.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }
 
-    /// Computes a streak. A cell that cannot be computed gets the reason instead of values.
+    /// Computes a streak: all cells of the plan that differ only in the preload, on one profile. A
+    /// cell that cannot be computed gets the reason instead of values.
     ///
     /// # Errors
     /// Returns an error if the memory does not suffice, or if `stop` returned true. Such an error
@@ -98,7 +100,7 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Computes all cells of a streak together.
+    /// Computes all cells of a streak, which differ only in the preload, with one loading.
     ///
     /// # Errors
     /// Returns an error if the profile or the contact cannot be computed, or if `stop` returned

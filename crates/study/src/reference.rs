@@ -67,8 +67,8 @@ impl Loaded {
     /// compared at a force.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns [`Compared::grid`], the error due to the grid, of the indentation or of the
-    /// stiffness, whichever is larger.
+    /// Returns the relative error due to the grid of the square surfaces: the error of the
+    /// indentation or that of the stiffness, whichever is larger.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
@@ -80,7 +80,8 @@ impl Loaded {
 pub struct LeftOut {
     /// Force on each square surface, N.
     pub force: f64,
-    /// Mean number of grid cells of a square surface in contact, less than [`Loaded::LEAST_CELLS`].
+    /// Mean number of grid cells of a square surface in contact. It is less than the number
+    /// [`Loaded::LEAST_CELLS`] that a comparison needs.
     pub cells: f64,
     /// Number of grid cells along the side of a square surface with which enough cells would be in
     /// contact; `None` if the solver does not allow so many cells.
@@ -92,18 +93,18 @@ pub struct LeftOut {
 pub struct RoughnessOfBoth {
     /// Roughness of the profiles.
     pub line: ComparedRoughness,
-    /// Roughness of the square surfaces for the contacts without adhesion, with the rms height of
+    /// Roughness of the square surfaces in the contacts without adhesion. Its rms height is that of
     /// the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the square surfaces for the contacts with adhesion, with the elastic energy of
-    /// the profiles; `None` for a scene without adhesion.
+    /// Roughness of the square surfaces in the contacts with adhesion. Its elastic energy is that
+    /// of the profiles. `None` for a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
-/// Comparison of a scene on random profiles with the same scene on random squares in three
-/// dimensions. A square is a rigid rough body of the side L on an elastic half-space.
+/// Comparison of a scene on random profiles with the same scene on random square surfaces in three
+/// dimensions. A square surface is a rigid rough body of the side L on an elastic half-space.
 ///
-/// A profile and a square are loaded in the same way: from separation to the same force or
+/// A profile and a square surface are loaded in the same way: from separation to the same force or
 /// indentation, and back to separation. If the loading of the scene has several such loops, only
 /// the last loop is compared. It turns at the end of its stage with the largest force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -129,10 +130,11 @@ pub struct Reference {
     /// of the instrument, this is the mean force of the profiles there.
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the
-    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square
-    /// surface are in contact.
+    /// preload. Only forces are compared at which enough grid cells of a square surface are in
+    /// contact, at least [`Loaded::LEAST_CELLS`].
     pub loading: Vec<Loaded>,
-    /// Forces at which fewer than [`Loaded::LEAST_CELLS`] grid cells are in contact.
+    /// Forces that are not compared, because too few grid cells are in contact, fewer than
+    /// [`Loaded::LEAST_CELLS`].
     pub left_out: Vec<LeftOut>,
     /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
     /// adhesion.
@@ -151,7 +153,7 @@ pub struct Reference {
     /// adhesion, one for each source.
     pub budget: ReferenceBudget,
     /// Premises of the model that profiles of the scene do not meet, each with the number of these
-    /// profiles among the first [`Reference::profiles_for_warnings`].
+    /// profiles. Only the first [`Reference::profiles_for_warnings`] profiles are checked.
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of convolutions over the grid of a square surface that the solver computed for all
@@ -180,7 +182,7 @@ pub enum ReferenceEvent {
         /// cells.
         seconds: f64,
     },
-    /// Another hundredth (about) of the profiles is computed.
+    /// About another hundredth of the profiles is computed.
     Profiles {
         /// Number of profiles computed since the last event of this kind.
         count: u64,

@@ -13,18 +13,21 @@ pub struct ReferenceBudget {
     pub solver: f64,
     /// Error of the mean over the square surfaces due to their grid. It is the relative difference
     /// between this mean and the mean over the same surfaces with half as many grid cells along the
-    /// side. If the profile model is exact and differs more from the square surfaces, its relative
-    /// difference is used instead. `None` if half as many cells are too few.
+    /// side; `None` if half as many cells are too few.
+    ///
+    /// If the profile model is exact, its whole difference from the square surfaces is an error of
+    /// their grid. The larger of the two differences is then the error.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
-    /// ratio; `None` for fewer than two profiles or square surfaces.
+    /// Error due to the finite numbers of profiles and square surfaces: half the width of the 95 %
+    /// confidence interval of [`Compared::ratio`], divided by this ratio. `None` for fewer than two
+    /// profiles or square surfaces.
     pub sample: Option<f64>,
     /// Mean over the profiles divided by the mean over the square surfaces, minus 1; `None` if this
     /// ratio is unknown.
     pub difference: Option<f64>,
-    /// Smallest error of the model that follows from the comparison: the part of the magnitude of
-    /// `difference` that exceeds the errors `sample` and `grid`. It is 0 if these errors can
-    /// explain the difference, and `None` if one of these errors is unknown.
+    /// Lower bound of the error of the model: the part of the magnitude of `difference` that
+    /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
+    /// and `None` if one of these errors is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,

@@ -188,7 +188,8 @@ impl Resolved {
         self.line_roughness = Some(line);
     }
 
-    /// Returns a simulation that has the measured roughness of the profiles.
+    /// Returns a simulation that already holds the measured roughness of the profiles, if they have
+    /// one.
     pub fn simulation(&self) -> Simulation {
         let simulation = Simulation::default();
         match &self.measured {

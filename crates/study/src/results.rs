@@ -160,9 +160,10 @@ impl Results {
         })
     }
 
-    /// Computes a study in memory: a checked scene on `lines` random profiles, with the recorded
-    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the
-    /// loading of the scene. `control` reports the results so far after each profile.
+    /// Computes a checked scene on `lines` random profiles, as a study in memory. `record` are the
+    /// recorded quantities. If `preloads` are given, they are the only axis of the study: preloads
+    /// in N that replace the loading of the scene. `control` reports the results so far after each
+    /// profile.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if `lines` is above 1 and the profile of the
@@ -207,8 +208,8 @@ impl Results {
         self.set_warnings(solved.line, solved.warnings);
     }
 
-    /// Stores, for each cell with such warnings, the premises of the model that it does not meet on
-    /// the profile with the index `line`.
+    /// Stores the premises of the model that cells do not meet on the profile with the index
+    /// `line`. `warnings` has the number of each such cell, with its premises.
     pub(super) fn set_warnings(&mut self, line: u64, warnings: Vec<(u64, Vec<Warning>)>) {
         for (cell, warnings) in warnings {
             let place = cell * self.plan.lines + line;
@@ -216,7 +217,7 @@ impl Results {
         }
     }
 
-    /// Reads all shard files of a study.
+    /// Reads the files of results of a study, one for each process that has worked on the study.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or if two records of the same cell and profile
@@ -353,8 +354,8 @@ impl Results {
             .map(String::as_str)
     }
 
-    /// Returns the reason why a cell has no values; `None` unless it cannot be computed on all
-    /// profiles.
+    /// Returns the reason why a cell has no values, if it cannot be computed on any profile;
+    /// otherwise `None`.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());
@@ -404,9 +405,10 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`,
-    /// in the order of [`Plan::record`]. `None` if they are not computed or cannot be computed. A
-    /// quantity without a value is NaN. A regime is an index into [`asperity_scene::Regime::ALL`].
+    /// Returns the values of the recorded quantities in a [cell](Plan) on the profile with the
+    /// index `line`, in the order of [`Plan::record`]. `None` if they are not computed or cannot be
+    /// computed. A quantity without a value is NaN. A regime is given as its index in
+    /// [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -481,8 +483,9 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for
-    /// [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, counted twice:
+    /// first with the regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime
+    /// that follows from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         Quantity::REGIMES.map(|quantity| {
             let records = self.records_of(cell);

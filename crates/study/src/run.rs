@@ -31,22 +31,22 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of [`run_study`], counted in records of the [`Shard`] that it computes. A record has
-/// the values of one [cell](crate::Plan) on one random profile.
+/// Progress of [`run_study`], counted in records of the [`Shard`] (the part of the plan) that it
+/// computes. A record has the values of one [cell](crate::Plan) on one random profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
-    /// Number of records of the shard that exist now.
+    /// Number of records of this part of the plan that exist now.
     pub done: u64,
-    /// Number of records of the shard that existed before this run.
+    /// Number of records of this part of the plan that existed before this run.
     pub before: u64,
-    /// Number of records that the shard has once it is complete.
+    /// Number of records that this part of the plan has once it is complete.
     pub total: u64,
     /// Time from the beginning of this run of [`run_study`] to the last records that it wrote.
     pub elapsed: Duration,
 }
 
 impl StudyProgress {
-    /// Returns true if every record of the shard exists.
+    /// Returns true if every record of this part of the plan exists.
     pub fn is_complete(&self) -> bool {
         self.done == self.total
     }
@@ -62,8 +62,8 @@ impl StudyProgress {
         rate(self.computed(), self.elapsed.as_secs_f64())
     }
 
-    /// Returns the estimated time for the missing records of the shard at [`StudyProgress::rate`];
-    /// `None` before the first record.
+    /// Returns the estimated time for the missing records of this part of the plan, at the present
+    /// rate [`StudyProgress::rate`]; `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
@@ -80,9 +80,10 @@ pub struct StudyRun {
     pub warnings: Vec<CountedWarning>,
 }
 
-/// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
-/// file in the folder. `control` receives the progress several times a second and at the end. If
-/// `control` stops the computation, the computation ends after a loading, without an error.
+/// Computes the missing results of one [`Shard`], a part of the plan of the study in a folder, and
+/// writes them to a new file in the folder. `control` receives the progress several times a second
+/// and at the end. If `control` stops the computation, the function returns after the loading that
+/// is being computed, without an error.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested, if the memory does not suffice for a record, or

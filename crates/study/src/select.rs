@@ -99,9 +99,9 @@ impl Selection {
     /// Returns the part of a study that the fields of this selection choose.
     ///
     /// # Errors
-    /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error
-    /// if, apart from the axis of preloads, more than two axes have several values and are not
-    /// fixed by [`Selection::at`].
+    /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error if
+    /// more than two axes with several values remain, apart from the axis of preloads.
+    /// [`Selection::at`] fixes an axis at one value.
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

@@ -26,8 +26,8 @@ pub struct Changed {
     /// Medians of the results over the profiles in SI units, in the order of
     /// [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// For each result, the smallest and the largest relative change among the profiles; `None` if
-    /// the profile of the scene is fixed.
+    /// For each result, the smallest and the largest of its relative changes on the profiles;
+    /// `None` if the profile of the scene is fixed.
     pub range: [Option<(f64, f64)>; 3],
 }
 
@@ -40,8 +40,8 @@ pub struct Influence {
     /// wavelength is rounded so that a whole number of waves fits on the length, as in the computed
     /// profile.
     pub value: f64,
-    /// First the smaller, then the larger value of the number, each with the results for this
-    /// value; `None` if the scene does not allow the value. The changes of a wavelength and of a
+    /// Two values of the number: first the smaller, then the larger. Each has the results for this
+    /// value, or `None` if the scene does not allow the value. The changes of a wavelength and of a
     /// whole number differ from [`Sensitivity::STEP`].
     pub sides: [(f64, Option<Changed>); 2],
 }
@@ -110,7 +110,7 @@ impl Sensitivity {
     ];
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
-    /// profiles. There are as many profiles as [`Ensemble::profiles_of`] returns. A scene with κ
+    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene with κ
     /// instead of a work of adhesion keeps κ when another number changes. If the length changes,
     /// the same numbers of waves fit on it, so the wavelengths change in proportion.
     ///
@@ -201,8 +201,9 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A
-    /// change is `None` if a value is missing, or if the value in [`Sensitivity::present`] is zero.
+    /// Returns the relative change of each result from the unchanged scene
+    /// ([`Sensitivity::present`]) to `values`. A change is `None` if a value is missing, or if the
+    /// result of the unchanged scene is zero.
     pub fn changes(&self, values: &Values) -> Values {
         RESULTS.map(|result| {
             let present = self.present[result].filter(|present| *present != 0.0)?;

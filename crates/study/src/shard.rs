@@ -25,7 +25,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Shard that is the whole plan, for a study that is not divided.
+    /// The whole plan as a single part, for a study that is not divided.
     pub const WHOLE: Shard = Shard {
         number: 1,
         count: 1,
@@ -44,8 +44,8 @@ impl Shard {
             .ok_or_else(allowed)
     }
 
-    /// Returns the indices of the units of work that belong to this shard, if the plan has `units`
-    /// units.
+    /// Returns the indices of the units of work that this part of the plan contains. The whole plan
+    /// has `units` units, each of which one thread computes.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

@@ -183,9 +183,10 @@ impl Body {
                 .max(3 * heights)
     }
 
-    /// Loads the surface with the random phases of `seed`, first without adhesion to each force.
-    /// Then follow two loops with adhesion: one turns at first touch, the other at the turning
-    /// point of `loading`. The side of the surface has `cells` grid cells.
+    /// Computes the loads of the surface with the random phases of `seed`. First the surface is
+    /// loaded without adhesion to each force of `loading`. Then follow two loops with adhesion: one
+    /// turns at first touch, the other at the turning point of `loading`. The side of the surface
+    /// has `cells` grid cells.
     pub fn load(
         &self,
         cells: usize,

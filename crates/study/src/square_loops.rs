@@ -31,9 +31,9 @@ pub struct SquareLoops {
 }
 
 impl SquareLoops {
-    /// Computes the force curves of square surfaces for a scene, with the options
-    /// [`ReferenceOptions::of`]. `simulation` has the folder of the measured files of the scene.
-    /// `control` receives the curves so far at the beginning, after each hundredth of the
+    /// Computes the force curves of square surfaces for a scene, with the usual options
+    /// [`ReferenceOptions::of`]. `simulation` finds the measured files of the scene in their
+    /// folder. `control` receives the curves so far at the beginning, after each hundredth of the
     /// computation, and after each square surface.
     ///
     /// # Errors
@@ -82,9 +82,8 @@ impl SquareLoops {
         true
     }
 
-    /// Compares the values [`SquareLoops::lines`] on profiles with the values
-    /// [`SquareLoops::squares`] on square surfaces; `None` before the first square surface is
-    /// computed.
+    /// Compares the adhesion force on profiles with that on square surfaces, or the indentations if
+    /// the scene has no adhesion; `None` before the first square surface is computed.
     pub fn headline(&self) -> Option<Compared> {
         let values = Values {
             lines: self.lines.clone(),

@@ -179,9 +179,9 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Finds the crossings of a quantity that is constant between two steps of F_a. Returns pairs of
+/// Finds the crossings of a quantity that is constant except where F_a jumps. Returns pairs of
 /// neighbouring preloads between which the quantity crosses the target. The second value is true if
-/// such a pair may be missing because two steps are closer together than the computed preloads.
+/// such a pair may be missing, because two jumps are closer together than the computed preloads.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,

@@ -121,9 +121,8 @@ impl Statistics {
         })
     }
 
-    /// Statistics of a quantity that a table shows, each in its own column. The text is the last
-    /// part of the name of the column, such as `median`; the function returns the value in the
-    /// column.
+    /// Columns of a table of statistics. For each column, the text is the last part of its name,
+    /// such as `median`, and the function returns its value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),

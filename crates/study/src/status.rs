@@ -27,21 +27,21 @@ pub struct Status {
     pub shards: Vec<ShardStatus>,
 }
 
-/// Progress of one [`Shard`] of a plan.
+/// Progress of one part of a plan, a [`Shard`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
-    /// Name of the shard, such as `3/8`.
+    /// Name of the part of the plan: `3/8` for part 3 of 8.
     pub shard: String,
-    /// Number of records of the shard once it is complete.
+    /// Number of records that this part of the plan has once it is complete.
     pub total: u64,
-    /// Number of records of the shard that are already in files of the study. A record has the
+    /// Number of records of this part that are already in files of the study. A record has the
     /// results of one [cell](crate::Plan) on one random profile.
     pub done: u64,
-    /// Processes that have worked on the shard, each with the records that it wrote.
+    /// Processes that have worked on this part, each with the records that it wrote.
     pub attempts: Vec<Attempt>,
 }
 
-/// One process that has worked on a [`Shard`], with the records in the file that the process wrote.
+/// One process that has worked on a part of a plan, with the records in the file that it wrote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file that the process wrote.
@@ -129,9 +129,9 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Returns the number of all records of a shard, and the number of its existing records. The
-/// function passes only the records of this shard, so counting all shards takes as long as counting
-/// the whole study.
+/// Returns two numbers for a shard, a part of the plan: the number of all its records, and the
+/// number of those that exist. The function passes only the records of this shard, so counting all
+/// shards takes as long as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let mut total = 0;
     let mut there = 0;

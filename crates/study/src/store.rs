@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Version of the format of shard files, [`ShardFile`].
+/// Version of the format of the files of results, [`ShardFile`], in the folder of a study.
 pub const STORE_VERSION: u32 = 1;
 /// Largest length in bytes of a line of a shard file or a table, as a protection against damaged
 /// files. Lines of records are much shorter.
@@ -47,10 +47,10 @@ pub struct Folder {
     plan: Plan,
 }
 
-/// Header of a [`ShardFile`], the first line of the file.
+/// First line of a file of results, [`ShardFile`], which states the process that wrote the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardHeader {
-    /// Version of the format of shard files.
+    /// Version of the format of the file.
     pub format: u32,
     /// Checksum (CRC-32) of the text of the plan as 8 hexadecimal digits.
     pub plan: String,

@@ -157,7 +157,8 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the first map as a scene file for the explorer.
+    /// Returns the scene of the study with the values of map number 0, as a scene file for the
+    /// explorer.
     ///
     /// # Errors
     /// Returns an error if a value of the scene is not allowed.
@@ -167,8 +168,9 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` belongs to map number `slice`. The values on the axes of the map and
-    /// the number of points of the force curve may differ.
+    /// Returns true if `scene` has a place on map number `slice`. Such a scene differs from the
+    /// scene of the map at most in the values on the axes of the map and in the number of points of
+    /// the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> = self
             .over()

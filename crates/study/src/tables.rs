@@ -34,14 +34,15 @@ impl Merged {
     /// Name of the file with the table of statistics over the profiles. The table has one row for
     /// each [cell](Plan).
     pub const SUMMARY: &str = "summary.csv";
-    /// Name of the file that describes the columns of the tables [`Merged::RESULTS`] and
-    /// [`Merged::SUMMARY`].
+    /// Name of the file that describes the columns of the table of all results and of the table of
+    /// statistics.
     pub const SIDECAR: &str = "results.json";
 }
 
-/// Merges the results of all processes in the folder of a study. Writes the tables
-/// [`Merged::RESULTS`] and [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some
-/// results are missing, the tables have the results that exist.
+/// Merges the results of all processes in the folder of a study into tables. It writes the table of
+/// all results ([`Merged::RESULTS`]), the table of statistics ([`Merged::SUMMARY`]), and a
+/// description of their columns ([`Merged::SIDECAR`]). If some results are missing, the tables have
+/// the results that exist.
 ///
 /// # Errors
 /// Returns an error if two files have different results for the same [cell](Plan) and profile, or

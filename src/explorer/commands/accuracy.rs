@@ -33,8 +33,8 @@ pub struct Choosing {
     pub found: Option<Result<Choice, ChoiceError>>,
 }
 
-/// Returns the studies that the present state needs and that have not ended, in the order in which
-/// they are performed.
+/// Returns the studies (background computations) that the present state needs and that have not
+/// ended, in the order in which they are performed.
 pub fn studies(app: &mut App) -> Vec<Study> {
     let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
     wanted.extend(target::study(app));

@@ -434,7 +434,8 @@ fn tried(app: &App) -> Option<Document> {
     }
 }
 
-/// Switches the effect of the selected row on or off.
+/// Switches a part of the scene on or off: the form, roughness, adhesion or loading to which the
+/// selected row belongs.
 pub fn toggle_effect(app: &mut App) {
     show_parameters(app);
     let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {

@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-/// Switches between the map of the study and the live map.
+/// Switches between the map of the opened study and the live map, which the explorer computes for
+/// the present scene.
 pub fn toggle_study(app: &mut App) {
     if app.map.study.is_none() {
         app.set_error(NO_STUDY);
@@ -24,7 +25,7 @@ pub fn toggle_study(app: &mut App) {
 }
 
 /// Shows the next or the previous map of the study. If the present scene is a cell of the map shown
-/// so far, it becomes the corresponding cell of the new map.
+/// so far, the scene becomes the corresponding cell of the new map.
 pub fn step_slice(app: &mut App, key: &KeyEvent) {
     let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {
@@ -63,8 +64,8 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
 /// Number of columns or rows in a large step. On the live map, κ doubles every four rows.
 const LARGE_STEP: i32 = 4;
 
-/// Moves the mark by one or several columns or rows of the map. The scene gets the values at the
-/// new position.
+/// Moves the mark, which shows the place of the scene on the map, by one or several columns or
+/// rows. The scene gets the values at the new place.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
         return;

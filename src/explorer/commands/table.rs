@@ -16,7 +16,8 @@ use crate::explorer::request::Focus;
 use Run::{Do, Key};
 use crossterm::event::KeyEvent;
 
-/// A row of the table, with its function, and with the condition under which the footer shows it.
+/// Row of the table of keys, with its function, and with the condition under which the footer shows
+/// the row.
 pub struct Entry {
     row: Row,
     run: Run,

@@ -19,7 +19,8 @@ use std::sync::Arc;
 /// Target that the prompt proposes.
 const USUAL: &str = "F_a/F_a,max = 80 %";
 
-/// Answer to an inverse question. The key identifies the question.
+/// Answer to an inverse question: at which value of a number does a result have the wanted value?
+/// `key` identifies the question.
 #[derive(Clone, Debug)]
 pub struct Sought {
     key: String,
@@ -44,7 +45,8 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
 }
 
-/// Returns the name of the number that the inverse question seeks for the selected row.
+/// Returns the name of the number whose value an inverse question seeks: the preload if a row of
+/// the loading is selected, otherwise the parameter of the selected row.
 pub fn name(app: &App) -> String {
     match app.edit.parameter() {
         Some(parameter) if sought(parameter) != Some("preload") => parameter.name(),
@@ -52,7 +54,8 @@ pub fn name(app: &App) -> String {
     }
 }
 
-/// Asks the user for the target of the inverse question.
+/// Asks the user which value a result should have, such as `F_a/F_a,max = 80 %`. The explorer then
+/// seeks the value of the selected parameter, or the preload, with which the result has this value.
 pub fn ask(app: &mut App) {
     edit::show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -123,7 +126,8 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     }
 }
 
-/// Returns the answer as text, or a text about what is missing; `None` if no target is being typed.
+/// Returns the answer to the inverse question as text, or a text about what is missing; `None` if
+/// the user is typing no target.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     if let Err(why) = Question::parse_condition(typed) {

@@ -13,8 +13,8 @@ use crossterm::event::{KeyCode, KeyEvent};
 /// Smallest number of springs in the visible part of the profile.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows another patch in the close-up. `question` gets the middle spring of the patch shown now,
-/// and returns the focus, which names the patch relative to this spring.
+/// Shows another patch in the close-up. `question` gets the middle spring of the patch that is
+/// shown now, and returns which patch is shown next, such as the patch after this spring.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let snapshot = app.snapshot.as_ref();
     let shown = snapshot.and_then(|snapshot| snapshot.close_up.patch);

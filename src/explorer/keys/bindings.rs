@@ -6,8 +6,9 @@ use asperity_scene::text::nearest;
 use crossterm::event::KeyEvent;
 use std::fmt;
 
-/// Context in which a key is pressed. It determines the function of the key. If a prompt is open,
-/// the context depends on the prompt, otherwise on the selected pane.
+/// Context in which a key is pressed, which determines the function of the key. If a prompt (a line
+/// in which the user types, or a question) is open, the context depends on the prompt, otherwise on
+/// the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     Explore,

@@ -25,7 +25,8 @@ pub struct PaneRow {
     /// it. Returns `None` if there is no result yet, or if the curves of the figure are the whole
     /// result.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
-    /// Returns the studies whose values the pane needs while it is shown.
+    /// Function that returns the studies (background computations) whose values the pane needs
+    /// while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
     /// Paragraphs of the help that explain the signs in the pane. Each has a name and a text.
     pub help: &'static [(&'static str, &'static str)],

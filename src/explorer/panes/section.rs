@@ -13,8 +13,9 @@ use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Returns the panel of a section, in a pane of the given width in columns. `z` is the range of
-/// heights in m. The values at the crosshair are written beside the title.
+/// Returns the panel of a section, a part of the profile with its contact. `width` is the width of
+/// the pane in columns, and `z` is the range of heights in m. The values at the crosshair are
+/// written beside the title.
 pub fn panel(
     title: &str,
     snapshot: &ContactSnapshot,
@@ -48,8 +49,9 @@ pub fn panel(
     panel
 }
 
-/// Returns the chart of a section for an exported file, independently of the size of the pane.
-/// `part` chooses the springs. `z` is the range of heights in m.
+/// Returns the chart of a section, a part of the profile with its contact, for an exported file. It
+/// does not depend on the size of the pane. `part` chooses the springs, and `z` is the range of
+/// heights in m.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,

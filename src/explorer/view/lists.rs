@@ -57,8 +57,8 @@ impl List<'_> {
     }
 }
 
-/// Draws the help or the list of commands. If the user has typed a text, it shows the topics that
-/// match this text, otherwise all topics in sections.
+/// Draws the help or the list of commands. If the user has typed a text, only the topics that match
+/// this text are drawn, otherwise all topics in sections.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,

@@ -60,8 +60,8 @@ pub struct MeasuredCurve {
     pub(crate) free_at_end: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force in N, from the points before contact or from
-    /// [`CurveOptions::noise`].
+    /// Standard deviation of the noise of the force in N. It is that of the points before contact,
+    /// or the value [`CurveOptions::noise`] if it is given.
     pub noise: f64,
     /// Features that are computed from the curve without a model, such as its jumps.
     pub features: CurveFeatures,
@@ -102,7 +102,8 @@ pub struct MeasuredCurve {
 pub(crate) struct SubtractedLines {
     /// True if the zero offset of the force was estimated, and not stated by the options.
     pub has_zero: bool,
-    /// Values of each line, except the constant zero offset, at the points of the curve.
+    /// Values of each line, except the constant zero offset, at the points of the curve. A line is
+    /// a contribution that was subtracted from the force, such as a drift.
     pub columns: Vec<Vec<f64>>,
     /// Sums of the products of each pair of lines over the points without contact in segments that
     /// the options leave out. The curve has no points of these segments. The first row and column

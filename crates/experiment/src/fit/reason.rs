@@ -291,7 +291,8 @@ fn has_two_directions(curve: &MeasuredCurve) -> bool {
     curve.segment.first() != curve.segment.last()
 }
 
-/// Returns the reason if the contact reaches the ends of its profile or has few springs.
+/// Returns the reason why the profile is unsuitable for a fit: the contact reaches the ends of the
+/// profile, or has too few springs. Returns `None` if there is no such reason.
 pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.compute(scene).ok()?;
     outcome.warnings.iter().find_map(|warning| match warning {

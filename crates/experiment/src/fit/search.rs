@@ -100,7 +100,7 @@ const SLOWEST: f64 = 0.99;
 /// adhesion is tried too. The value corresponds to a few times the work of adhesion whose pull-off
 /// force equals the noise.
 const CLOSE: f64 = 2.5;
-/// Residual, in units of the noise, that replaces a force that is not finite.
+/// Residual, in units of the noise, of a point whose computed force is not finite.
 const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
 const PRIMES: [usize; 9] = [2, 3, 5, 7, 11, 13, 17, 19, 23];

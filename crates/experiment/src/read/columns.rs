@@ -32,8 +32,8 @@ pub(crate) struct Pair {
 /// The columns of a file that are used.
 #[derive(Debug)]
 pub(crate) struct Choice {
-    /// One pair of columns, or two pairs: one for the approach, and one for the retraction in
-    /// columns beside it.
+    /// Columns of displacement and force. There is one pair of columns, or two pairs if approach
+    /// and retraction have columns of their own.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
     /// Travel of the piezo in m, if the file has forces without displacements. The forces are then

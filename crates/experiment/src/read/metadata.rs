@@ -29,7 +29,7 @@ const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 pub(crate) struct Metadata {
     /// Stiffness of the instrument: its name in the file, and its value in N/m.
     pub stiffness: Option<(String, f64)>,
-    /// Deflection for 1 V in m/V.
+    /// Sensitivity: deflection of the instrument for 1 V, in m/V.
     pub sensitivity: Option<f64>,
     /// Travel of the piezo in m.
     pub ramp: Option<f64>,

@@ -19,7 +19,7 @@ const WILD: f64 = 10.0;
 /// Label that a file gives to the points of one part of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Number of the part. A new part begins where the name of the segment changes.
+    /// Number of the part, which grows where the name of the segment changes in the file.
     pub part: usize,
     /// True if the name of the part means a pause of the instrument.
     pub is_pause: bool,

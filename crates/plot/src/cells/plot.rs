@@ -72,8 +72,8 @@ impl CellPlot {
         }
     }
 
-    /// Divides an area of the screen as [`Self::within`] does, but leaves `between` rows free
-    /// directly below the plot.
+    /// Divides an area of the screen between the plot of a chart and the numbers along its axes,
+    /// and leaves `between` rows free directly below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let has_scale_below = area.height >= WITH_SCALE_BELOW;
         let has_label_row =

@@ -97,8 +97,8 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
 }
 
-/// Returns the area of the screen for a heat map. If there is enough room, all cells of the map
-/// have the same number of columns and rows.
+/// Returns the area of the screen for a heat map. If there is enough room, every cell of the map
+/// covers equally many columns and equally many rows of the terminal.
 fn area_of_map(chart: &Chart, map: &HeatMap, columns: u16) -> Rect {
     let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
     let values_up = map.rows.len().max(1);

@@ -35,8 +35,8 @@ pub struct Case {
     /// How the correct result of the case is known: `closed form`, `independent computation` or
     /// `self-consistency`.
     pub evidence: &'static str,
-    /// Name of the quantity whose error must not exceed the bound of a
-    /// [`Check`](crate::checks::Check).
+    /// Name of the quantity whose error is measured, such as the pull-off force. The error must not
+    /// exceed the bound of a [`Check`](crate::checks::Check).
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,
@@ -175,7 +175,8 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch of a patch as long as the whole profile in m, by eq. (10).
+    /// Returns the largest stretch of the springs, in m, at the edge of a patch that is as long as
+    /// the whole profile, by eq. (10).
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }

@@ -27,7 +27,8 @@ pub struct Check {
     /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two
     /// springs.
     pub edges: Edges,
-    /// Largest error of the quantity [`Case::error_of`] with which the check passes.
+    /// Largest error of the result, in the quantity [`Case::error_of`], with which the check
+    /// passes.
     pub bound: f64,
 }
 
@@ -56,7 +57,7 @@ impl Check {
         checks
     }
 
-    /// Computes the case and measures the error of the quantity [`Case::error_of`].
+    /// Computes the case and measures the error of its result, in the quantity [`Case::error_of`].
     pub fn judge(self) -> Verdict {
         let clock = Instant::now();
         let edges = self.edges;
@@ -86,8 +87,8 @@ impl Case {
 pub struct Verdict {
     /// Check whose case was computed.
     pub check: Check,
-    /// Error of the quantity [`Case::error_of`] that was measured, or the reason why the error
-    /// could not be measured.
+    /// Measured error of the result, in the quantity [`Case::error_of`], or the reason why the
+    /// error could not be measured.
     pub error: Result<f64, String>,
     /// Computing time of the check, s.
     pub seconds: f64,

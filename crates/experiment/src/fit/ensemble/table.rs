@@ -274,7 +274,8 @@ fn normal_pair(generator: &mut ChaCha8Rng) -> [f64; 2] {
 #[derive(Clone, Copy)]
 pub(crate) struct Workers<'a> {
     pub specimen: Specimen<'a>,
-    /// Simulation with the folder of the files of the scene, or with its measured roughness.
+    /// Simulation that finds the measured files of the scene in their folder, or that already holds
+    /// the measured roughness of the scene.
     pub simulation: &'a Simulation,
     pub jobs: usize,
     /// Number of curves computed so far.
