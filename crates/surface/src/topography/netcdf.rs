@@ -302,7 +302,7 @@ fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], SurfaceError> {
     padded(header, length)
 }
 
-/// Reads the code of a type; `None` stands for characters.
+/// Reads the code of a type; `None` for characters.
 fn number_type(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
     let place = header.place();
     match header.size(Number::U32)? {
