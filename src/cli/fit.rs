@@ -46,8 +46,9 @@ pub struct FitArguments {
     pub overrides: Overrides,
     /// Parameters to be found, with ranges if known: work=1m..1,offset
     ///
-    /// The parameters are work, closing_work, modulus, offset, zero, stiffness, radius, and
-    /// second_radius and behind of two spheres.
+    /// The parameters are work, closing_work, modulus, offset, zero, stiffness and radius.
+    ///
+    /// A probe of two spheres has the parameters second_radius and behind too.
     #[arg(
         long,
         required = true,
