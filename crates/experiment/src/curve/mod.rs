@@ -111,6 +111,98 @@ pub(crate) struct SubtractedLines {
     pub elsewhere: Vec<Vec<f64>>,
 }
 
+impl SubtractedLines {
+    /// Returns the lines at the points that are used, `kept`.
+    fn of(
+        subtracted: Subtracted,
+        drag: Option<&Drag>,
+        points: &Points,
+        kept: &[usize],
+        free: &FreeParts,
+        has_zero: bool,
+    ) -> Self {
+        let mut lines = subtracted.columns;
+        lines.extend(drag.into_iter().flat_map(|drag| drag.columns(points)));
+        let mut columns = Vec::with_capacity(lines.len());
+        for line in &lines {
+            columns.push(kept.iter().map(|index| line[*index]).collect());
+        }
+        SubtractedLines {
+            has_zero,
+            elsewhere: products_elsewhere(&lines, kept, free),
+            columns,
+        }
+    }
+}
+
+/// Points in the order of time in which pressing is positive, with what was done to the columns.
+struct Ordered {
+    points: Points,
+    /// Number of points of the file that a point averages.
+    averaged: usize,
+    /// Name of the column of the displacement, if it excludes the deflection of the instrument.
+    of_body: Option<String>,
+    /// Parts of the first sentence on the curve.
+    assumed: Vec<String>,
+    /// Further sentences.
+    statements: Vec<Note>,
+}
+
+impl Ordered {
+    fn of(
+        columns: &mut Columns,
+        options: &CurveOptions,
+        least_noise: f64,
+    ) -> Result<Self, ExperimentError> {
+        let mut segments = Segments::of(&columns.displacement, &columns.labels);
+        let reordered = put_in_order(columns, &mut segments, least_noise);
+        let averaged = points_in_mean(&segments);
+        let mut points =
+            Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
+
+        let sentences = std::mem::take(&mut columns.statements);
+        let mut statements: Vec<Note> = sentences.into_iter().map(Note::new).collect();
+        let retraction = recognise_retraction(&mut points, options, least_noise)?;
+        statements.extend(retraction.map(Note::new));
+        let negate = points.reverse(options.negate)?;
+        let stated_stiffness = columns.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
+        let mut of_body = columns.of_body.take();
+        if let Some(name) = &of_body
+            && let Some(stiffness) = options.instrument.or(stated_stiffness)
+        {
+            statements.push(points.add_deflection(name, stiffness).into());
+            of_body = None;
+        }
+
+        let mut assumed = vec![std::mem::take(&mut columns.assumed)];
+        assumed.extend(reordered.map(str::to_owned));
+        if negate != Negate::None {
+            assumed.push(format!("{negate} reversed, so that pressing is positive"));
+        }
+        Ok(Ordered {
+            points,
+            averaged,
+            of_body,
+            assumed,
+            statements,
+        })
+    }
+}
+
+/// Finds the drag of a fluid and takes it off. The parts without contact are then those that the
+/// drag describes.
+fn take_drag_off(
+    points: &mut Points,
+    free: &mut FreeParts,
+    options: &CurveOptions,
+) -> Option<Drag> {
+    let drag = Drag::find(points, free, options)?;
+    drag.subtract(points);
+    free.before = Some(drag.before);
+    free.after = drag.after;
+    Some(drag)
+}
+
 impl MeasuredCurve {
     /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be
     /// compressed by gzip.
@@ -200,62 +292,39 @@ impl MeasuredCurve {
     /// sentence on each step is stored in the curve, for the report.
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
-        let left_out = columns.left_out();
         let least_noise = least_noise(&columns.force);
-        let mut segments = Segments::of(&columns.displacement, &columns.labels);
-        let reordered = put_in_order(&mut columns, &mut segments, least_noise);
-        let averaged = points_in_mean(&segments);
-        let mut points =
-            Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
-
-        let mut statements: Vec<Note> = columns.statements.into_iter().map(Note::new).collect();
-        let retraction = recognise_retraction(&mut points, options, least_noise)?;
-        statements.extend(retraction.map(Note::new));
-        let negate = points.reverse(options.negate)?;
-        let stated_stiffness = columns.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
-        let mut of_body = columns.of_body;
-        if let Some(name) = &of_body
-            && let Some(stiffness) = options.instrument.or(stated_stiffness)
-        {
-            statements.push(points.add_deflection(name, stiffness).into());
-            of_body = None;
-        }
+        let left_out = columns.left_out();
+        let Ordered {
+            mut points,
+            averaged,
+            of_body,
+            mut assumed,
+            mut statements,
+        } = Ordered::of(&mut columns, options, least_noise)?;
 
         let mut free = FreeParts::of(&points, options, averaged, least_noise)?;
-        let drag = Drag::find(&points, &free, options);
-        if let Some(drag) = &drag {
-            drag.subtract(&mut points);
-            free.before = Some(drag.before);
-            free.after = drag.after;
-        }
-        let found_noise = free.line(&points).noise;
-        let noise = options.noise.unwrap_or(found_noise).max(least_noise);
+        let drag = take_drag_off(&mut points, &mut free, options);
+        let noise = options.noise.unwrap_or(free.line(&points).noise);
+        let noise = noise.max(least_noise);
         let subtracted = free.subtract_lines(&mut points, options, noise)?;
         check_sign(&points, options, noise)?;
         let kept = kept(&points, options)?;
+        let jumps = jumps_of(&points, noise);
+        let features = CurveFeatures::of(&points, &jumps, noise);
+        let drag_in_contact = drag_in_contact(drag.as_ref(), &subtracted);
 
-        let mut assumed = vec![columns.assumed];
-        assumed.extend(reordered.map(str::to_owned));
-        if negate != Negate::None {
-            assumed.push(format!("{negate} reversed, so that pressing is positive"));
-        }
         assumed.extend(counted(&points, &kept, &free, options));
         assumed.extend(left_out);
         assumed.extend(means_in_words(&points, averaged));
         statements.insert(0, format!("{}.", assumed.join("; ")).into());
-        let noise_statement = noise_in_words(noise, options, &free);
-        statements.push(subtracted.statement.clone().then(&noise_statement.into()));
-        let drag_in_contact = drag_in_contact(drag.as_ref(), &subtracted);
-        statements.extend(
-            drag_in_contact
-                .as_ref()
-                .map(|drag| Note::new(drag_in_words(drag))),
-        );
-        let jumps = jumps_of(&points, noise);
-        let features = CurveFeatures::of(&points, &jumps, noise);
+        let noise_statement = noise_in_words(noise, options, &free).into();
+        statements.push(subtracted.statement.clone().then(&noise_statement));
+        statements.extend(drag_in_contact.map(|drag| drag_in_words(&drag).into()));
         statements.push(features.sentence().into());
-        let mut lines = subtracted.columns;
-        lines.extend(drag.iter().flat_map(|drag| drag.columns(&points)));
+
+        let remaining = subtracted.remaining;
+        let has_zero = options.zero.is_none();
+        let lines = SubtractedLines::of(subtracted, drag.as_ref(), &points, &kept, &free, has_zero);
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
             displacement: values_of(&points.displacement),
@@ -272,12 +341,8 @@ impl MeasuredCurve {
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing: columns.missing,
             turns: points.turns(last_turn(&points, options)),
-            remaining: subtracted.remaining,
-            subtracted: SubtractedLines {
-                has_zero: options.zero.is_none(),
-                elsewhere: products_elsewhere(&lines, &kept, &free),
-                columns: lines.iter().map(|line| values_of(line)).collect(),
-            },
+            remaining,
+            subtracted: lines,
             stiffness: columns.stiffness,
             of_body,
             statements,

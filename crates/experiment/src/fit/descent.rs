@@ -64,9 +64,9 @@ pub(crate) fn descend<E>(
             corners[last] = nearer;
             continue;
         }
-        let towards_best = corners[0].place.clone();
-        for index in 1..=last {
-            corners[index] = corner(&towards_best, &corners[index].place, 0.5, cost)?;
+        let best_place = corners[0].place.clone();
+        for other in &mut corners[1..] {
+            *other = corner(&best_place, &other.place, 0.5, cost)?;
             computed += 1;
         }
     }

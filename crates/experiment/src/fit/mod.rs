@@ -208,33 +208,32 @@ fn result(
     let is_free = |parameter| free.contains(&parameter);
     let fitted = with_values(document, best, is_free, curve)?;
     let scene = fitted.scene();
+    let slope = steeper_slope(curve, best, &free);
     let mut parameters = posterior.parameters();
     let most_work = most_work_by_pull_off(curve, scene);
-    let slope = steeper_slope(curve, best, &free);
-    for fitted in &mut parameters {
-        match fitted.parameter {
-            Parameter::Work => limit_work(fitted, most_work),
-            Parameter::Modulus if slope.is_some() => fitted.set_at_end(RangeEnd::High),
-            _ => {}
-        }
-    }
+    limit_parameters(&mut parameters, most_work, slope.is_some());
     let work_at_most = posterior.work_at_most(&parameters);
-    let (_, governing) = simulation.contact(scene)?;
-    // If the curve shows no adhesion, the best work of adhesion and its Tabor number result from
-    // noise alone.
     let tabor = match work_at_most {
         Some(_) => None,
-        None => governing.tabor_number(scene),
+        None => tabor_number(scene, simulation)?,
     };
-    let mut reason_of_misfit =
-        slope.map(|slope| Reason::Stiffness(slope, best[Parameter::Stiffness as usize]));
     let line_remains = curve.remaining[..2].iter().any(|change| *change != 0.0);
-    if (searched.misfit > MISFIT || line_remains) && reason_of_misfit.is_none() {
-        let residuals = &searched.residuals;
-        let reason = reason(curve, scene, simulation, best, residuals, &free, tabor)?;
-        reason_of_misfit = Some(reason);
-    }
+    let reason_of_misfit = match slope {
+        Some(slope) => {
+            let stiffness = best[Parameter::Stiffness as usize];
+            Some(Reason::Stiffness(slope, stiffness))
+        }
+        None if searched.misfit > MISFIT || line_remains => {
+            let residuals = &searched.residuals;
+            Some(reason(
+                curve, scene, simulation, best, residuals, &free, tabor,
+            )?)
+        }
+        None => None,
+    };
     let comparison = searched.compared(curve).comparison();
+    let has_reason = reason_of_misfit.is_some();
+    let grade = comparison.agreement.grade(searched.misfit, has_reason);
     Ok(FitResult {
         work_at_most,
         parameters,
@@ -242,9 +241,7 @@ fn result(
         misfit: searched.misfit,
         residual_over_noise: comparison.residual_over_noise,
         beyond_five_sigma: comparison.beyond_five_sigma,
-        grade: comparison
-            .agreement
-            .grade(searched.misfit, reason_of_misfit.is_some()),
+        grade,
         agreement: comparison.agreement,
         tabor,
         reason: reason_of_misfit,
@@ -277,8 +274,28 @@ fn most_work_by_pull_off(curve: &MeasuredCurve, scene: &CheckedScene) -> Option<
     Some(tension / (1.5 * PI * radius))
 }
 
-/// Limits the interval of the work of adhesion to the largest value `most` that the pull-off
-/// allows.
+/// Returns the Tabor number of a scene. That of a curve without adhesion is one of the noise.
+fn tabor_number(
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+) -> Result<Option<f64>, ExperimentError> {
+    let (_, governing) = simulation.contact(scene)?;
+    Ok(governing.tabor_number(scene))
+}
+
+/// Limits the work of adhesion by what the pull-off allows, and states only a bound of the modulus
+/// if the loading is steeper than the instrument.
+fn limit_parameters(parameters: &mut [FittedParameter], most_work: Option<f64>, is_steep: bool) {
+    for fitted in parameters {
+        match fitted.parameter {
+            Parameter::Work => limit_work(fitted, most_work),
+            Parameter::Modulus if is_steep => fitted.set_at_end(RangeEnd::High),
+            _ => {}
+        }
+    }
+}
+
+/// Limits the interval of the work of adhesion by what the pull-off allows.
 fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
     let Some(most) = most else {
         return;
@@ -394,37 +411,74 @@ fn search(
     space: &Space<'_>,
     report: &mut dyn FnMut(usize),
 ) -> Result<Searched, ExperimentError> {
-    let mut result_of_part = None;
-    let mut computed = 0;
-    if let Some(part) = curve.thinned(ENOUGH) {
-        let space = Space {
-            curve: &part,
-            ..space.clone()
-        };
-        let mut search = Search {
-            space: &space,
-            model: Model::new(&part, document.scene(), simulation),
-            report: &mut *report,
-            lines: space.lines(),
-        };
-        let (population, generator) = search.first()?;
-        if search.is_systematic(&population) {
-            result_of_part = Some(search.find_from(population, generator)?);
-        }
-        computed = search.model.evaluations;
-    }
-
-    let mut report_all = |evaluations: usize| report(computed + evaluations);
+    let of_part = search_part(curve, document, simulation, space, report)?;
+    let mut report_all = |evaluations: usize| report(of_part.evaluations + evaluations);
     let mut search = Search {
         space,
         model: Model::new(curve, document.scene(), simulation),
         report: &mut report_all,
         lines: space.lines(),
     };
-    let result = match result_of_part {
+    let result = match of_part.result {
         Some(result) => result,
         None => search.find()?,
     };
+    let mut searched = compared_with_all(&mut search, result)?;
+    searched.evaluations += of_part.evaluations;
+    Ok(searched)
+}
+
+/// Search by a part of the points.
+struct SearchOfPart {
+    /// `None` if the residuals are noise, so that the search needs all points.
+    result: Option<SearchResult>,
+    /// Number of curves computed.
+    evaluations: usize,
+}
+
+/// Searches the parameters by a part of many points. If the residuals are more than noise, further
+/// points would not reduce them.
+fn search_part(
+    curve: &MeasuredCurve,
+    document: &Document,
+    simulation: &mut Simulation,
+    space: &Space<'_>,
+    report: &mut dyn FnMut(usize),
+) -> Result<SearchOfPart, ExperimentError> {
+    let Some(part) = curve.thinned(ENOUGH) else {
+        return Ok(SearchOfPart {
+            result: None,
+            evaluations: 0,
+        });
+    };
+    let space = Space {
+        curve: &part,
+        ..space.clone()
+    };
+    let mut search = Search {
+        space: &space,
+        model: Model::new(&part, document.scene(), simulation),
+        report,
+        lines: space.lines(),
+    };
+    let (population, generator) = search.first()?;
+    let result = if search.is_systematic(&population) {
+        Some(search.find_from(population, generator)?)
+    } else {
+        None
+    };
+    Ok(SearchOfPart {
+        result,
+        evaluations: search.model.evaluations,
+    })
+}
+
+/// Compares the best values of a search with all points of its curve.
+fn compared_with_all(
+    search: &mut Search<'_>,
+    result: SearchResult,
+) -> Result<Searched, ExperimentError> {
+    let curve = search.space.curve;
     let best = search.exact(&result.best.place)?;
     let residuals = search.lines.refined(&best.residuals, result.noise);
     let beyond_jumps = search.beyond_jumps(&best.place, &residuals)?;
@@ -433,7 +487,7 @@ fn search(
         .iter()
         .map(|residual| residual * curve.noise)
         .collect();
-    let values = space.values(&best.place);
+    let values = search.space.values(&best.place);
     let least_jump = WRONG_SIDE * curve.noise;
     let distances_from_jumps =
         search
@@ -444,7 +498,7 @@ fn search(
         in_contact: best.in_contact,
         distances_from_jumps,
         misfit,
-        evaluations: computed + search.model.evaluations,
+        evaluations: search.model.evaluations,
         result,
     })
 }
