@@ -97,7 +97,11 @@ impl Openable {
 /// of the folder `working`, sorted by kind and name. `own` is the folder of the user's own scenes.
 pub fn openables(own: Option<&Path>, working: &Path) -> Vec<Openable> {
     let mut list: Vec<Openable> = Vec::new();
-    list.extend(scenes(own, working).into_iter().map(|entry| Openable::Scene(Box::new(entry))));
+    list.extend(
+        scenes(own, working)
+            .into_iter()
+            .map(|entry| Openable::Scene(Box::new(entry))),
+    );
     let mut files = Vec::new();
     let mut read = 0;
     let entries = read_dir(working).into_iter().flatten();
