@@ -373,6 +373,14 @@ fn the_figure_of_the_regimes_shows_them() {
         (sensitive[0] - 0.08).abs() < 0.005
             && (sensitive[sensitive.len() - 1] - 0.54).abs() < 0.005
     );
+    assert!(of(8.0, "adhesion_share_median")[0] < 1e-4);
+    let results = std::fs::read_to_string(folder.join("regimes/results.json")).unwrap();
+    for premise in [
+        "rms gradient 1.466 is above 1",
+        "fit only once on the length",
+    ] {
+        assert!(results.contains(premise), "{premise}");
+    }
     assert!(
         sensitive.is_sorted()
             && of(8.0, "regime_pressure_sensitive")
