@@ -173,9 +173,7 @@ fn the_second_step_presses_until_patches_merge() {
         driver.press("Right");
         seen.push(pull_off(&driver, 2));
     }
-    assert!(
-        text.contains("The first two steps leave the pull-off force of this profile as it is.")
-    );
+    assert!(text.contains("The first two steps change nothing here. The third step raises"));
     assert_eq!(seen, [before.clone(), before, after.to_owned()]);
     let stages = &driver.document().scene().loading;
     assert_eq!(stages.len(), 2);
