@@ -133,7 +133,7 @@ struct Batch<'a> {
     provenance: String,
 }
 
-/// Fits a scene to all curves.
+/// Fits a scene to each of the curves in turn, and writes a table with a row for each curve.
 pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(), CliError> {
     let output = curves.output;
     let format = Format::of_file(output.file(), output.format, FORMATS, Format::Text);

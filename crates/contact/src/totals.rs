@@ -23,7 +23,8 @@ impl Default for GapScale {
 /// such gaps into an `i128`.
 const GAP_BITS: i32 = 62;
 
-/// Largest exponent of the scale. Up to this exponent, the scale and the quantum are both normal
+/// Largest exponent of the scale, which is the power of two by which a gap in m is multiplied to
+/// count its quanta. Up to this exponent, the scale and its inverse, the quantum, are both normal
 /// floating-point numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 

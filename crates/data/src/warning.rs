@@ -301,7 +301,9 @@ impl Warning {
     /// single measured profiles (docs/surface-estimate.md).
     pub const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
-    /// Ratio λ²/(AR) below which the equivalent profile of a wavy sphere falls somewhere.
+    /// Ratio λ²/(AR) of a wavy sphere with the wavelength λ, the amplitude A of the waves and the
+    /// radius R. Below this ratio, the equivalent profile falls somewhere with the distance from the
+    /// axis.
     pub const LEAST_WAVE_RATIO: f64 = 12.391;
 
     /// Returns a warning if a body has few springs in contact. `springs` is the largest number of

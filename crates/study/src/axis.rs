@@ -84,8 +84,8 @@ impl Axis {
     /// profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-    /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The
-    /// `values` are in the SI unit of this number.
+    /// Creates an axis on which one number of a scene varies. `path` is the path of this number in
+    /// the scene, such as `roughness.hurst`, and `values` are its values in its SI unit.
     ///
     /// # Errors
     /// Returns an error if no scene has a number at this path.

@@ -23,9 +23,9 @@ pub(super) struct Passage {
 }
 
 impl Passage {
-    /// Returns a number with the sign of the side of the target: zero or positive on the side that
-    /// contains the answer, negative on the other side. If `value` is NaN, because the scene does
-    /// not allow the number, the result is negative.
+    /// Returns a number whose sign states on which side of the target the quantity with this value
+    /// lies: zero or positive on the side that contains the answer, negative on the other side. The
+    /// result is negative if `value` is NaN, which a scene has that is not allowed.
     fn excess(self, value: f64) -> f64 {
         let excess = value - self.target;
         if self.falls_onto {

@@ -100,11 +100,12 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Computes all cells of a streak, which differ only in the preload, with one loading.
+    /// Computes the records of all [cells](Plan) of a streak. These cells differ only in the
+    /// preload, so that one loading of the profile is enough.
     ///
     /// # Errors
-    /// Returns an error if the profile or the contact cannot be computed, or if `stop` returned
-    /// true.
+    /// Returns an error if the profile or the contact cannot be computed, or if the user has stopped
+    /// the computation.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
         let scene = plan

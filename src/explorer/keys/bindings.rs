@@ -130,7 +130,8 @@ fn names_of(keys: &[Key]) -> String {
     names.join(" ")
 }
 
-/// The keys in use: those of the table, unless the configuration replaces them.
+/// The keys of all commands: the keys in the table of commands, or the keys with which the
+/// configuration of the user replaces them.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 

@@ -235,7 +235,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 to = released;
             }
         }
-        // If pinned edges jump as soon as they are released, `leaves` equals `to`, and there is no
+        // `leaves` is the indentation at which the free edges jump, and `to` the indentation at
+        // which they begin to move. If both are equal, the edges never move freely, so there is no
         // run with free edges.
         if leaves != to {
             match (listed.runs.last_mut(), descent.above) {

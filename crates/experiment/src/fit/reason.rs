@@ -14,7 +14,8 @@ use thiserror::Error;
 /// Largest jump of the force between two points on a rigid instrument, divided by the pull-off
 /// force. A sphere on a rigid instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
-/// Share of the squared residuals that a pattern of the residuals must explain to be a reason.
+/// Share of the squared residuals that a pattern of the residuals must explain, so that this
+/// pattern is stated as the reason why the model does not describe the curve.
 const EXPLAINS: f64 = 0.4;
 /// Smallest slope of the force over the displacement, divided by the stiffness of the instrument,
 /// that is impossible with this instrument. The excess over 1 allows for errors.

@@ -263,9 +263,10 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Returns the member to which the costs fall from the start. The noise falls with the residuals,
-    /// so that first all points count and in the end those at jumps count little. A descent is no
-    /// sample, but it follows a narrow valley that a population may miss.
+    /// Minimises the cost, beginning at the start of the search, and returns the set of parameters
+    /// with the smallest cost. The assumed noise decreases together with the residuals, so that all
+    /// points count at first, and points at jumps count little in the end. The descent can follow a
+    /// narrow valley of the cost that random sets of parameters miss.
     pub fn descended(&mut self) -> Result<Member, ExperimentError> {
         self.descended_from(self.space.start())
     }

@@ -314,6 +314,7 @@ mod tests {
                 (modes / expected - 1.0).abs() < 2e-4,
                 "H = {hurst}: {modes} against {expected}"
             );
+            // The same elastic energy follows from κ. For waves that fit k times on the length,
             // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H) and κ² = E* h ⟨∇z⟩/γ.
             let sum = |j: i32| spectrum.moment(j);
             let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);

@@ -66,8 +66,9 @@ fn steps(map: &LevelledSurface) -> [f64; 2] {
     ]
 }
 
-/// Computes the powers of the waves in one half of the plane of wave numbers. `steps` are the wave
-/// numbers in rad/m of wave 1 along the rows and of wave 1 between the rows.
+/// Computes the powers of the waves in one half of the plane of wave numbers. `steps` are the
+/// smallest wave numbers in rad/m, along the rows and across the rows: the wave numbers of the
+/// waves that fit once on the map.
 fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, SurfaceError> {
     let [along, between] = map.distances;
     let columns = map.columns;

@@ -233,9 +233,9 @@ impl Observation {
         factors.map(|factor| factor * self.range * power)
     }
 
-    /// Returns the terms whose sum is the expected mean power of this band. The terms refer to a
-    /// spectrum that is given at the wave numbers `nodes`. They include aliases: waves that look
-    /// like the waves of this band because the points do not resolve them.
+    /// Returns the terms whose sum is the expected mean power of this band. Each term is the product
+    /// of a factor and of the spectrum at one of the wave numbers `nodes`. The terms include
+    /// aliases: waves that look like the waves of this band because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

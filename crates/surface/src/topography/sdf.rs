@@ -62,7 +62,8 @@ enum Version {
     Iso2,
 }
 
-/// Largest number of letters of the name of an institute.
+/// Largest number of letters of the institute in the name of a version, such as `NIST` in
+/// `aNIST-1.0`.
 const LONGEST_NAME: usize = 8;
 
 /// Returns true if `bytes` begin like SDF: with `a` for text or `b` for binary, and the name of a
