@@ -48,8 +48,8 @@ const MOVES: usize = 5;
 const ROUNDS: usize = 20;
 const GROWN: f64 = 0.05;
 /// Number of moves at the end, each of which adds all members to the samples.
-const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps along one parameter.
+const LAST_MOVES: usize = 32;
+/// Share of the moves that are random steps.
 const RANDOM: f64 = 0.02;
 /// Number of decades over which the lengths of random steps extend, from the whole range of a
 /// parameter downwards.
