@@ -334,3 +334,12 @@ fn adhesion_forces_are_within_one_per_cent() {
         );
     }
 }
+
+/// The probe of two spheres is no body of revolution, and its error of the model says why there is
+/// none.
+#[test]
+fn two_spheres_have_a_model_error_of_their_own() {
+    let text = super::program::text(&["run", "two-spheres"]);
+    assert!(text.contains("none for two spheres"), "{text}");
+    assert!(!text.contains("bodies of revolution"), "{text}");
+}

@@ -8,6 +8,7 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, criteria};
+use asperity_surface::Form;
 
 /// Adds what criteria of other theories state about adhesion without a preload, and the error of
 /// the adhesion force from each source.
@@ -157,6 +158,8 @@ fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: boo
         "not known: the MDR is a model for rough bodies, whose adhesion is disputed"
     } else if is_exceeded {
         "not known: a premise does not hold (Warnings)"
+    } else if matches!(scene.form, Some(Form::TwoSpheres { .. })) {
+        "none for two spheres so far apart that neither deforms the body under the other"
     } else {
         "none for bodies of revolution whose equivalent profile rises everywhere"
     };
