@@ -122,7 +122,7 @@ fn listed(path: &Path, read: &mut u64) -> Option<ListedFile> {
     }
     let file = |kind: FileKind, text: String| ListedFile {
         name: printable(name).into_owned(),
-        path: path.to_owned(),
+        path: path.strip_prefix(".").unwrap_or(path).to_owned(),
         kind,
         text,
     };
