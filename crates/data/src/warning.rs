@@ -243,7 +243,7 @@ impl Warning {
 
     /// Largest length of a profile, divided by the length of the scan, at which the scan lacks only
     /// few waves of the profile.
-    pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.5;
+    pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.1;
 
     /// Smallest number of the longest waves on the length of a nominally flat body for which the
     /// results of different random profiles are similar (docs/learn.md).

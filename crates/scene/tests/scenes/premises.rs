@@ -230,7 +230,7 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             whole.length = 1.01 * scan;
             let [least, most] = match premise {
                 "scan_longer_than_length" => [0.5, 0.9],
-                _ => [1.6, 4.0],
+                _ => [1.15, 4.0],
             };
             broken = Scene {
                 length: scan * random.between(least, most),
