@@ -2,7 +2,7 @@
 //! this machine.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
+use super::output::{Origin, OutputArguments, TEXT_OR_JSON, only_formats};
 use super::progress::{ProgressLine, Task, watched};
 use asperity_data::Control;
 use asperity_report::Format;
@@ -19,7 +19,7 @@ Examples:
 Each case has one error and a bound that was stated beforehand. The exit code is 1 if a case fails.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_args(without_look))]
+#[command(after_help = EXAMPLES, mut_args(only_formats(TEXT_OR_JSON)))]
 pub struct CheckArguments {
     /// Only cases with one of these words in their names
     #[arg(value_name = "WORD")]

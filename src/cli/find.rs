@@ -2,7 +2,7 @@
 //! has a given value.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
 use asperity_report::{FindReport, Format, counted_texts};
@@ -24,7 +24,7 @@ length have exact answers. Any other quantity is computed at several values, and
 close to the wanted value between two of them, the answer says that crossings may be missed.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_args(without_look))]
+#[command(after_help = EXAMPLES, mut_args(only_formats(WITHOUT_PICTURE)))]
 pub struct FindArguments {
     /// A number of the scene by its path, such as adhesion.work, or preload
     pub field: String,

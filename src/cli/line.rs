@@ -1,7 +1,7 @@
 //! `asperity line`: writes the rigid profile of a scene.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TABLES, without_look};
+use super::output::{Origin, OutputArguments, TABLES, only_formats};
 use super::scene::{SceneArguments, simulation_of, warn};
 use asperity_report::Format;
 use clap::Args;
@@ -16,7 +16,7 @@ Examples:
 The finer profile is the same profile: a wave keeps its phase on every grid.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_args(without_look))]
+#[command(after_help = EXAMPLES, mut_args(only_formats(TABLES)))]
 pub struct LineArguments {
     #[command(flatten)]
     pub scene: SceneArguments,

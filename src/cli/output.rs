@@ -5,8 +5,8 @@ use super::typed::TYPED;
 use asperity_data::{check_writable, parse_quantity, path_name, write_new};
 use asperity_plot::{Colours, Figure, figure_text};
 use asperity_report::{
-    Format, Report, check_extension, entries, files_provenance, parameter_lines, scene_provenance,
-    scenes_provenance,
+    Format, Report, alternatives, check_extension, entries, files_provenance, parameter_lines,
+    scene_provenance, scenes_provenance,
 };
 use asperity_scene::text::quoted;
 use asperity_scene::{Document, Scene};
@@ -65,10 +65,20 @@ pub struct OutputArguments {
 /// Identifiers of the options that determine the look of figures.
 const LOOK: [&str; 5] = ["width", "height", "only", "no_title", "parameters"];
 
-/// Hides an option for the look of figures, in the help of a command that draws no figures.
-pub(super) fn without_look(option: Arg) -> Arg {
-    let is_look = LOOK.contains(&option.get_id().as_str());
-    option.hide(is_look)
+/// Returns a function that adapts the help of options to a command whose results have only the
+/// formats `formats`. The help of the format lists these formats. The options for the look of
+/// figures are hidden if none of these formats is a picture.
+pub(super) fn only_formats(formats: &'static [Format]) -> impl Fn(Arg) -> Arg {
+    move |option| {
+        let id = option.get_id().as_str();
+        if id == "format" {
+            let names = alternatives("", formats.iter().map(|format| format.name()));
+            return option.help(format!("{names}; default: by the extension"));
+        }
+        let draws = formats.iter().any(|format| format.is_picture());
+        let is_look = LOOK.contains(&id);
+        option.hide(is_look && !draws)
+    }
 }
 
 /// Parses a length and returns it in m. The length must be from `least` mm to [`MOST`] mm.

@@ -77,14 +77,16 @@ impl SceneArguments {
 /// this function if their results contain no warnings, as in tables, figures and times.
 pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     for warning in warnings {
-        // An error in writing is ignored, so that the command continues even if standard error is
-        // closed.
-        let _ = writeln!(
-            io::stderr(),
-            "warning: {}: {warning}",
-            printable(document.name())
-        );
+        warn_of(document.name(), warning);
     }
+}
+
+/// Writes to standard error one premise of the model that a scene or a measured file does not meet.
+/// `name` is the name of the scene or of the file.
+pub(super) fn warn_of(name: &str, warning: &impl Display) {
+    // An error in writing is ignored, so that the command continues even if standard error is
+    // closed.
+    let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(name));
 }
 
 /// Returns true for the formats in which a result contains its warnings.

@@ -1,7 +1,7 @@
 //! `asperity sensitivity`: computes how the results of a scene change if its numbers are changed.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{SceneArguments, holds_warnings, threads, warn};
 use asperity_report::{Format, SensitivityReport, counted_texts};
@@ -19,7 +19,7 @@ Each number of the scene is made 10 % smaller and larger while all others stay, 
 random profiles: the change of the median, and the range of the changes of the profiles.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_args(without_look))]
+#[command(after_help = EXAMPLES, mut_args(only_formats(WITHOUT_PICTURE)))]
 pub struct SensitivityArguments {
     #[command(flatten)]
     pub scene: SceneArguments,

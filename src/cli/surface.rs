@@ -4,7 +4,7 @@ use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{MOST_LINES, threads};
+use super::scene::{MOST_LINES, holds_warnings, threads, warn_of};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
 use asperity_data::{Control, Remedied, Wording, parse_quantity, path_name, round_to, write_new};
@@ -407,6 +407,11 @@ pub(super) fn surface(
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
         let scene = task.scene(modulus, &report.faces, &report.line);
         write_scene(file, scene, arguments.output.force)?;
+    }
+    if !holds_warnings(format) {
+        for warning in report.warnings() {
+            warn_of(&path_name(&arguments.files[0]), &warning);
+        }
     }
     let files: Vec<PathBuf> = arguments
         .files

@@ -30,3 +30,4 @@ mod surfaces;
 mod sweep;
 mod sweep_boundary;
 mod sweep_plot;
+mod warnings;

@@ -41,6 +41,18 @@ pub enum Warning {
         /// Largest number of springs that were in contact at the same time.
         springs: u64,
     },
+    /// The steps of the stepwise solver are too coarse for the loading. Either a stage that ends at
+    /// a force passes it by more than [`Warning::LARGEST_EXCESS_OF_FORCE`], or the whole loading
+    /// has fewer than [`Warning::LEAST_STEPS`] steps from its deepest to its highest place.
+    CoarseSteps {
+        /// Length of a step in m.
+        step: f64,
+        /// Number of steps from the deepest to the highest place of the loading.
+        steps: f64,
+        /// Force in N at which a stage should end, and force at which it ends; `None` if each stage
+        /// ends near its force.
+        forces: Option<[f64; 2]>,
+    },
     /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`]
     /// springs.
     FewSpringsPerWave {
@@ -190,6 +202,16 @@ pub enum Warning {
         /// Rms height in m.
         rms_height: f64,
     },
+    /// The table of a form reaches to a radius that is far larger than the profile and than any
+    /// measured body. The unit of the table is therefore probably wrong.
+    ImprobableForm {
+        /// Name of the file.
+        file: String,
+        /// Largest radius of the table in m.
+        reach: f64,
+        /// Length of the profile in m.
+        length: f64,
+    },
     /// The rms height, gradient and curvature of a measured surface come from few profiles: fewer
     /// than [`Warning::MANY_PROFILES`].
     FewMeasuredProfiles {
@@ -229,6 +251,14 @@ impl Warning {
     /// Smallest number of springs in contact with which a force is accurate.
     pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
 
+    /// Largest difference between the force at the end of a stage and the force where it should
+    /// end, as a share of the latter, for which the steps of the stepwise solver count as fine.
+    pub const LARGEST_EXCESS_OF_FORCE: f64 = 0.01;
+
+    /// Smallest number of steps of the stepwise solver between the deepest and the highest place of
+    /// a loading.
+    pub const LEAST_STEPS: f64 = 20.0;
+
     /// Smallest number of springs on the shortest wave. With this number the adhesion force of a
     /// rough profile has an error of about one per cent (docs/accuracy.md).
     pub const LEAST_SPRINGS_PER_WAVE: u64 = 4;
@@ -243,7 +273,7 @@ impl Warning {
 
     /// Largest length of a profile, divided by the length of the scan, at which the scan lacks only
     /// few waves of the profile.
-    pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.5;
+    pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.1;
 
     /// Smallest number of the longest waves on the length of a nominally flat body for which the
     /// results of different random profiles are similar (docs/learn.md).
@@ -294,6 +324,10 @@ impl Warning {
     /// Rms height of a surface in m above which the unit of heights is probably wrong.
     pub const IMPROBABLE_HEIGHT: f64 = 1e-3;
 
+    /// Largest radius of a form table, divided by the length of the profile, at which the unit of
+    /// an improbably long table may be right.
+    pub const LARGEST_REACH_OF_FORM: f64 = 100.0;
+
     /// Largest ratio of the rms heights of two surfaces that can be samples of one roughness.
     pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
 
@@ -312,6 +346,25 @@ impl Warning {
     pub fn of_springs_in_contact(springs: u64) -> Option<Warning> {
         let is_few = (1..Self::LEAST_SPRINGS_IN_CONTACT).contains(&springs);
         is_few.then_some(Warning::FewSpringsInContact { springs })
+    }
+
+    /// Returns a warning if the steps of the stepwise solver are too coarse. `step` is the length of
+    /// a step in m, and `way` is the distance in m between the deepest and the highest place of the
+    /// loading. `forces` has, for each stage that ends at a force, this force and the force at the
+    /// end of the stage in N.
+    pub fn of_steps(step: f64, way: f64, forces: &[[f64; 2]]) -> Option<Warning> {
+        let excess = |[target, end]: &[f64; 2]| (end - target).abs() / target.abs();
+        let farthest = forces
+            .iter()
+            .filter(|pair| excess(pair) > Self::LARGEST_EXCESS_OF_FORCE)
+            .max_by(|one, other| excess(one).total_cmp(&excess(other)));
+        let steps = way / step;
+        let is_coarse = farthest.is_some() || steps < Self::LEAST_STEPS;
+        is_coarse.then_some(Warning::CoarseSteps {
+            step,
+            steps,
+            forces: farthest.copied(),
+        })
     }
 
     /// Returns a warning if the shortest wave of the roughness has few springs.
@@ -442,6 +495,19 @@ impl Warning {
         })
     }
 
+    /// Returns a warning if the table of a form reaches much farther than the profile and than any
+    /// measured body. `file` is the name of the file. `reach` is the largest radius of the table and
+    /// `length` the length of the profile, both in m.
+    pub fn of_reach(file: &str, reach: f64, length: f64) -> Option<Warning> {
+        let is_improbable =
+            reach >= Self::IMPROBABLE_LENGTH && reach > Self::LARGEST_REACH_OF_FORM * length;
+        is_improbable.then(|| Warning::ImprobableForm {
+            file: file.to_owned(),
+            reach,
+            length,
+        })
+    }
+
     /// Returns a warning if the number of measured profiles is too small for an accurate rms
     /// height, gradient and curvature.
     pub fn of_measured_profiles(profiles: u64) -> Option<Warning> {
@@ -464,6 +530,7 @@ impl Warning {
         matches!(
             self,
             Warning::ContactAtEnds { .. }
+                | Warning::CoarseSteps { .. }
                 | Warning::SteepRoughness { .. }
                 | Warning::SteepForm { .. }
                 | Warning::LongRangedAttraction { .. }
@@ -471,6 +538,8 @@ impl Warning {
                 | Warning::CutLikeHeights { .. }
                 | Warning::SteepWaves { .. }
                 | Warning::FallingProfile { .. }
+                | Warning::ImprobableLengths { .. }
+                | Warning::ImprobableForm { .. }
         )
     }
 }
@@ -484,6 +553,7 @@ impl Warning {
             Warning::ContactAtEnds { .. } => "contact_at_ends",
             Warning::EndsInContact { .. } => "ends_in_contact",
             Warning::FewSpringsInContact { .. } => "few_springs_in_contact",
+            Warning::CoarseSteps { .. } => "coarse_steps",
             Warning::FewSpringsPerWave { .. } => "few_springs_per_wave",
             Warning::RoundedWaves { .. } => "rounded_waves",
             Warning::FewLongWaves { .. } => "few_long_waves",
@@ -505,6 +575,7 @@ impl Warning {
             Warning::SurfacesDiffer { .. } => "surfaces_differ",
             Warning::HeightsNotNormal { .. } => "heights_not_normal",
             Warning::ImprobableLengths { .. } => "improbable_lengths",
+            Warning::ImprobableForm { .. } => "improbable_form",
             Warning::FewMeasuredProfiles { .. } => "few_measured_profiles",
             Warning::UnresolvedSpectrum => "unresolved_spectrum",
             Warning::OffsetRows => "offset_rows",
@@ -551,6 +622,29 @@ impl Warning {
                 "The largest number of springs in contact is {springs}, fewer than {}: forces and \
                  energies of so few springs may be wrong by several per cent or more.",
                 Self::LEAST_SPRINGS_IN_CONTACT
+            ),
+            Warning::CoarseSteps {
+                step,
+                forces: Some([target, end]),
+                ..
+            } => format!(
+                "The steps of {} of the stepwise solver are too coarse: a stage that should end at \
+                 {} ends at {}, and forces and energies may be wrong by as much or more.",
+                metres(*step),
+                format_rounded(*target, 3, "N"),
+                format_rounded(*end, 3, "N")
+            ),
+            Warning::CoarseSteps {
+                step,
+                steps,
+                forces: None,
+            } => format!(
+                "The steps of {} of the stepwise solver are too coarse: the loading is {} of them \
+                 deep, fewer than {}, and forces and energies may be wrong by several per cent or \
+                 more.",
+                metres(*step),
+                format_rounded(*steps, 2, "1"),
+                Self::LEAST_STEPS
             ),
             Warning::FewSpringsPerWave { springs } => format!(
                 "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough \
@@ -705,6 +799,16 @@ impl Warning {
                 metres(*length),
                 metres(*rms_height)
             ),
+            Warning::ImprobableForm {
+                file,
+                reach,
+                length,
+            } => format!(
+                "{file}: the table of the form reaches to a radius of {}, far beyond the profile \
+                 of {}: its unit is probably wrong.",
+                metres(*reach),
+                metres(*length)
+            ),
             Warning::FewMeasuredProfiles { profiles } => {
                 let [low, high] = Self::BOUNDARY_FACTORS;
                 let plural = if *profiles == 1 { "" } else { "s" };
@@ -750,6 +854,10 @@ impl Warning {
             }
             Warning::FewSpringsInContact { .. } => {
                 "More numerics.points help, or a length that is little larger than the contact."
+            }
+            Warning::CoarseSteps { .. } => {
+                "A smaller numerics.solver.step helps, or numerics.solver: Exact, which has no \
+                 steps."
             }
             Warning::FewSpringsPerWave { .. } => {
                 "More numerics.points help, or a longer shortest wave."
@@ -838,6 +946,9 @@ impl Warning {
                 "roughness.unit and roughness.height_unit state units where the file has none; a \
                  file that states wrong ones, such as an X3P in µm in place of m, has to be \
                  corrected, or its heights saved as text or .npy."
+            }
+            Warning::ImprobableForm { .. } => {
+                "form.unit states the unit of radii and depths where the file has none."
             }
             Warning::FewMeasuredProfiles { .. } => "100 profiles or a map are better.",
             Warning::UnresolvedSpectrum => "roughness.continue_to continues it as a power law.",

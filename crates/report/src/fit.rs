@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::warnings_section;
+use crate::warnings::{warning_texts, warnings_section};
 use crate::words::percent;
 use asperity_data::{
     AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded, grouped,
@@ -57,6 +57,8 @@ struct FitJson<'a> {
     points_left_out: usize,
     /// Sentences on the assumptions that were made when the curve was read.
     reading: Vec<String>,
+    /// Sentences of [`FitReport::warnings`].
+    warnings: Vec<String>,
 }
 
 impl Report for FitReport<'_> {
@@ -101,6 +103,7 @@ impl Report for FitReport<'_> {
             points_used: self.curve.points,
             points_left_out: self.curve.missing,
             reading: self.assumptions().collect(),
+            warnings: self.warnings(),
         }))
     }
 
@@ -190,6 +193,21 @@ impl FitReport<'_> {
             _ => format!("The model describes the curve {agreement}.{misfit}"),
         };
         Some(format!("{described} {reason} The intervals {intervals}."))
+    }
+
+    /// Returns what a reader of the fitted values has to know, in the words of the text: that the
+    /// model does not describe the curve, statements on the curve for which a step helps, and the
+    /// premises that the scene with the fitted values does not meet.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings: Vec<String> = self.not_described().into_iter().collect();
+        let statements = self.curve.statements.iter();
+        warnings.extend(
+            statements
+                .filter(|statement| statement.remedies().next().is_some())
+                .map(|statement| statement.in_words(self.wording)),
+        );
+        warnings.extend(warning_texts(&self.fit.warnings));
+        warnings
     }
 
     /// Returns the assumptions that were made when the curve was read and when the scene was

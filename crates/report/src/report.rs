@@ -259,7 +259,7 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, S
 
 /// Returns alternatives in words, such as `.txt, .json or .csv`. The text `before` is put in front
 /// of each word.
-fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
+pub fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {
         Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),

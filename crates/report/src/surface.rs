@@ -287,7 +287,7 @@ impl SurfaceReport {
 
     /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
     /// attraction.
-    fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {
             let whose = if number == 0 { "" } else { "opposite face: " };

@@ -2,7 +2,7 @@
 //! vanishes.
 
 use crate::cli::error::CliError;
-use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use asperity_report::Format;
 use asperity_scene::RoughnessParameter;
 use asperity_study::maps::Boundaries;
@@ -22,7 +22,7 @@ the profiles.
 --x gives the boundary in e_el/γ: elastic energy to flatten the roughness over work of adhesion.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_args(without_look))]
+#[command(after_help = EXAMPLES, mut_args(only_formats(WITHOUT_PICTURE)))]
 pub struct BoundaryArguments {
     /// Folder of a merged study with an axis adhesion.kappa or adhesion.elastic_energy_ratio
     #[arg(value_name = "DIR")]

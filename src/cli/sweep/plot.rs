@@ -2,7 +2,7 @@
 
 use crate::cli::advice;
 use crate::cli::error::CliError;
-use crate::cli::output::OutputArguments;
+use crate::cli::output::{OutputArguments, only_formats};
 use asperity_report::{Format, study_curves, study_figure, study_map};
 use asperity_scene::Scene;
 use asperity_study::Results;
@@ -25,7 +25,7 @@ second chart on a logarithmic scale where it spans decades. A second axis of up 
 makes several curves, unless --y names it.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(only_formats(FORMATS)))]
 pub struct PlotArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]

@@ -122,6 +122,7 @@ pub struct FitResult {
     /// Reason why the model does not describe the curve within its noise; `None` if the model does.
     pub reason: Option<Reason>,
     /// Premises of the model that the scene with the found values does not meet.
+    #[serde(skip)]
     pub warnings: Vec<Warning>,
     /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub correlations: Vec<(Parameter, Parameter, f64)>,

@@ -1,10 +1,11 @@
 //! Premises of the model that a scene does not meet.
 
 use super::governing::{Governing, SteepWaves};
-use crate::scene::model::{Roughness, Scene};
-use asperity_contact::History;
-use asperity_data::Warning;
+use crate::scene::model::{Roughness, Scene, Solver};
+use asperity_contact::{Direction, History, Move};
+use asperity_data::{Warning, path_name};
 use asperity_surface::Form;
+use std::path::Path;
 
 /// Distance from the axis at which the edge of a contact begins, as a share of its radius.
 const EDGE: f64 = 0.95;
@@ -96,6 +97,7 @@ impl Scene {
         if let Some(waves) = SteepWaves::of(self, governing) {
             warnings.extend(Warning::of_wave_ratio(waves.ratio, waves.jkr_factor));
         }
+        warnings.extend(self.improbable_form());
         if adheres {
             warnings.extend(self.falling_profile());
         }
@@ -106,6 +108,10 @@ impl Scene {
                 long_wave_share,
                 ..
             } = facts;
+            if let Some(surface) = self.measured() {
+                let file = path_name(Path::new(&surface.file));
+                warnings.extend(Warning::of_lengths(&file, scan, rms_heights[0]));
+            }
             warnings.extend(Warning::of_scan(scan, self.length, rms_heights));
             warnings.extend(Warning::of_short_scan(scan, self.length, long_wave_share));
         }
@@ -125,6 +131,46 @@ impl Scene {
     fn heights_as_profile(&self) -> Option<Warning> {
         let has_form = self.form.is_some();
         (self.measured_as_line() && has_form).then_some(Warning::HeightsAsProfile)
+    }
+
+    /// Returns a warning if the table of the form is so long that its unit is probably wrong. The
+    /// table must have been read.
+    fn improbable_form(&self) -> Option<Warning> {
+        let form = self.form.as_ref()?;
+        let (Form::Table { file, .. }, Some(table)) = (form, form.table()) else {
+            return None;
+        };
+        let file = path_name(Path::new(file));
+        Warning::of_reach(&file, table.reach(), self.length)
+    }
+
+    /// Returns a warning if the steps of the stepwise solver are too coarse for a loading.
+    ///
+    /// A force on unloading may jump past the force at which a stage should end, however short the
+    /// steps are. Only stages of loading therefore show by their forces that the steps are coarse.
+    pub(crate) fn coarse_steps(&self, history: &History) -> Option<Warning> {
+        let Solver::Stepwise { step } = self.numerics.solver else {
+            return None;
+        };
+        let mut forces = Vec::new();
+        let mut highest = f64::INFINITY;
+        let mut deepest = f64::NEG_INFINITY;
+        for leg in &history.legs {
+            for point in leg.curve.iter().filter(|point| point.springs > 0) {
+                highest = highest.min(point.indentation);
+                deepest = deepest.max(point.indentation);
+            }
+            if let (Move::ToForce(target), Direction::Loading, Some(end)) =
+                (leg.target, leg.direction, leg.end_in_contact())
+                && target > 0.0
+            {
+                forces.push([target, end.force]);
+            }
+        }
+        // A body that touches at one place or nowhere makes no steps that matter.
+        let has_moved = deepest > highest || !forces.is_empty();
+        let way = (deepest - highest).max(0.0);
+        has_moved.then(|| Warning::of_steps(step, way, &forces))?
     }
 
     fn falling_profile(&self) -> Option<Warning> {

@@ -482,6 +482,7 @@ impl Simulation {
             without_preload,
         } = loaded;
         let mut warnings = history.warnings(contact.profile());
+        warnings.extend(scene.coarse_steps(&history));
         warnings.extend(scene.steep_form(&history));
         warnings.extend(warnings_before_loading);
         let figures = Figures::of(&history);

@@ -2,17 +2,20 @@
 
 use asperity_contact::Move;
 use asperity_data::{NamedHeight, Warning};
-use asperity_scene::{Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation};
+use asperity_scene::{
+    Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation, Solver,
+};
 use asperity_surface::Form;
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
 
 /// Premises of which scenes of this test break one each.
-const PREMISES: [&str; 15] = [
+const PREMISES: [&str; 16] = [
     "contact_at_ends",
     "ends_in_contact",
     "few_springs_in_contact",
+    "coarse_steps",
     "few_springs_per_wave",
     "rounded_waves",
     "few_long_waves",
@@ -128,6 +131,11 @@ fn use_heights_as_profile(scene: &mut Scene) {
     }
 }
 
+fn use_steps(scene: &mut Scene, step: f64) {
+    scene.numerics.solver = Solver::Stepwise { step };
+    scene.numerics.edges = scene.numerics.solver.usual_edges();
+}
+
 /// A scene that meets all premises, and the same scene with one premise broken.
 fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
     let Sphere {
@@ -142,6 +150,12 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             broken.loading[1] = Move::ToForce(-pull_off * (0.95 * random.share()));
         }
         "few_springs_in_contact" => broken.numerics.points = random.whole(16, 44),
+        "coarse_steps" => {
+            let radius = whole.form.as_ref().and_then(Form::sphere_radius).unwrap();
+            let depth = contact_radius.powi(2) / radius;
+            use_steps(&mut whole, 1e-4 * depth);
+            use_steps(&mut broken, depth * random.between(0.1, 0.3));
+        }
         "long_ranged_attraction" | "finite_ranged_attraction" => {
             let wanted = if premise.starts_with("long") {
                 0.1..0.99
@@ -230,7 +244,7 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             whole.length = 1.01 * scan;
             let [least, most] = match premise {
                 "scan_longer_than_length" => [0.5, 0.9],
-                _ => [1.6, 4.0],
+                _ => [1.15, 4.0],
             };
             broken = Scene {
                 length: scan * random.between(least, most),
@@ -326,6 +340,69 @@ fn the_premise_that_a_scene_breaks_is_named_alone() {
     assert!(counts.iter().all(|count| *count >= 8), "{counts:?}");
 }
 
+/// A file without units is read in m. Where its numbers are in µm or mm, the profile or the form is
+/// larger than any measured body, and the unit of the file is called wrong.
+#[test]
+fn lengths_of_files_in_a_wrong_unit_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut profile = String::new();
+    let mut table = String::new();
+    for index in 0..400 {
+        let x = 0.25 * (f64::from(index) + 0.5);
+        writeln!(profile, "{x} {}", 0.05 * (1.3 * x).sin()).unwrap();
+        let radius = 0.25 * f64::from(index);
+        writeln!(table, "{radius} {}", 1e-3 * radius * radius).unwrap();
+    }
+    std::fs::write(folder.path().join("profile.txt"), profile).unwrap();
+    std::fs::write(folder.path().join("form.txt"), table).unwrap();
+    let mut scene = Scene::new(Material::effective(1e6), 2e-5);
+    scene.loading = vec![Move::ToForce(1e-6), Move::ToSeparation];
+    scene.numerics.points = 1024;
+    for (unit, is_wrong) in [("", true), ("um", false)] {
+        let mut rough = scene.clone();
+        rough.roughness = Some(Roughness::Measured(Measured {
+            as_line: true,
+            unit: unit.to_owned(),
+            ..Measured::of_file("profile.txt")
+        }));
+        let mut formed = scene.clone();
+        formed.form = Some(Form::Table {
+            file: "form.txt".to_owned(),
+            unit: unit.to_owned(),
+            rows: Default::default(),
+        });
+        for (scene, name) in [(rough, "improbable_lengths"), (formed, "improbable_form")] {
+            let names = computed(&scene, folder.path()).0;
+            assert_eq!(names.contains(&name), is_wrong, "{unit}: {names:?}");
+        }
+    }
+}
+
+/// A stage that passes its force by more than one per cent is named with both forces; fine steps
+/// and the exact solver are not named.
+#[test]
+fn steps_that_pass_the_force_of_a_stage_are_named() {
+    let document = asperity_scene::open("jkr-sphere").unwrap();
+    let coarse = |solver: &str| {
+        let scene = document.set("numerics.solver", solver).unwrap();
+        let outcome = Simulation::default().compute(scene.scene()).unwrap();
+        let mut warnings = outcome.warnings.into_iter();
+        warnings.find(|warning| warning.name() == "coarse_steps")
+    };
+    let warning = coarse("Stepwise(step: 1e-6)").unwrap();
+    let Warning::CoarseSteps {
+        forces: Some([target, end]),
+        ..
+    } = warning
+    else {
+        panic!("{warning}")
+    };
+    assert!(target == 1e-4 && end > 1.01 * target, "{warning}");
+    assert!(warning.remedy().contains("numerics.solver.step"));
+    assert_eq!(coarse("Stepwise(step: 2e-9)"), None);
+    assert_eq!(coarse("Exact"), None);
+}
+
 /// The slope of a form is that at the edge of its contact, without and with adhesion.
 #[test]
 fn the_slope_of_a_form_is_that_at_the_edge_of_the_contact() {
@@ -392,6 +469,16 @@ fn words_are_whole_sentences_without_options() {
         },
         Warning::EndsInContact { further: None },
         Warning::FewSpringsInContact { springs: 3 },
+        Warning::CoarseSteps {
+            step: 1e-6,
+            steps: 8.0,
+            forces: Some([1e-4, 1.68e-4]),
+        },
+        Warning::CoarseSteps {
+            step: 1e-6,
+            steps: 8.0,
+            forces: None,
+        },
         Warning::FewSpringsPerWave { springs: 3.99 },
         Warning::RoundedWaves {
             stated: [7.2e-5, 1e-7],
@@ -463,6 +550,11 @@ fn words_are_whole_sentences_without_options() {
             file: "a.x3p".to_owned(),
             length: 8.0,
             rms_height: 0.051,
+        },
+        Warning::ImprobableForm {
+            file: "form.txt".to_owned(),
+            reach: 50.0,
+            length: 2e-5,
         },
         Warning::FewMeasuredProfiles { profiles: 1 },
         Warning::UnresolvedSpectrum,
