@@ -20,6 +20,7 @@ pub(crate) mod analysis;
 mod axis_power;
 mod detrend;
 mod differences;
+mod exact;
 mod fits;
 mod identities;
 mod interlaced;
