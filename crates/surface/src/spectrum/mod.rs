@@ -43,6 +43,7 @@ mod scoring;
 mod self_affine_ends;
 pub(crate) mod self_affine_fit;
 pub(crate) mod statistics;
+mod trends;
 mod weights;
 
 use crate::error::{Place, SurfaceError, refused};
