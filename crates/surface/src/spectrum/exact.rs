@@ -59,7 +59,14 @@ pub(super) fn match_moments(
         spectrum.values = values;
     }
     let moments = moments(model, spectrum, scans).values;
-    [0, 1, 2].map(|index| (observed[index] - moments[index]).abs())
+    [0, 1, 2].map(|index| {
+        let difference = (observed[index] - moments[index]).abs();
+        if difference > 2.0 * EQUAL * observed[index] {
+            difference
+        } else {
+            0.0
+        }
+    })
 }
 
 /// Returns values of ln C2D with which the moments in `set` are those observed; `None` if there are
