@@ -61,7 +61,7 @@ pub use text::{
     belong_together, grouped, is_control, memory_size, path_name, per_cent, printable,
     printable_lines, round_to, rounded_up, shown, si_prefix, wrap,
 };
-pub use warning::{NamedHeight, Warning};
+pub use warning::{NamedHeight, Trend, TrendOfScan, Warning};
 #[cfg(feature = "files")]
 pub use write::{
     WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file,

@@ -173,6 +173,16 @@ pub enum Warning {
         share: f64,
         /// True if the curvature of the heights was removed before this share was computed.
         is_levelled: bool,
+        /// Trend of the heights whose removal takes off most of the power of these waves; `None` if
+        /// there is none.
+        trend: Option<TrendOfScan>,
+    },
+    /// A surface counts as periodic, but its opposite ends do not meet: the step between them is
+    /// more than [`Warning::LARGEST_STEP_OF_ENDS`] times the largest step inside.
+    EndsDoNotMeet {
+        /// Ratio of the step between opposite ends to the largest step between neighbouring rows or
+        /// columns of points.
+        ratio: f64,
     },
     /// The parts of one measured surface differ in roughness by more than chance explains.
     PartsDiffer {
@@ -246,6 +256,24 @@ pub struct NamedHeight {
     pub rms_height: f64,
 }
 
+/// Polynomial that describes a trend of the heights of a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trend {
+    /// A plane, or a straight line.
+    Tilt,
+    /// A tilted paraboloid, or a parabola.
+    Curvature,
+}
+
+/// A trend of the heights of a scan, and how much it contributes to them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrendOfScan {
+    /// The trend.
+    pub trend: Trend,
+    /// Share of the mean squared height of the points that removal of the trend takes off.
+    pub share: f64,
+}
+
 /// Limits and conditions of the warnings.
 impl Warning {
     /// Smallest number of springs in contact with which a force is accurate.
@@ -303,6 +331,14 @@ impl Warning {
     /// come from the form of the body or from a bow of the scanner. Long waves are longer than a
     /// quarter of the scan.
     pub const FORM_OF_SCAN: f64 = 0.9;
+
+    /// Smallest share of the power of the long waves of a scan that the removal of a trend takes off
+    /// if a warning advises it.
+    pub const MOST_OF_LONG_WAVES: f64 = 0.5;
+
+    /// Ratio of the step between opposite ends of a periodic surface to the largest step inside
+    /// above which the ends do not meet. On a periodic surface both are alike.
+    pub const LARGEST_STEP_OF_ENDS: f64 = 2.0;
 
     /// Ratio of the rms gradients of parts of one surface above which a warning reports the
     /// difference.
@@ -457,10 +493,25 @@ impl Warning {
 
     /// Returns a warning if long waves contribute much of the mean squared height of a scan.
     /// `share` is their share, and `is_levelled` is true if the curvature of the heights was
-    /// removed before.
-    pub fn of_long_waves_of_scan(share: f64, is_levelled: bool) -> Option<Warning> {
+    /// removed before. `trends` are the trends that were not removed, the simplest one first.
+    pub fn of_long_waves_of_scan(
+        share: f64,
+        is_levelled: bool,
+        trends: &[TrendOfScan],
+    ) -> Option<Warning> {
+        let is_most = |trend: &&TrendOfScan| trend.share > Self::MOST_OF_LONG_WAVES * share;
         let is_large = share > Self::MANY_LONG_WAVES;
-        is_large.then_some(Warning::LongWavesOfScan { share, is_levelled })
+        is_large.then(|| Warning::LongWavesOfScan {
+            share,
+            is_levelled,
+            trend: trends.iter().find(is_most).copied(),
+        })
+    }
+
+    /// Returns a warning if opposite ends of a surface that counts as periodic do not meet. `ratio`
+    /// is the ratio of the step between them to the largest step inside.
+    pub fn of_ends(ratio: f64) -> Option<Warning> {
+        (ratio > Self::LARGEST_STEP_OF_ENDS).then_some(Warning::EndsDoNotMeet { ratio })
     }
 
     /// Returns a warning if the rms gradients of the parts of a surface differ by more than chance
@@ -571,6 +622,7 @@ impl Warning {
             Warning::SurfacesFarApart { .. } => "surfaces_far_apart",
             Warning::DisplacedRows { .. } => "displaced_rows",
             Warning::LongWavesOfScan { .. } => "long_waves_of_scan",
+            Warning::EndsDoNotMeet { .. } => "ends_do_not_meet",
             Warning::PartsDiffer { .. } => "parts_differ",
             Warning::SurfacesDiffer { .. } => "surfaces_differ",
             Warning::HeightsNotNormal { .. } => "heights_not_normal",
@@ -772,6 +824,11 @@ impl Warning {
                  height and elastic energy depend on the length of the scan.",
                 100.0 * share
             ),
+            Warning::EndsDoNotMeet { ratio } => format!(
+                "The surface counts as periodic, but its opposite ends do not meet: the step \
+                 between them is {} times the largest step inside, and adds waves of all lengths.",
+                format_rounded(*ratio, 2, "1")
+            ),
             Warning::PartsDiffer { ratio } => format!(
                 "Parts of the surface differ: their rms gradients are up to {}-fold apart, more \
                  than chance explains. The stated errors contain these differences.",
@@ -844,6 +901,12 @@ impl Warning {
 
     /// Returns a sentence that states which step helps, with the names of the fields of a scene.
     pub fn remedy(&self) -> String {
+        if let Warning::LongWavesOfScan {
+            trend: Some(trend), ..
+        } = self
+        {
+            return trend.remedy();
+        }
         let remedy = match self {
             Warning::ContactAtEnds { .. } => {
                 "A larger length helps, with numerics.points in proportion, until the contact ends \
@@ -923,12 +986,17 @@ impl Warning {
             Warning::LongWavesOfScan {
                 share,
                 is_levelled: false,
+                ..
             } if *share > Self::FORM_OF_SCAN => {
                 "Where they are the form of a curved body or a bow of the scanner, \
                  roughness.detrend: Curvature removes it."
             }
             Warning::LongWavesOfScan { .. } => {
                 "A longer scan, or several, shows how the rms height depends on the length."
+            }
+            Warning::EndsDoNotMeet { .. } => {
+                "A surface that does not repeat itself is analysed without roughness.periodic; if \
+                 it repeats itself apart from a tilt, roughness.detrend: Tilt removes the tilt."
             }
             Warning::PartsDiffer { .. } => {
                 "More scans at other places show the mean of the surface; a scan of one part alone \
@@ -960,6 +1028,24 @@ impl Warning {
             Warning::TipArtefacts { .. } => "A sharper tip resolves these waves.",
         };
         remedy.to_owned()
+    }
+}
+
+impl TrendOfScan {
+    /// Returns a sentence that states how the trend is removed.
+    fn remedy(&self) -> String {
+        let share = 100.0 * self.share;
+        match self.trend {
+            Trend::Tilt => format!(
+                "A tilt makes up {share:.0} % of the squared height of the points: \
+                 roughness.detrend: Tilt removes it."
+            ),
+            Trend::Curvature => format!(
+                "A curvature makes up {share:.0} % of the squared height of the points: where it \
+                 is the form of a body or a bow of the scanner, roughness.detrend: Curvature \
+                 removes it."
+            ),
+        }
     }
 }
 

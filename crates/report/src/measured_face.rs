@@ -196,7 +196,9 @@ impl MeasuredFace {
         warnings.extend(Warning::of_long_waves_of_scan(
             analysis.long_wave_share(),
             analysis.is_levelled,
+            &analysis.trends,
         ));
+        warnings.extend(Warning::of_ends(analysis.step_of_ends));
         if analysis.maps == 0 {
             warnings.extend(Warning::of_measured_profiles(analysis.profiles));
         }
@@ -266,7 +268,7 @@ mod tests {
     #[test]
     fn removing_a_curvature_is_not_advised_twice() {
         let remedy = |is_levelled: bool| {
-            let warning = Warning::of_long_waves_of_scan(0.95, is_levelled).unwrap();
+            let warning = Warning::of_long_waves_of_scan(0.95, is_levelled, &[]).unwrap();
             warning.remedy()
         };
         assert!(remedy(false).contains("Curvature") && !remedy(true).contains("Curvature"));

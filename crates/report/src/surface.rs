@@ -240,12 +240,17 @@ impl SurfaceReport {
                 let share = per_cent(moment.missing_short_waves / moment.value);
                 format!("up to {share}")
             };
+            let method = if moment.method == 0.0 {
+                "none".to_owned()
+            } else {
+                format!("± {}", per_cent(moment.method / moment.value))
+            };
             rows.push([
                 // The first column is as wide as the labels of the other rows of the report.
                 format!("  {:22}", row.label),
                 format_quantity(moment.value, row.unit),
                 format!("± {}", per_cent(moment.statistical / moment.value)),
-                format!("± {}", per_cent(moment.method / moment.value)),
+                method,
                 missing,
             ]);
         }

@@ -1,7 +1,7 @@
 //! Each premise that a scene breaks is named, and no other.
 
 use asperity_contact::Move;
-use asperity_data::{NamedHeight, Warning};
+use asperity_data::{NamedHeight, Trend, TrendOfScan, Warning};
 use asperity_scene::{
     Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation, Solver,
 };
@@ -531,15 +531,35 @@ fn words_are_whole_sentences_without_options() {
         Warning::LongWavesOfScan {
             share: 0.5,
             is_levelled: false,
+            trend: None,
         },
         Warning::LongWavesOfScan {
             share: 0.95,
             is_levelled: false,
+            trend: None,
         },
         Warning::LongWavesOfScan {
             share: 0.95,
             is_levelled: true,
+            trend: None,
         },
+        Warning::LongWavesOfScan {
+            share: 0.68,
+            is_levelled: false,
+            trend: Some(TrendOfScan {
+                trend: Trend::Curvature,
+                share: 0.93,
+            }),
+        },
+        Warning::LongWavesOfScan {
+            share: 0.68,
+            is_levelled: false,
+            trend: Some(TrendOfScan {
+                trend: Trend::Tilt,
+                share: 0.93,
+            }),
+        },
+        Warning::EndsDoNotMeet { ratio: 27.3 },
         Warning::PartsDiffer { ratio: 1.5 },
         Warning::SurfacesDiffer { ratio: 3.2 },
         Warning::HeightsNotNormal {

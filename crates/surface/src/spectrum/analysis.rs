@@ -15,8 +15,10 @@ use super::point_results::PointResults;
 use super::powers::Powers;
 use super::self_affine_fit::SelfAffineFit;
 use super::statistics::PointStatistics;
+use super::trends::{TrendSums, step_of_ends};
 use crate::error::{Place, SurfaceError, refused};
-use crate::topography::surface::Topography;
+use crate::topography::surface::{Detrend, Topography};
+use asperity_data::TrendOfScan;
 use std::f64::consts::TAU;
 
 /// Result of [`analyse`]: statistics, spectra and equivalent line of measured surfaces.
@@ -70,6 +72,13 @@ pub struct Analysis {
     /// True if the curvature of each surface was removed before the analysis, as
     /// [`AnalysisOptions::detrend`] can request.
     pub is_levelled: bool,
+    /// Trends of the heights that were not removed, the simplest one first, with the share of the
+    /// mean squared height of the points that their removal takes off.
+    pub trends: Vec<TrendOfScan>,
+    /// Ratio of the rms step between opposite ends of a periodic surface to the largest rms step
+    /// between neighbouring rows or columns of points inside. For several surfaces and both axes of
+    /// a map it is the largest ratio. It is 0 if no surface is periodic.
+    pub step_of_ends: f64,
     /// Ratio of the largest to the smallest rms gradient among parts of a surface: the four
     /// quarters of a map, or the two halves of a profile. For several surfaces it is the largest of
     /// their ratios. It is 1 if the parts differ by no more than chance explains.
@@ -136,6 +145,8 @@ pub fn analyse(
         powers,
         differences,
         is_levelled,
+        trends,
+        step_of_ends,
     } = measure(surfaces, options)?;
     let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
     let fits = SpectrumFits::new(&powers, has_gaps, options.end)?;
@@ -193,6 +204,8 @@ pub fn analyse(
         apart,
         displaced: points.displaced,
         is_levelled,
+        trends: trends.shares(),
+        step_of_ends,
         ratio_of_parts: unevenness.ratio_of_parts,
         ratio_of_surfaces,
     })
@@ -206,6 +219,10 @@ struct Measured {
     differences: Differences,
     /// True if the curvature of each surface was removed before the analysis.
     is_levelled: bool,
+    trends: TrendSums,
+    /// Largest ratio of the step between opposite ends to the largest step inside
+    /// ([`step_of_ends`]), of all periodic surfaces.
+    step_of_ends: f64,
 }
 
 fn measure(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Measured, SurfaceError> {
@@ -217,7 +234,12 @@ fn measure(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Measure
         let levelled = LevelledSurface::new(index, surface, options, 0)?;
         let within = |error: SurfaceError| error.within(|place| Place::Surface(index, place));
         levelled.check_rough(surface).map_err(within)?;
-        measured.is_levelled &= levelled.without_curvature;
+        measured.is_levelled &= levelled.removed == Detrend::Curvature;
+        measured.trends.add(&levelled)?;
+        if !levelled.windowed {
+            let step = step_of_ends(&levelled.heights, levelled.columns);
+            measured.step_of_ends = measured.step_of_ends.max(step);
+        }
         measured.points.add(&levelled, options.tip_radius);
         let blocks = Blocks::new(&levelled)?;
         let spread = blocks.spread();

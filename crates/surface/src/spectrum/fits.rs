@@ -32,6 +32,8 @@ pub(super) struct SpectrumFits {
     /// True if the spectrum ends at a longer wave than the points resolve, because shorter waves
     /// have no significant power.
     pub ends_inside: bool,
+    /// Number of the observed scans if they are periodic ([`Powers::periodic_scans`]).
+    periodic_scans: Option<f64>,
 }
 
 /// Largest changes of the results if the same surfaces are read with other interpolated heights.
@@ -61,6 +63,7 @@ impl SpectrumFits {
             range,
             end,
             ends_inside: last < resolved.last,
+            periodic_scans: powers.periodic_scans(),
         })
     }
 
@@ -76,7 +79,7 @@ impl SpectrumFits {
         observations: &[Observation],
     ) -> Result<IsotropicSpectrum, SurfaceError> {
         let model = Model::new(observations, self.range, self.end);
-        fit_isotropic(&model).ok_or_else(no_maximum)
+        fit_isotropic(&model, self.periodic_scans).ok_or_else(no_maximum)
     }
 
     /// Fits a self-affine spectrum to the observed powers. Returns `None` if the fit does not

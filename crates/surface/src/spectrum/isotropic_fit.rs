@@ -5,6 +5,7 @@
 //! waves, and m is the mean power that the values x_i predict. The second sum makes the spectrum
 //! smooth.
 
+use super::exact::match_moments;
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
 use super::observation::Observation;
@@ -33,12 +34,16 @@ const LEAST_DEVIATIONS: f64 = 3.0;
 const INITIAL_EXPONENT: f64 = 3.0;
 
 /// Finds the isotropic spectrum. Returns `None` if the information matrix is not positive definite,
-/// which happens for powers that are zero or not finite.
-pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
+/// which happens for powers that are zero or not finite. `periodic_scans` is the number of observed
+/// scans if the spectrum must have their moments ([`match_moments`]).
+pub(super) fn fit_isotropic(
+    model: &Model<'_>,
+    periodic_scans: Option<f64>,
+) -> Option<IsotropicSpectrum> {
     let likelihood = PenalisedLikelihood { model };
     let values = descend(&likelihood, initial_values(model), MOST_STEPS)?.parameters;
     let information = likelihood.linearise(&values).factor()?;
-    let departure = departure(model, &values);
+    let mut departure = departure(model, &values);
     let mut spectrum = IsotropicSpectrum {
         nodes: model.nodes,
         values,
@@ -47,6 +52,9 @@ pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
         missing: [0.0; 3],
         ratio_of_kinds: departure.ratio_of_kinds,
     };
+    if let Some(scans) = periodic_scans {
+        departure.moments = match_moments(model, &mut spectrum, scans);
+    }
     let integrals = spectrum.integrals();
     spectrum.method = [0, 1, 2].map(|index| TAU * departure.moments[index] / integrals[index]);
     Some(spectrum)

@@ -30,8 +30,8 @@ pub(super) struct LevelledSurface {
     pub windowed: bool,
     /// True if the median height of each row was subtracted from the row.
     pub aligned: bool,
-    /// True if the curvature was removed.
-    pub without_curvature: bool,
+    /// The polynomial that was removed.
+    pub removed: Detrend,
 }
 
 impl LevelledSurface {
@@ -62,7 +62,7 @@ impl LevelledSurface {
             distances,
             windowed: !periodic,
             aligned: surface.aligned,
-            without_curvature: polynomial == Detrend::Curvature,
+            removed: polynomial,
         })
     }
 

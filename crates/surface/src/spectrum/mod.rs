@@ -20,6 +20,7 @@ pub(crate) mod analysis;
 mod axis_power;
 mod detrend;
 mod differences;
+mod exact;
 mod fits;
 mod identities;
 mod interlaced;
@@ -42,6 +43,7 @@ mod scoring;
 mod self_affine_ends;
 pub(crate) mod self_affine_fit;
 pub(crate) mod statistics;
+mod trends;
 mod weights;
 
 use crate::error::{Place, SurfaceError, refused};

@@ -67,6 +67,8 @@ pub(super) struct Observation {
     /// Weight of the band in moments of the equivalent line. The band contributes the mean power
     /// times this weight times a power of q to a moment ([`Observation::moments`]).
     pub range: f64,
+    /// Mean of the power times q⁰, q¹ and q² over the waves of the band.
+    pub weighted_powers: [f64; 3],
     pub windowed: bool,
     pub kind: Kind,
 }
@@ -98,13 +100,15 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     while first <= count {
         let next = first_of_next_band(first).min(count + 1);
         let waves = (next - first) as f64;
-        let sum: f64 = power.waves[first - 1..next - 1]
-            .iter()
-            .map(|wave| wave.power)
-            .sum();
+        let band = &power.waves[first - 1..next - 1];
+        let weighted_powers = [0, 1, 2].map(|exponent| {
+            let terms = band.iter().map(|wave| wave.weighted_power(exponent));
+            terms.sum::<f64>() / (waves * profiles)
+        });
         observations.push(Observation {
             wave_number: 0.5 * (first + next - 1) as f64 * power.step,
-            power: sum / (waves * profiles),
+            power: weighted_powers[0],
+            weighted_powers,
             waves: waves * profiles / correlated,
             range: waves * power.step / PI,
             windowed: power.windowed,
@@ -140,7 +144,8 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
 struct BandSums {
     waves: f64,
     wave_number: f64,
-    power: f64,
+    /// Sums of the power times q⁰, q¹ and q².
+    weighted_powers: [f64; 3],
     squared_power: f64,
 }
 
@@ -150,7 +155,9 @@ impl BandSums {
         for wave in band {
             sums.waves += 1.0;
             sums.wave_number += wave.wave_number;
-            sums.power += wave.power;
+            for (exponent, sum) in sums.weighted_powers.iter_mut().enumerate() {
+                *sum += wave.weighted_power(exponent as i32);
+            }
             sums.squared_power += wave.power * wave.power;
         }
         sums
@@ -180,7 +187,8 @@ pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     let [along, between] = map.steps;
     let observations = bands.into_iter().map(|band| Observation {
         wave_number: band.wave_number / band.waves,
-        power: band.power / band.waves,
+        power: band.weighted_powers[0] / band.waves,
+        weighted_powers: band.weighted_powers.map(|sum| sum / band.waves),
         // The factor 2 counts the mirror image of each wave, which is not in the sum.
         range: 2.0 * band.waves * along * between / (4.0 * PI * PI),
         waves: band.waves / (correlated * dispersion),
@@ -201,12 +209,13 @@ fn dispersion(bands: &[BandSums]) -> f64 {
     let mut sum = 0.0;
     let mut waves = 0.0;
     for band in bands {
-        let is_counted = band.waves > LEAST_DISPERSED && band.power > 0.0;
+        let power = band.weighted_powers[0];
+        let is_counted = band.waves > LEAST_DISPERSED && power > 0.0;
         if !is_counted {
             continue;
         }
         let n = band.waves;
-        let square = n * band.squared_power / (band.power * band.power);
+        let square = n * band.squared_power / (power * power);
         // If n powers are exponentially distributed, the mean of `square − 1` is (n − 1)/(n + 1),
         // so the mean of the product is 1.
         let variance = (square - 1.0) * (n + 1.0) / (n - 1.0);
@@ -226,11 +235,21 @@ impl Observation {
     /// of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
-        let factors = match self.kind {
-            Kind::Cut { .. } => [1.0, FRAC_PI_2 * q, 2.0 * q * q],
-            Kind::Plane { .. } => [1.0, q, q * q],
+        self.of_weighted_powers([1.0, q, q * q].map(|factor| factor * power))
+    }
+
+    /// Computes the contribution of the waves of this band to the same moments, each wave with its
+    /// own power and wave number.
+    pub fn measured_moments(&self) -> [f64; 3] {
+        self.of_weighted_powers(self.weighted_powers)
+    }
+
+    fn of_weighted_powers(&self, [height, energy, gradient]: [f64; 3]) -> [f64; 3] {
+        let moments = match self.kind {
+            Kind::Cut { .. } => [height, FRAC_PI_2 * energy, 2.0 * gradient],
+            Kind::Plane { .. } => [height, energy, gradient],
         };
-        factors.map(|factor| factor * self.range * power)
+        moments.map(|moment| moment * self.range)
     }
 
     /// Returns the terms whose sum is the expected mean power of this band. Each term is the product

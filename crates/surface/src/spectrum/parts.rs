@@ -349,7 +349,7 @@ fn copy_block(surface: &LevelledSurface, first: [usize; 2], size: [usize; 2]) ->
         distances: surface.distances,
         windowed: true,
         aligned: surface.aligned,
-        without_curvature: false,
+        removed: Detrend::Tilt,
     }
 }
 
@@ -460,7 +460,7 @@ mod tests {
                 distances: [1.0; 2],
                 windowed: true,
                 aligned: false,
-                without_curvature: false,
+                removed: Detrend::Tilt,
             };
             Blocks::new(&surface).unwrap().spread()
         };

@@ -44,6 +44,11 @@ pub(super) struct Wave {
 }
 
 impl Wave {
+    /// Returns the power times the wave number to the power `exponent`.
+    pub fn weighted_power(&self, exponent: i32) -> f64 {
+        self.power * self.wave_number.powi(exponent)
+    }
+
     /// Returns what the wave contributes to the squared gradient of the surface, up to a constant
     /// factor.
     pub fn squared_gradient(&self) -> f64 {

@@ -55,12 +55,18 @@ impl Powers {
     }
 
     /// Adds the power spectra of a surface. The powers are first multiplied by the factors
-    /// `weights`.
+    /// `weights`, unless the surface is periodic: without a window all its parts count equally.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,
         weights: &EqualWeights,
     ) -> Result<(), SurfaceError> {
+        let unchanged = EqualWeights::none();
+        let weights = if surface.windowed {
+            weights
+        } else {
+            &unchanged
+        };
         if surface.rows == 1 {
             return group(&mut self.profiles, surface, 0).add(rows(surface), weights);
         }
@@ -128,6 +134,25 @@ impl Powers {
             last = last.max(last_of_map);
         }
         WaveRange { first, last }
+    }
+
+    /// Returns the number of scans whose waves are observed one by one, if all waves of the surfaces
+    /// are known. This is so if the surfaces are periodic, have the same waves, and none of their
+    /// waves were left out. The powers of profiles with the same waves are averaged, and count as
+    /// one scan.
+    pub fn periodic_scans(&self) -> Option<f64> {
+        match (self.profiles.as_slice(), self.maps.as_slice()) {
+            ([profiles], []) => (!profiles.windowed).then_some(1.0),
+            ([], [first, ..]) => {
+                let is_known = |map: &MapPower| {
+                    let is_equal = map.steps == first.steps && map.sampling == first.sampling;
+                    is_equal && !map.windowed && !map.offsets
+                };
+                let scans = self.maps.len() as f64;
+                self.maps.iter().all(is_known).then_some(scans)
+            }
+            _ => None,
+        }
     }
 
     /// Returns the largest difference, over all maps, of waves parallel to an axis from their

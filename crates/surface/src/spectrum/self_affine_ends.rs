@@ -61,7 +61,7 @@ pub(super) fn fit_for_ends(
 
     let observed = best.assumption.observed(observations);
     let model = Model::new(&observed, range, best.assumption.end);
-    let isotropic = fit_isotropic(&model)?;
+    let isotropic = fit_isotropic(&model, None)?;
     let scale = best.law.scale(&model, &isotropic);
     let mut fit = best.law.with_errors(&model, scale)?;
     let by_end = change_by_end(&candidates, best, scale);

@@ -183,6 +183,7 @@ fn smallest_curvature(heights: &[f64], columns: usize, scale: usize, spacing: f6
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topography::surface::Detrend;
 
     #[test]
     fn moments_of_a_map_and_a_profile_are_those_by_hand() {
@@ -194,7 +195,7 @@ mod tests {
             distances,
             windowed: true,
             aligned: false,
-            without_curvature: false,
+            removed: Detrend::Tilt,
         };
         let mut sums = Sums::default();
         let map = surface(&[1.0, 2.0, 4.0, 1.0, 5.0, 5.0], [0.5, 2.0]);

@@ -6,3 +6,4 @@ mod effort;
 mod generate;
 mod hurst;
 mod parts;
+mod periodic;
