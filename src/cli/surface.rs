@@ -409,8 +409,9 @@ pub(super) fn surface(
         write_scene(file, scene, arguments.output.force)?;
     }
     if !holds_warnings(format) {
+        let file = Path::new(arguments.files[0].file_name().unwrap_or_default());
         for warning in report.warnings() {
-            warn_of(&path_name(&arguments.files[0]), &warning);
+            warn_of(&path_name(file), &warning);
         }
     }
     let files: Vec<PathBuf> = arguments
