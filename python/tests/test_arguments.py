@@ -134,14 +134,15 @@ class EquivalentLines(InFolder):
         contact = {"modulus": MODULUS, "stages": "1 µN, separation"}
         loop = asp.load(surface, work=2e-3, **contact)
         free = np.linspace(-1e-7, -1e-9, 100)
-        displacement, force = np.r_[free, loop.d], np.r_[np.zeros(100), loop.F]
+        after = loop.d[-1] - np.linspace(1e-9, 1e-7, 50)
+        displacement, force = np.r_[free, loop.d, after], np.r_[np.zeros(100), loop.F, np.zeros(50)]
         options = {"noise": "1 nN"}
         found = [
             asp.fit((displacement, force), body, ["work"], work=1e-3, options=options, **contact).work.value
             for body in (surface, heights)
         ]
         self.assertAlmostEqual(found[0] / 2e-3, 1, delta=0.1)
-        self.assertAlmostEqual(found[1] / found[0], 1, delta=1e-6)
+        self.assertAlmostEqual(found[1] / found[0], 1, delta=0.01)
 
 
 class Contacts(InFolder):
