@@ -154,7 +154,7 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
 }
 
 /// Returns the cells of a line that may contain the names of `count` columns; `None` if the line
-/// cannot be split into so many cells. The function tries three ways to split the line and takes
+/// cannot be split into `count` cells. The function tries three ways to split the line and takes
 /// the first that fits: 1. at the separator of the numbers, where `count` to `most` cells are
 /// allowed and cells beyond `count` are dropped, 2. at the separator of the line itself, 3. after
 /// closing brackets.

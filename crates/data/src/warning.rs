@@ -332,8 +332,8 @@ impl Warning {
     /// quarter of the scan.
     pub const FORM_OF_SCAN: f64 = 0.9;
 
-    /// Smallest share of the power of the long waves of a scan that the removal of a trend takes off
-    /// if a warning advises it.
+    /// Smallest share of the power of the long waves of a scan that the removal of a trend takes
+    /// off if a warning advises it.
     pub const MOST_OF_LONG_WAVES: f64 = 0.5;
 
     /// Ratio of the step between opposite ends of a periodic surface to the largest step inside
@@ -372,8 +372,8 @@ impl Warning {
     pub const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
     /// Ratio λ²/(AR) of a wavy sphere with the wavelength λ, the amplitude A of the waves and the
-    /// radius R. Below this ratio, the equivalent profile falls somewhere with the distance from the
-    /// axis.
+    /// radius R. Below this ratio, the equivalent profile falls somewhere with the distance from
+    /// the axis.
     pub const LEAST_WAVE_RATIO: f64 = 12.391;
 
     /// Returns a warning if a body has few springs in contact. `springs` is the largest number of
@@ -384,10 +384,10 @@ impl Warning {
         is_few.then_some(Warning::FewSpringsInContact { springs })
     }
 
-    /// Returns a warning if the steps of the stepwise solver are too coarse. `step` is the length of
-    /// a step in m, and `way` is the distance in m between the deepest and the highest place of the
-    /// loading. `forces` has, for each stage that ends at a force, this force and the force at the
-    /// end of the stage in N.
+    /// Returns a warning if the steps of the stepwise solver are too coarse. `step` is the length
+    /// of a step in m, and `way` is the distance in m between the deepest and the highest place of
+    /// the loading. `forces` has, for each stage that ends at a force, this force and the force at
+    /// the end of the stage in N.
     pub fn of_steps(step: f64, way: f64, forces: &[[f64; 2]]) -> Option<Warning> {
         let excess = |[target, end]: &[f64; 2]| (end - target).abs() / target.abs();
         let farthest = forces
@@ -547,8 +547,8 @@ impl Warning {
     }
 
     /// Returns a warning if the table of a form reaches much farther than the profile and than any
-    /// measured body. `file` is the name of the file. `reach` is the largest radius of the table and
-    /// `length` the length of the profile, both in m.
+    /// measured body. `file` is the name of the file. `reach` is the largest radius of the table
+    /// and `length` the length of the profile, both in m.
     pub fn of_reach(file: &str, reach: f64, length: f64) -> Option<Warning> {
         let is_improbable =
             reach >= Self::IMPROBABLE_LENGTH && reach > Self::LARGEST_REACH_OF_FORM * length;

@@ -104,8 +104,8 @@ impl<'p> Recorder<'p> {
     /// preload, so that one loading of the profile is enough.
     ///
     /// # Errors
-    /// Returns an error if the profile or the contact cannot be computed, or if the user has stopped
-    /// the computation.
+    /// Returns an error if the profile or the contact cannot be computed, or if the user has
+    /// stopped the computation.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
         let scene = plan

@@ -151,8 +151,8 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> Vec<ForceJump> {
         // is not a jump.
         let before = ways[(jump + 1).saturating_sub(STEPS)];
         let after = ways[(jump + STEPS).min(ways.len() - 1)];
-        // At a turning point the force of a body that relaxes falls, and the motion may turn between
-        // two points.
+        // At a turning point the force of a body that relaxes falls, and the motion may turn
+        // between two points.
         let steepest = steepest_step(&forces, jump);
         let is_at_turn = number < points.last_segment() && steepest + 1 + STEPS > forces.len();
         if after >= before && !is_at_turn {
@@ -374,8 +374,8 @@ mod tests {
         assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
     }
 
-    /// The force of a body that relaxes falls where the motion turns, whichever segment the point in
-    /// the middle belongs to.
+    /// The force of a body that relaxes falls where the motion turns, whichever segment the point
+    /// in the middle belongs to.
     #[test]
     fn a_fall_at_the_turning_point_is_no_jump() {
         for first in 298..304 {

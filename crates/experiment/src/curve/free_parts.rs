@@ -339,8 +339,8 @@ fn count_after_contact(points: &Points, least_noise: f64) -> usize {
     free_count_at_end(forces, least_noise).unwrap_or(0)
 }
 
-/// Returns the number of forces after contact at the end of a segment. A parabola there is a tension
-/// about its largest value.
+/// Returns the number of forces after contact at the end of a segment. A parabola there is a
+/// tension about its largest value.
 fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let reversed: Vec<f64> = forces.iter().rev().copied().collect();
     let free = free_count(&reversed, least_noise)?;
@@ -357,9 +357,10 @@ fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePa
     Ok(free)
 }
 
-/// Returns true if the last `after` points, which are nearly on a straight line, are no part without
-/// contact. Where a tension is largest, its curve is flat too, and a soft instrument or points at a
-/// falling speed make it straight. `before` points at the beginning have the zero of the force.
+/// Returns true if the last `after` points, which are nearly on a straight line, are no part
+/// without contact. Where a tension is largest, its curve is flat too, and a soft instrument or
+/// points at a falling speed make it straight. `before` points at the beginning have the zero of
+/// the force.
 ///
 /// A drag of a fluid is a tension as well, but it lasts over a longer way than the contact.
 fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64) -> bool {

@@ -434,8 +434,9 @@ fn least_noise(forces: &[f64]) -> f64 {
     of_digits.max(NO_NOISE * range)
 }
 
-/// Returns the last digit of forces in N if all of them are whole multiples of it, as the numbers of
-/// a converter are; `None` if there is no such digit above the range times [`NO_NOISE`].
+/// Returns the last digit of forces in N if all of them are whole multiples of it, as the numbers
+/// of a converter are; `None` if no digit is larger than the range times
+/// [`NO_NOISE`].
 fn digit(forces: &[f64]) -> Option<f64> {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -176,7 +176,7 @@ impl Extent {
 }
 
 /// Returns the factor by which correlations between the residuals increase the variance of their
-/// mean. The factor is 1 if there is no correlation.
+/// mean. The factor of uncorrelated residuals is 1.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();

@@ -1,5 +1,5 @@
-//! Descent to the lowest cost near a place, without derivatives (Nelder and Mead, Comput. J. 7, 308,
-//! 1965).
+//! Descent to the lowest cost near a place, without derivatives (Nelder and Mead, Comput. J. 7,
+//! 308, 1965).
 
 /// Share of the cost by which the worst corner may exceed the best one at the end, and distance of
 /// both as a share of the first step.

@@ -306,9 +306,9 @@ fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
     }
 }
 
-/// Returns the sentence on the first touch, if a fit does not search the offset. A displacement that
-/// is off by half the distance of two points shifts the modulus by more than its interval if the
-/// noise is small.
+/// Returns the sentence on the first touch, if a fit does not search the offset. A displacement
+/// that is off by half the distance of two points shifts the modulus by more than its interval if
+/// the noise is small.
 fn fixed_contact_point(curve: &MeasuredCurve, touch: f64) -> Note {
     let mut next = f64::INFINITY;
     for displacement in &curve.displacement {

@@ -115,8 +115,8 @@ impl Parameter {
         matches!(self, Parameter::SecondRadius | Parameter::Behind)
     }
 
-    /// Returns the least and the largest value that a scene may have for the parameter; `None` for a
-    /// parameter without such limits, or one that no search comes close to.
+    /// Returns the least and the largest value that a scene may have for the parameter; `None` for
+    /// a parameter without such limits, or one that no search comes close to.
     pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
         let path = match self {
             Parameter::Modulus => "material.youngs_modulus",

@@ -15,7 +15,8 @@ const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
 /// Distance, in standard errors, above which another place that is as good is another solution.
 const ELSEWHERE: f64 = 5.0;
-/// Factor of the half-width of intervals. Some 150 independent samples determine a deviation to 6 %.
+/// Factor of the half-width of intervals. Some 150 independent samples determine a deviation to 6
+/// %.
 const OF_SAMPLES: f64 = 1.06;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;

@@ -370,8 +370,9 @@ impl Search<'_> {
         Ok(result)
     }
 
-    /// Returns members that may be better than the best one of a population: by descents from starts
-    /// if its residuals exceed the noise, or if the body has two spheres, which may be exchanged.
+    /// Returns members that may be better than the best one of a population: by descents from
+    /// starts if its residuals exceed the noise, or if the body has two spheres, which may be
+    /// exchanged.
     fn rivals(&mut self, best: &Member) -> Result<Vec<Member>, ExperimentError> {
         let has_two_spheres = !self.space.other_starts.is_empty();
         let mut rivals = Vec::new();
@@ -453,8 +454,8 @@ impl Search<'_> {
         })
     }
 
-    /// Moves the members of a population until its extent grows no more. After a step of the noise it
-    /// may be smaller than that of the distribution, above all if a start was copied.
+    /// Moves the members of a population until its extent grows no more. After a step of the noise
+    /// it may be smaller than that of the distribution, above all if a start was copied.
     fn spread_out(
         &mut self,
         population: &mut Population,
@@ -538,8 +539,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns members around a start, at distances of all sizes. Copies of the start alone would have
-    /// no extent.
+    /// Returns members around a start, at distances of all sizes. Copies of the start alone would
+    /// have no extent.
     fn cloud(
         &mut self,
         start: &Member,

@@ -135,8 +135,8 @@ fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
     }
 }
 
-/// Returns the document with the lengths of two spheres at which a search begins, and what the jumps
-/// of the curve say about them. Without an answer the lengths of the scene stay.
+/// Returns the document with the lengths of two spheres at which a search begins, and what the
+/// jumps of the curve say about them. Without an answer the lengths of the scene stay.
 fn with_two_spheres(
     document: &Document,
     curve: &MeasuredCurve,

@@ -244,7 +244,8 @@ impl Observation {
         self.of_weighted_powers(self.weighted_powers)
     }
 
-    fn of_weighted_powers(&self, [height, energy, gradient]: [f64; 3]) -> [f64; 3] {
+    fn of_weighted_powers(&self, moments: [f64; 3]) -> [f64; 3] {
+        let [height, energy, gradient] = moments;
         let moments = match self.kind {
             Kind::Cut { .. } => [height, FRAC_PI_2 * energy, 2.0 * gradient],
             Kind::Plane { .. } => [height, energy, gradient],
@@ -252,9 +253,10 @@ impl Observation {
         moments.map(|moment| moment * self.range)
     }
 
-    /// Returns the terms whose sum is the expected mean power of this band. Each term is the product
-    /// of a factor and of the spectrum at one of the wave numbers `nodes`. The terms include
-    /// aliases: waves that look like the waves of this band because the points do not resolve them.
+    /// Returns the terms whose sum is the expected mean power of this band. Each term is the
+    /// product of a factor and of the spectrum at one of the wave numbers `nodes`. The terms
+    /// include aliases: waves that look like the waves of this band because the points do not
+    /// resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

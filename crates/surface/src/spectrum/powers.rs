@@ -136,10 +136,10 @@ impl Powers {
         WaveRange { first, last }
     }
 
-    /// Returns the number of scans whose waves are observed one by one, if all waves of the surfaces
-    /// are known. This is so if the surfaces are periodic, have the same waves, and none of their
-    /// waves were left out. The powers of profiles with the same waves are averaged, and count as
-    /// one scan.
+    /// Returns the number of scans whose waves are observed one by one, if all waves of the
+    /// surfaces are known. This is so if the surfaces are periodic, have the same waves, and none
+    /// of their waves were left out. The powers of profiles with the same waves are averaged, and
+    /// count as one scan.
     pub fn periodic_scans(&self) -> Option<f64> {
         match (self.profiles.as_slice(), self.maps.as_slice()) {
             ([profiles], []) => (!profiles.windowed).then_some(1.0),

@@ -51,8 +51,8 @@ const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 /// Squared Mahalanobis distance from the mean of the random profiles that one curve of a thousand
 /// exceeds by chance, if E* is given: a quantile of χ² with one degree of freedom.
 const FOREIGN_OF_WORK: f64 = 10.8;
-/// The same limit as [`FOREIGN_OF_WORK`] if E* is free: a quantile of χ² with two degrees of
-/// freedom.
+/// Squared Mahalanobis distance that one curve of a thousand exceeds by chance, if E* is free: a
+/// quantile of χ² with two degrees of freedom.
 const FOREIGN_OF_BOTH: f64 = 13.8;
 /// Smallest pull-off force that is reported, in standard deviations of the noise.
 const LEAST_PULL_OFF: f64 = 5.0;
