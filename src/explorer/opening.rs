@@ -148,48 +148,67 @@ impl Opened {
         };
         match MeasuredFile::of(Path::new(name)) {
             Some(MeasuredFile::Surface) => Ok(Opened::Surface(PathBuf::from(name))),
-            Some(MeasuredFile::Curve) => {
-                Opened::read_curve(Path::new(name), CurveOptions::default())
-            }
-            None if lacks_options(Path::new(name)) => {
-                Opened::read_curve(Path::new(name), CurveOptions::default())
-            }
+            Some(MeasuredFile::Curve) => Opened::read_curve(Path::new(name)),
+            None if lacks_options(Path::new(name)) => Opened::read_curve(Path::new(name)),
             None => plan_scene(name).unwrap_or_else(|| Err(error.to_string())),
         }
     }
 
-    /// Opens a measured curve with the options that the user has typed.
-    ///
-    /// # Errors
-    /// Returns the reason if the curve cannot be read with these options.
-    pub fn of_curve(question: CurveQuestion) -> Result<Self, String> {
-        Opened::read_curve(&question.path, question.options)
+    /// Opens a measured curve with the option that the user has typed. If the curve cannot be read
+    /// with this option, the result is the same question with the reason, or the question for
+    /// another option that is missing.
+    pub fn of_curve(question: CurveQuestion) -> Self {
+        let error = match Measured::read(&question.path, question.options.clone()) {
+            Ok(measured) => return Opened::Curve(Box::new(measured)),
+            Err(error) => error,
+        };
+        let remedies = error.remedies();
+        let path = question.option().field.path;
+        let is_asked = |(remedy, row): &(Remedy, &str)| *row == path && remedies.contains(remedy);
+        let missing = if MAY_BE_MISSING.iter().any(is_asked) {
+            None
+        } else {
+            missing_option(&remedies, &question.options)
+        };
+        Opened::Question(Box::new(CurveQuestion {
+            missing: missing.unwrap_or(question.missing),
+            reason: error.to_string(),
+            ..question
+        }))
     }
 
-    /// Reads a measured curve, or returns the question for an option that is still missing.
-    fn read_curve(path: &Path, options: CurveOptions) -> Result<Self, String> {
+    /// Reads a measured curve without options, or returns the question for the first option that is
+    /// missing.
+    fn read_curve(path: &Path) -> Result<Self, String> {
+        let options = CurveOptions::default();
         let error = match Measured::read(path, options.clone()) {
             Ok(measured) => return Ok(Opened::Curve(Box::new(measured))),
             Err(error) => error,
         };
-        let reason = error.to_string();
-        let remedies = error.remedies();
-        for (remedy, row) in &MAY_BE_MISSING {
-            let missing = OPTIONS.iter().position(|option| option.field.path == *row);
-            let Some(missing) = missing.filter(|_| remedies.contains(remedy)) else {
-                continue;
-            };
-            if !OPTIONS[missing].is_set(&options) {
-                return Ok(Opened::Question(Box::new(CurveQuestion {
-                    path: path.to_owned(),
-                    options,
-                    missing,
-                    reason,
-                })));
-            }
+        match missing_option(&error.remedies(), &options) {
+            Some(missing) => Ok(Opened::Question(Box::new(CurveQuestion {
+                path: path.to_owned(),
+                options,
+                missing,
+                reason: error.to_string(),
+            }))),
+            None => Err(error.in_words(advice::row)),
         }
-        Err(error.in_words(advice::row))
     }
+}
+
+/// Returns the index in [`OPTIONS`] of the first option that is not set and with which a curve
+/// could be read, by the remedies of its error.
+fn missing_option(remedies: &[Remedy], options: &CurveOptions) -> Option<usize> {
+    for (remedy, path) in &MAY_BE_MISSING {
+        let place = OPTIONS
+            .iter()
+            .position(|option| option.field.path == *path)?;
+        if remedies.contains(remedy) && !OPTIONS[place].is_set(options) {
+            return Some(place);
+        }
+    }
+    None
 }
 
 /// Opens the scene of a plan; `None` if the file is not a plan.

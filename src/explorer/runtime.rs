@@ -154,7 +154,7 @@ impl Runtime {
             }
             Task::OpenCurve(question) => {
                 let name = question.path.to_string_lossy().into_owned();
-                Action::Opened(name, Opened::of_curve(question))
+                Action::Opened(name, Ok(Opened::of_curve(question)))
             }
             Task::ReadCurve(wanted) => {
                 let Some(measured) = &self.app.edit.measured else {

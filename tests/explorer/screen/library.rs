@@ -222,6 +222,8 @@ fn a_curve_without_units_asks_for_them() {
     assert_eq!(*driver.document(), before);
     driver.sees("o `bare.txt` Enter", "units:");
     driver.answers("Enter", "type units of displacement and force");
+    driver.answers("`parsec,uN` Enter", "is not a unit of the displacement");
+    driver.shows("units:");
     driver.press("`nm,uN` Enter");
     let measured = driver.app.edit.measured.as_ref();
     let measured = measured.unwrap_or_else(|| panic!("no curve\n{}", driver.text()));
