@@ -3,7 +3,7 @@
 
 use asperity_data::{OutOfMemory, resized};
 use asperity_fourier::{
-    Complex, ComplexToReal, Fft, FftNum, RealToComplex, plan_forward, plan_inverse,
+    Complex, ComplexToReal, Fft, Precision, RealToComplex, plan_forward, plan_inverse,
     plan_real_forward, plan_real_inverse,
 };
 use std::sync::Arc;
@@ -50,7 +50,7 @@ struct PlannedColumns<T> {
     inverse: Arc<dyn Fft<T>>,
 }
 
-impl<T: FftNum + Default> Convolution<T> {
+impl<T: Precision + Default> Convolution<T> {
     /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
@@ -262,7 +262,7 @@ impl<T: FftNum + Default> Convolution<T> {
 }
 
 /// Converts a number to the nearest value of the type T.
-fn number<T: FftNum>(value: f64) -> T {
+fn number<T: Precision>(value: f64) -> T {
     T::from_f64(value).unwrap_or_else(T::zero)
 }
 
