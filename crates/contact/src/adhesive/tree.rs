@@ -4,7 +4,7 @@ use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Number of springs from which a second thread saves more time than it costs.
+/// Number of springs of a profile from which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
 /// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
@@ -47,9 +47,9 @@ pub struct Node {
     pub right: u32,
 }
 
-/// A branch of the contact tree: one patch on a range of levels. The level of a patch is the gap at
-/// which its edges lie. The branch begins at the local minimum or the merger at which the patch
-/// appears, and ends at the next merger.
+/// A branch of the contact tree: one patch from its appearance to its merger with another patch.
+/// The patch appears at a local minimum of the gap, or at the merger of two smaller patches. Along
+/// the branch the level of the patch rises: the gap at which the edges of the patch lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
@@ -66,9 +66,9 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the index of the node, a local maximum of the gap, at which the branch begins. If
-    /// the branch begins at a local minimum of the gap, returns `Err` with the index of this
-    /// minimum among all minima.
+    /// Returns the index of the node at which the branch begins. A node is a local maximum of the
+    /// gap. If the branch begins at a local minimum of the gap instead, returns `Err` with the
+    /// index of this minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -138,7 +138,7 @@ impl ContactTree {
         self.nodes.len()
     }
 
-    /// Returns the branch of the patch that finally fills the whole profile.
+    /// Returns the branch of the patch that fills the whole profile when all patches have merged.
     pub(crate) fn root(&self) -> Branch {
         match self.nodes.len() {
             0 => Branch::leaf(0),
@@ -158,7 +158,7 @@ impl ContactTree {
         self.turns[2 * node.rank as usize + 1] as usize
     }
 
-    /// Returns the left and the right branch that merge at a node.
+    /// Returns the left and the right branch that merge at the node with this index.
     #[inline]
     pub(crate) fn parts(&self, index: usize) -> [Branch; 2] {
         let node = &self.nodes[index];
@@ -178,9 +178,10 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns the sum of the gaps and the sum of their squares over all springs to the left of
+    /// Returns the sum of the gaps and the sum of the squared gaps over all springs to the left of
     /// `spring`. If `of_cells` is true, the sums are over the cells to the left of `spring`
-    /// instead. The units are those of [`ContactTotals`](crate::totals::ContactTotals).
+    /// instead. The units are the quanta and the squares of
+    /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;
