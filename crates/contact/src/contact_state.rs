@@ -90,7 +90,6 @@ impl ContactState {
 /// # Panics
 /// Panics for a negative number, because a negative number must not appear in a result. Such a
 /// number occurs only if the sums have a defect.
-/// appear in a result.
 pub fn counted(number: i64) -> u64 {
     assert!(
         number >= 0,
@@ -161,9 +160,10 @@ impl Tally {
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds the edge cells of a patch, the cells at its ends that are only partly in contact. They
-    /// bear load at the points of the grid with the indices `carries`. Their lengths and
-    /// compressions differ from point to point, so they are computed at each point.
+    /// Adds the edge cells of a patch: the cells at the ends of the patch that are only partly in
+    /// contact. The edge cells bear load at the points of the grid with the indices `carries`. They
+    /// are computed at each of these points, because their lengths and compressions differ from
+    /// point to point.
     #[inline]
     pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
@@ -220,8 +220,8 @@ impl Extreme {
         }
     }
 
-    /// Returns the contact of the extreme force among the points of a sampled motion, which must
-    /// have at least one point.
+    /// Returns the contact with the extreme force among the points of a sampled motion. The motion
+    /// must have at least one point.
     pub fn among(self, leg: &[ContactState]) -> ContactState {
         let mut best = leg[0];
         for state in leg {

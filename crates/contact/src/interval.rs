@@ -357,7 +357,8 @@ impl<R: DetachmentRule> Interval<R> {
 
     /// Returns the smallest indentation in m in the interval at which the compression is at least
     /// `wanted` in m. Returns `None` if there is no such indentation. The compression is the force
-    /// divided by the stiffness of one spring. At the lower end it must be less than `wanted`.
+    /// divided by the stiffness of one spring. At the lower end of the interval the compression
+    /// must be less than `wanted`.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
             return None;
@@ -381,7 +382,8 @@ impl<R: DetachmentRule> Interval<R> {
 
     /// Returns the largest indentation in m in the interval at which the compression is at most
     /// `wanted` in m. Returns `None` if there is no such indentation. The compression is the force
-    /// divided by the stiffness of one spring. At the upper end it must be more than `wanted`.
+    /// divided by the stiffness of one spring. At the upper end of the interval the compression
+    /// must be more than `wanted`.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {

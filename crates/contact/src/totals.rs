@@ -1,8 +1,8 @@
 //! Totals of the springs in contact: the numbers of springs and patches, and the sums of gaps. The
 //! sums are integers, so no digits cancel.
 
-/// Scale that converts the gaps of one profile to integers. Its unit, the quantum, is 2⁻⁶² of the
-/// smallest power of two above the largest gap.
+/// Scale that converts the gaps of one profile to integers. The unit of the integers is called the
+/// quantum. It is 2⁻⁶² of the smallest power of two above the largest gap.
 ///
 /// A sum of integers does not depend on the order of the springs, and a spring that attaches and
 /// detaches again changes no bit. If a loading and an unloading lead to the same contact, their
@@ -39,7 +39,7 @@ fn power_of_two(exponent: i32) -> f64 {
 }
 
 impl GapScale {
-    /// Creates the scale for gaps up to `largest` (m, finite, at least zero).
+    /// Creates the scale for gaps from zero to `largest` in m. `largest` must be finite.
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
         let bits = largest.max(f64::MIN_POSITIVE).to_bits();
@@ -121,11 +121,12 @@ pub struct ContactTotals {
     pub springs: i64,
     /// Number of patches.
     pub patches: i64,
-    /// Sum of the gaps of the springs in contact, or of the mean gaps of the cells between them.
-    /// The unit is the quantum of a [`GapScale`].
+    /// Sum of the gaps of the springs in contact. If the sums are over the cells between these
+    /// springs, it is the sum of the mean gaps of the cells. The unit is the quantum of a
+    /// [`GapScale`].
     pub quanta: i128,
-    /// Sum of the squared gaps of the springs, or of the cells between them. The unit is 2^28
-    /// squared quanta.
+    /// Sum of the squared gaps of the springs in contact, or of the cells between these springs.
+    /// The unit is 2^28 squared quanta.
     pub squares: i128,
 }
 
@@ -160,8 +161,8 @@ impl ContactTotals {
         }
     }
 
-    /// Computes the compression in m at the indentation d, which is the force divided by the
-    /// stiffness of one spring. For `count` springs with the gaps c_i, the compression is Σ (d −
+    /// Computes the compression in m: the force divided by the stiffness of one spring. d =
+    /// `indentation` is in m. For `count` springs with the gaps c_i, the compression is Σ (d −
     /// c_i). For `count` cells with the gap c, it is ∫ (d − c) dx, where x is in cells.
     ///
     /// For n springs and a largest gap below 2^e m, the error is at most 2u |result| plus n

@@ -8,8 +8,8 @@ use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Edge model: where an edge of a contact patch may lie, either only in the middle between two
-/// springs or anywhere between them.
+/// Edge model: where an edge of a contact patch may lie. An edge lies either only in the middle
+/// between two springs, or anywhere between two springs.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -26,13 +26,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie
-    /// in the middle between two springs. Deviations of forces and energies from a continuous
-    /// profile are proportional to the spacing Δx of the springs.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx, where Δx is the
+    /// spacing of the springs. The edges of the patch lie in the middle between two springs.
+    /// Deviations of forces and energies from a continuous profile are proportional to Δx.
     Grid,
     /// The profile is straight between neighbouring springs, and an edge may lie anywhere between
     /// two springs. Deviations of forces and energies from a continuous profile are proportional to
-    /// the square of the spacing Δx of the springs. Under a flat punch they are proportional to Δx.
+    /// the square of the spacing Δx of the springs. Under a flat punch these deviations are
+    /// proportional to Δx.
     SubCell,
 }
 
@@ -121,8 +122,8 @@ impl Span {
     }
 }
 
-/// Returns the smaller of two numbers, neither of which may be NaN. It is faster than `f64::min`,
-/// which checks for NaN.
+/// Returns the smaller of two numbers, neither of which may be NaN. This function is faster than
+/// `f64::min`, which checks for NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
@@ -182,15 +183,15 @@ impl EdgeSum {
     }
 }
 
-/// An edge cell of a patch, and the part of the cell that lies below the level of the edge. The
-/// cell lies between the outermost spring of the patch and the first spring outside. The level is
-/// the gap at which the edge lies.
+/// An edge cell of a patch: the cell between the outermost spring of the patch and the first spring
+/// outside. The fields describe the part of the cell below the level of the edge, which is the gap
+/// at which the edge lies.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
     /// Gap in m of the first spring outside. It is infinite if the patch reaches the end of the
     /// foundation, which is half a cell away from the last spring.
     outside: f64,
-    /// Share of the length of the cell on which the gap is at most the level of the edge.
+    /// Share of the cell, from 0 to 1, on which the gap is at most the level of the edge.
     pub share: f64,
     /// Growth of the share with the level in 1/m. It is zero if the share is constant or jumps.
     growth: f64,

@@ -36,14 +36,13 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in m of the springs between the two ends of the patch that forms at this local
-    /// maximum.
+    /// Smallest gap in m of all springs of the patch that forms at this local maximum.
     pub lowest: f64,
     /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
     /// Number of local maxima in the subtree of this one, including this one.
     pub size: u32,
-    /// Number of local maxima in the right part of the subtree.
+    /// Number of local maxima in the part of the subtree on the right of this one.
     pub right: u32,
 }
 
