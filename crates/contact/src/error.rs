@@ -59,8 +59,8 @@ pub enum ContactError {
         /// Reason why the stage cannot be computed, as an error of another variant.
         reason: Box<ContactError>,
     },
-    /// An array that the computation needs does not fit into memory. The message states its size in
-    /// MiB.
+    /// An array that the computation needs does not fit into memory. The message states the size of
+    /// the array in MiB.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// A target is infinite or not a number. The field is the value of the target.

@@ -8,8 +8,8 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of one loading stage, the motion of a body to one target: the force curve, its extremes
-/// and the energies.
+/// Record of one loading stage: the force curve, the extremes of the force and the energies. A
+/// loading stage is the motion of a body to one target.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -56,9 +56,9 @@ pub struct LegRecord {
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
-    /// Point of the smallest force that a further unloading to separation would reach. Known only
-    /// if this motion is an unloading that ends in contact. `None` for any other motion, and if the
-    /// force was not computed.
+    /// Point of the smallest force that a further unloading to separation would reach. It is
+    /// computed only if this motion is an unloading that ends in contact. `None` for any other
+    /// motion, and if the force is not known.
     pub smallest_of_rest: Option<CurvePoint>,
 }
 

@@ -16,11 +16,11 @@ const MOST_POINTS: usize = 1 << 28;
 /// the half-space, so the highest point touches first.
 ///
 /// The equivalent line is not a cut through the body. A body of revolution with the depth f(r) has
-/// the equivalent line g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr, so a sphere of the radius R has x²/R,
-/// while a cut through it has x²/(2R). For a rough surface both lines have the same rms height, but
-/// the rms gradient of a cut is 29 % smaller. With a cut in place of the equivalent line the
-/// pull-off force of a sphere is twice too large. `asperity_surface` makes the equivalent line of
-/// forms and of measured surfaces.
+/// the equivalent line g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr. The equivalent line of a sphere of
+/// the radius R is therefore x²/R, while a cut through the sphere is x²/(2R). If a cut were used as
+/// the equivalent line, the pull-off force of a sphere would be twice too large. For a rough
+/// surface, the equivalent line and a cut have the same rms height, but the rms gradient of the cut
+/// is 29 % smaller. `asperity_surface` makes the equivalent line of forms and of measured surfaces.
 ///
 /// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the
 /// last point. Clones of a profile share their memory.
@@ -81,9 +81,9 @@ impl Profile {
     }
 
     /// Creates a profile from the gaps in m of an equivalent line. Neighbouring points have the
-    /// distance `spacing` in m. A gap is the depth of a point of the equivalent line below its
-    /// highest point, so at least one gap is 0. The equivalent line of a sphere of the radius R has
-    /// the gaps x²/R. They are twice the depths x²/(2R) of a cut through the sphere.
+    /// distance `spacing` in m. A gap is the depth of a point below the highest point of the
+    /// equivalent line, so at least one gap is 0. The equivalent line of a sphere of the radius R
+    /// has the gaps x²/R. These gaps are twice the depths x²/(2R) of a cut through the sphere.
     ///
     /// ```
     /// use asperity_contact::Profile;

@@ -7,7 +7,8 @@
 //! kinks. At a kink, the mean of ½σg over the open neighbours is about 1.27 times the value for a
 //! straight edge, for any number of cells. Therefore:
 //!
-//! * A cell opens if this mean exceeds [`OPENING`] times the work of adhesion.
+//! * A cell opens if the mean over its open neighbours exceeds [`OPENING`] times the work of
+//!   adhesion.
 //! * A cell closes if the mean over its neighbours in contact is below [`CLOSING`] times the work
 //!   of adhesion on closing.
 //!

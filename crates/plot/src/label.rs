@@ -286,7 +286,7 @@ pub fn number(value: f64, step: f64) -> String {
 }
 
 /// Creates a label from a quantity and its value in the SI unit `unit`, such as `F_n = 12.5 µN`. If
-/// `symbol` is empty, the label is such as `preload 12.5 µN`.
+/// `symbol` is empty, the label has the name instead, such as `preload 12.5 µN`.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     let text = if is_count {
@@ -298,7 +298,7 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
 }
 
 /// Creates a label from a quantity and its value, which is given as text, such as `H = 0.3`. If
-/// `symbol` is empty, the label is such as `Hurst exponent 0.3`.
+/// `symbol` is empty, the label has the name instead, such as `Hurst exponent 0.3`.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     if symbol.is_empty() {

@@ -12,9 +12,9 @@
 //!   Δx at all levels of its span.
 //! * Edges that slide between springs: the profile is straight between neighbouring springs, and a
 //!   patch ends where the profile crosses the level of the patch. A patch at the level t is in
-//!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It grows while φ(t) ≤ d and recedes
-//!   while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest value and
-//!   then rises. A patch is stable only where φ rises.
+//!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). The patch grows while φ(t) ≤ d and
+//!   recedes while φ(t) ≥ d, where d is the indentation. On one span ℓ is linear in t, so φ is
+//!   convex: φ falls to its lowest value and then rises. A patch is stable only where φ rises.
 
 use super::levels::{EdgeCell, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
@@ -25,10 +25,10 @@ use crate::totals::ContactTotals;
 /// A run: one patch over a range of indentations, in which the patch grows by one spring after the
 /// other without a jump. The range ends where the patch jumps, merges or splits.
 ///
-/// The runs of a motion are listed in the order of a walk through the contact tree from its root,
-/// with the right one of two parts first. On each branch of the tree the larger patch comes first.
-/// A run therefore comes before the runs of the smaller patches that it contains, and the right one
-/// of two separate runs comes first.
+/// The runs of a motion are listed in the order of a walk through the contact tree from its root.
+/// Of the two parts of a patch, the walk visits the right one first. On each branch of the tree the
+/// larger patch comes first. A run therefore comes before the runs of the smaller patches inside
+/// its patch, and before the runs of patches on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
     /// Lower bound of the indentations of the run in m, which belongs to the run. The bound is −∞
