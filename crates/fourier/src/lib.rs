@@ -54,15 +54,15 @@ macro_rules! precision {
 precision!(f32);
 precision!(f64);
 
-/// Plans the transform X_k = Σ x_n exp(−2πi kn/N) of N = `points` real numbers x_n. The transform
-/// returns the modes k = 0 … ⌊N/2⌋.
+/// Plans the transform X_k = Σ x_n exp(−2πi kn/N) of N = `points` real numbers x_n. The result of
+/// the transform is the modes X_k with k = 0 … ⌊N/2⌋.
 pub fn plan_real_forward<T: Precision>(points: usize) -> Arc<dyn RealToComplex<T>> {
     T::real_forward(points)
 }
 
-/// Plans the transform x_n = Σ X_k exp(2πi kn/N), which returns N = `points` real numbers x_n. The
-/// sum is over all N modes, but only the modes k = 0 … ⌊N/2⌋ are given, because they determine the
-/// others.
+/// Plans the transform x_n = Σ X_k exp(2πi kn/N), without the factor 1/N. The result of the
+/// transform is N = `points` real numbers x_n. The input is only the modes X_k with k = 0 … ⌊N/2⌋,
+/// because they determine all other modes of the sum.
 pub fn plan_real_inverse<T: Precision>(points: usize) -> Arc<dyn ComplexToReal<T>> {
     T::real_inverse(points)
 }

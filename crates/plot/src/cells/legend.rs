@@ -31,8 +31,8 @@ fn text_of(sample: Sample) -> String {
 }
 
 /// Returns the entries of the legend of these charts for a terminal. Each entry is a list of
-/// coloured texts: first a short piece of the line or the marker of each layer, and then the name
-/// that these layers share.
+/// coloured texts. The first texts show a short piece of the line, or the marker, of each layer
+/// with the same name. The last text is this name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
