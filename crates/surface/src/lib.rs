@@ -8,8 +8,9 @@
 //!   [`Topography`]. Both take [`ReadOptions`], such as a [`Unit`] or a [`Cut`]. [`Cropped`] counts
 //!   empty rows and columns that are left out.
 //! * To analyse surfaces: [`analyse`] takes [`AnalysisOptions`], such as a [`Detrend`], and returns
-//!   an [`Analysis`]. The analysis has [`PointStatistics`], [`LineMoments`], each of which is a
-//!   [`Moment`], and a [`SelfAffineFit`], each of whose parameters is a [`ValueWithError`].
+//!   an [`Analysis`]. An analysis contains [`PointStatistics`], [`LineMoments`] and a
+//!   [`SelfAffineFit`]. The type of each moment is [`Moment`], and the type of each fitted
+//!   parameter is [`ValueWithError`].
 //! * To make rigid profiles: [`EquivalentLine`] has the spectrum of a measured surface,
 //!   [`SelfAffine`] is a spectrum given by few numbers and computes its [`Amplitude`], and [`Form`]
 //!   is the shape without roughness, which may be a [`FormTable`].

@@ -41,10 +41,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the mean square height that one wave adds to a surface with this spectrum. The unit
-    /// is A₁², where A₁ is the amplitude that mode 1 would have without a roll-off. `waves` is the
-    /// number of periods over the length and need not be a whole number. Returns 0 if `waves` is
-    /// more than ½ below `first` or more than ½ above `last`.
+    /// Returns the mean square height that one wave contributes to a surface with this spectrum.
+    /// The unit is A₁², where A₁ is the amplitude that mode 1 would have without a roll-off.
+    /// `waves` is the number of periods of the wave over the length, and need not be a whole
+    /// number. Returns 0 if `waves` is more than ½ below `first` or more than ½ above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -106,10 +106,10 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m of a continuous spectrum: as if the profile had waves at all
-    /// wave numbers from the first to the last mode. Without a roll-off, the square of the ratio is
-    /// ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, eqs. (5)–(7) and (12) of Popov and
-    /// Filippov (2012).
+    /// Returns the ratio ⟨∇z⟩/h in 1/m of the rms gradient to the rms height, for a continuous
+    /// spectrum. Such a spectrum has waves at all wave numbers from the first to the last mode.
+    /// Without a roll-off, the square of the ratio is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these
+    /// wave numbers, eqs. (5)–(7) and (12) of Popov and Filippov (2012).
     ///
     /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
@@ -202,7 +202,7 @@ impl Amplitude {
     }
 
     /// Returns the roughness amplitude that the profile has after a stretch along x by the factor
-    /// `times`. The heights do not change.
+    /// `times`. The stretch does not change the heights.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,

@@ -41,10 +41,10 @@ pub struct Analysis {
     /// Rms height, gradient and other moments of the [equivalent line](crate::EquivalentLine) of
     /// the surfaces.
     pub line: LineMoments,
-    /// Shortest wavelength in m that a tip of the radius R resolves reliably. It is the smallest
-    /// length over which no measured curvature is below −1/(2R). If there is no such length, the
-    /// value is half the length of a row. `None` if no tip radius is given, or if the tip resolves
-    /// all waves.
+    /// Shortest wavelength in m that a tip of the radius R resolves reliably: the smallest length
+    /// over which no measured curvature is below −1/(2R). If there is no such length, the value is
+    /// half the length of a row. `None` if no tip radius is given, or if the tip resolves all
+    /// waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -58,12 +58,13 @@ pub struct Analysis {
     /// True if the fitted spectrum ends at a longer wave than the shortest resolved one, because
     /// shorter waves have no significant power.
     pub ends_inside: bool,
-    /// True if the analysis leaves out the waves parallel to one axis of a map. They are left out
-    /// if the rows or columns are offset against each other, or were levelled one by one.
+    /// True if the analysis leaves out the waves parallel to one axis of a map. It leaves out these
+    /// waves if whole rows or columns are offset against each other, or if each row was levelled.
     pub offsets: bool,
-    /// Largest difference, over all maps, of the waves parallel to an axis from the waves in
-    /// neighbouring directions. The difference is that of their squared gradients, divided by the
-    /// squared gradient of the map. It is 0 if it may be chance.
+    /// Largest difference, over all maps, between the waves parallel to an axis and the waves in
+    /// neighbouring directions. The difference of the squared gradients is given as a share of the
+    /// squared gradient of the map. It is 0 if chance or offsets of whole rows or columns explain
+    /// the difference.
     pub apart: f64,
     /// Distance in m by which the odd rows of a map are displaced along the even rows. Such a
     /// displacement occurs in a file that alternates between trace and retrace. `None` if no map
@@ -72,22 +73,22 @@ pub struct Analysis {
     /// True if the curvature of each surface was removed before the analysis, as
     /// [`AnalysisOptions::detrend`] can request.
     pub is_levelled: bool,
-    /// Trends of the heights that were not removed, the simplest one first, with the share of the
-    /// mean squared height of the points that their removal takes off.
+    /// Trends of the heights that were not removed, such as a tilt, the simplest one first. Each
+    /// trend has the share by which its removal would reduce the mean squared height of the points.
     pub trends: Vec<TrendOfScan>,
     /// Ratio of the rms step between opposite ends of a periodic surface to the largest rms step
-    /// between neighbouring rows or columns of points inside. For several surfaces and both axes of
-    /// a map it is the largest ratio. It is 0 if no surface is periodic.
+    /// between neighbouring rows or columns of points. The largest ratio of all surfaces and of
+    /// both axes of a map is given; 0 if no surface is periodic.
     pub step_of_ends: f64,
-    /// Ratio of the largest to the smallest rms gradient among parts of a surface: the four
-    /// quarters of a map, or the two halves of a profile. For several surfaces it is the largest of
-    /// their ratios. It is 1 if the parts differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. The parts
+    /// are the four quarters of a map or the two halves of a profile. The largest ratio of all
+    /// surfaces is given; 1 if chance explains the differences between the parts.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height among several surfaces, or of the rms
-    /// gradients if that ratio is larger. Surfaces with different numbers or distances of points
-    /// have different waves. Their measured values are therefore first divided by the values that
-    /// the fitted spectrum has over the waves of the surface. The ratio is 1 for a single surface,
-    /// and if the surfaces differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms height among several surfaces, or the same ratio of
+    /// the rms gradients if it is larger. Surfaces with different numbers or distances of points
+    /// have different waves. The rms values of such surfaces are therefore first divided by the
+    /// values that the fitted spectrum has over the waves of the surface. The ratio is 1 for a
+    /// single surface, and if chance explains the differences.
     pub ratio_of_surfaces: f64,
 }
 

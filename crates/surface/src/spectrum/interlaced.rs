@@ -12,8 +12,8 @@ const REACH: usize = 16;
 /// that without displacement. If the ratio is larger, the displacement is not certain.
 const LEFT: f64 = 0.75;
 
-/// Returns the number of points by which the odd rows are displaced against the even rows; `None`
-/// unless this is certain.
+/// Returns the number of points by which the odd rows of a map are displaced against the even rows.
+/// Returns `None` unless the displacement is certain.
 ///
 /// On most surfaces, neighbouring rows are most alike without a displacement, or with the same
 /// displacement from each row to the next. The same displacement from row to row comes from a

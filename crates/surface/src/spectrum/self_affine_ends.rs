@@ -39,8 +39,9 @@ struct Candidate {
     law: PowerLaw,
 }
 
-/// Fits a self-affine spectrum to observations over a range of wave numbers, with the assumption of
-/// largest likelihood. Returns `None` if no fit converges or if no exponent between 0 and 1 fits.
+/// Fits a self-affine spectrum to observations over a range of wave numbers. Of several assumptions
+/// about the waves that the points do not resolve, the one with the largest likelihood is used.
+/// Returns `None` if no fit converges or if no Hurst exponent between 0 and 1 fits.
 pub(super) fn fit_for_ends(
     observations: &[Observation],
     range: WaveRange,

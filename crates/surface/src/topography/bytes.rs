@@ -63,7 +63,7 @@ macro_rules! numbers {
         }
 
         impl Number {
-            /// Returns the type with this name in NumPy, such as `f8`.
+            /// Returns the type of numbers that has this name in NumPy, such as `f8`.
             pub fn named(name: &str) -> Option<Number> {
                 match name {
                     $($code => Some(Number::$name),)*
@@ -185,7 +185,8 @@ impl<'a> Bytes<'a> {
         Ok(array)
     }
 
-    /// Reads the next number as a size, an offset or a code. Returns 0 if the number is negative.
+    /// Reads the next number, which is a size, an offset or a code. Returns 0 if the number is
+    /// negative.
     pub fn size(&mut self, kind: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(kind)? as usize)
     }

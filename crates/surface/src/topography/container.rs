@@ -169,7 +169,8 @@ impl Measurement {
         Place::Part(format!("topography {}", self.name))
     }
 
-    /// Returns a message about the radius of the tip that the index file states.
+    /// Returns a message for the user about the tip radius that the index file states; `None` if it
+    /// states none.
     pub fn tip_radius(&self) -> Option<Note> {
         let parameters = self.instrument.as_ref()?.parameters.as_ref()?;
         let radius = parameters.tip_radius.as_ref()?;
@@ -195,8 +196,8 @@ impl Measurement {
         }
     }
 
-    /// Returns the options for reading the file of the measurement: `options`, completed by what
-    /// the index file states.
+    /// Returns the options for reading the file of the measurement: the options of the user,
+    /// completed by what the index file states.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, self.place())?;
@@ -220,9 +221,9 @@ impl Measurement {
         })
     }
 
-    /// Returns the contents of the file of the measurement, completed by the index file. Added are
-    /// the distances between points and the scale of the heights, if the file of the measurement
-    /// omits them.
+    /// Completes the contents of the file of the measurement by what the index file states. The
+    /// distances between points and the scale of the heights are added if the file of the
+    /// measurement does not state them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()

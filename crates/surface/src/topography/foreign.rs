@@ -235,7 +235,7 @@ fn unread(format: &Foreign) -> SurfaceError {
     }
 }
 
-/// Returns the error for an archive that contains files with these names but no index file.
+/// Returns the error for an archive that contains files with the names `names` but no index file.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     indices: [&str; 3],

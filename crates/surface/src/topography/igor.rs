@@ -86,11 +86,11 @@ const UNIT_LENGTH: usize = 4;
 pub struct WaveDimension {
     /// Number of elements of the array along this dimension; 0 if the array has fewer dimensions.
     pub count: usize,
-    /// Distance between neighbouring elements.
+    /// Distance between neighbouring elements, in the unit [`Self::unit`].
     pub step: f64,
-    /// Unit of [`Self::step`]; empty if the file states no unit.
+    /// Unit of the distance [`Self::step`]; empty if the file states no unit.
     pub unit: String,
-    /// Names of the elements; empty if the elements have no names.
+    /// Names of the elements along this dimension; empty if the elements have no names.
     pub labels: Vec<String>,
 }
 
@@ -103,7 +103,7 @@ pub struct IgorWave<'a> {
     pub dimensions: [WaveDimension; DIMENSIONS],
     /// Unit of the numbers in the array; empty if the file states no unit.
     pub unit: String,
-    /// Note: text that programs attach to the array, with lines `key: value`.
+    /// Text that programs attach to the array, with lines `key: value`.
     pub note: String,
     kind: Number,
     numbers: Bytes<'a>,
@@ -280,7 +280,7 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns `count` numbers of the array, beginning with the index `first`.
+    /// Returns `count` numbers of the array, beginning with the number at the index `first`.
     ///
     /// # Errors
     /// Returns [`SurfaceError`] if the array has too few numbers.

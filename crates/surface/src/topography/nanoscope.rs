@@ -13,7 +13,8 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
-/// First bytes of a file of a scan in liquid at a controlled electrode potential.
+/// First bytes of a Nanoscope file that was measured in a liquid at a controlled electrode
+/// potential.
 pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
 
 /// Last words of the header.

@@ -2,8 +2,8 @@
 
 use asperity_data::between;
 
-/// Largest allowed magnitude of a position or a height in m, and of a slope between neighbouring
-/// points. Larger values could make lengths and mean squares overflow.
+/// Largest allowed absolute value of a position in m, of a height in m, and of a slope between
+/// neighbouring points. Larger values could make lengths and mean squares overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Largest displacement of a point from its place on an even grid that still counts as rounding, as
@@ -26,9 +26,10 @@ pub(super) fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Returns the heights at ascending places in m, minus `level` in m. They are interpolated linearly
-/// between at least two points. At a point the result is exactly the height of the point. Beyond
-/// the first or the last point it is the height of this point.
+/// Returns the heights in m at the positions `places` in m (ascending), minus `level` in m. The
+/// heights are interpolated linearly between at least two points. Exactly at a point, the result is
+/// exactly the height of the point. Before the first point and after the last point, the height
+/// remains constant.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],

@@ -138,8 +138,8 @@ pub struct TextHeader {
     sizes: [Option<Length>; 2],
     /// Distances between points of a map, along the rows and between the rows.
     spacing: [Option<Length>; 2],
-    /// Number of columns and number of rows that the header states; `None` if it does not state a
-    /// number.
+    /// Number of columns and number of rows that the header states; `None` for a number that the
+    /// header does not state.
     pub counts: [Option<usize>; 2],
     /// Factor by which the numbers in the file are multiplied to give the heights.
     factor: Option<f64>,
@@ -341,7 +341,8 @@ impl TextHeader {
         Some(unit.to_metres(length.value))
     }
 
-    /// Returns the factor that converts the numbers in the file to heights.
+    /// Returns the factor by which the numbers in the file are multiplied to give the heights in
+    /// their unit.
     pub fn scale(&self) -> f64 {
         let mut scale = 1.0;
         if let Some(factor) = self.factor {
