@@ -63,8 +63,8 @@ pub struct Analysis {
     pub offsets: bool,
     /// Largest difference, over all maps, between the waves parallel to an axis and the waves in
     /// neighbouring directions. The difference of the squared gradients is given as a share of the
-    /// squared gradient of the map. It is 0 if chance or offsets of whole rows or columns explain
-    /// the difference.
+    /// squared gradient of the map. It is 0 if the difference is negligible, or if chance or
+    /// offsets of whole rows or columns explain the difference.
     pub apart: f64,
     /// Distance in m by which the odd rows of a map are displaced along the even rows. Such a
     /// displacement occurs in a file that alternates between trace and retrace. `None` if no map

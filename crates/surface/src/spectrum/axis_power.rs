@@ -134,8 +134,9 @@ pub(super) struct TrueWaves {
 }
 
 impl WavesByAxis {
-    /// Creates an empty collection of waves. Waves are parallel to an axis if they have at most
-    /// `reach` periods across this axis. All other waves will be stored in the vector `memory`.
+    /// Creates an empty collection of waves. `reach` is the largest number of periods across an
+    /// axis with which a wave counts as parallel to this axis. The vector `memory` will store all
+    /// waves except short waves parallel to an axis.
     pub fn new(reach: f64, memory: Vec<Wave>) -> Self {
         WavesByAxis {
             reach,

@@ -28,8 +28,8 @@ pub(super) struct MapPower {
     /// against each other or because each row was levelled.
     pub offsets: bool,
     /// Largest difference between the remaining waves parallel to an axis and the waves in
-    /// neighbouring directions, as a share of the squared gradient of the map. It is 0 if chance
-    /// may explain the difference.
+    /// neighbouring directions, as a share of the squared gradient of the map. It is 0 if the
+    /// difference is negligible or may be chance.
     pub apart: f64,
 }
 

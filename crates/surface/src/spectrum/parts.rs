@@ -400,9 +400,9 @@ pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of two relative variances that chance explains. The first is the
-/// variance of a mean, estimated from the differences between `parts` parts. The second is the
-/// variance of this mean that is expected for a uniform surface.
+/// Returns the largest ratio of an estimated to an expected variance that counts as chance. The
+/// estimated variance of a mean follows from the differences between `parts` parts. The expected
+/// variance of this mean is that of a uniform surface.
 ///
 /// On a uniform surface, the ratio exceeds the result once in a thousand times. The result is a
 /// quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance
@@ -415,9 +415,9 @@ pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     (1.0 - ninth + NO_CHANCE * ninth.sqrt()).powi(3)
 }
 
-/// Returns a factor for the standard error of a mean of `parts` parts. After multiplication by this
-/// factor, about two thirds of all means lie within one standard error. The factor is a quantile of
-/// Student's distribution, and nearly 1 if there are many parts.
+/// Returns a factor for the standard error of a mean of `parts` parts. With this factor, the true
+/// value lies within one standard error of the mean in about two thirds of all cases. The factor is
+/// a quantile of Student's distribution, and nearly 1 if there are many parts.
 pub(super) fn student_factor(parts: usize) -> f64 {
     let freedom = parts as f64 - 1.0;
     1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)

@@ -190,8 +190,8 @@ impl Table {
         self.is_paused = true;
     }
 
-    /// Returns true if a line has words instead of numbers, as a heading between lines of numbers
-    /// or a text after the last number.
+    /// Returns true if a line has words instead of numbers. Such a line is a heading between the
+    /// lines of numbers, or a text after the last of these lines.
     pub fn is_heading(&self, line: &str) -> bool {
         // A line without letters, except the e of exponents, is a line of numbers. Most lines need
         // no further test.
