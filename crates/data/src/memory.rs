@@ -1,5 +1,5 @@
-//! Functions for large arrays. They reuse memory, and return an error if there is not enough
-//! memory.
+//! Functions that allocate large arrays. These functions reuse memory, and return an error if there
+//! is not enough memory.
 
 // Reuse saves time: the system clears each page of new memory at its first access, which takes
 // about as long as one pass over the memory. Arrays whose length depends on the input reserve their

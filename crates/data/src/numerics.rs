@@ -79,9 +79,9 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
-/// Returns a quantile of ascending values. Between neighbouring values the quantile is interpolated
-/// linearly. A `share` of 0 gives the first value, 0.5 the median, and 1 the last value. Returns
-/// `None` if there are no values, or if the share is below 0 or above 1.
+/// Returns a quantile of `ascending`, values in ascending order. A `share` of 0 gives the first
+/// value, 0.5 the median, and 1 the last value. Between two values the quantile is interpolated
+/// linearly. Returns `None` if there are no values, or if the share is below 0 or above 1.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), Some(5.0));
@@ -142,13 +142,13 @@ pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     slope.is_finite().then_some(slope)
 }
 
-/// Returns the nodes of the Gauss-Legendre quadrature on the interval (−1, 1), each with its
+/// Returns the nodes of the Gauss-Legendre quadrature for an integral from −1 to 1, each with its
 /// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
 
-/// Returns the nodes of the Gauss-Legendre quadrature on the interval (0, π/2), each with its
+/// Returns the nodes of the Gauss-Legendre quadrature for an integral from 0 to π/2, each with its
 /// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))

@@ -333,8 +333,8 @@ pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
     ])
 }
 
-/// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. If both ends have
-/// the same unit, the unit is written once.
+/// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. The unit is
+/// written only once if it is the same at both ends.
 pub fn one_unit(ends: [String; 2]) -> String {
     let [low, high] = ends;
     if low == high {
@@ -349,8 +349,8 @@ pub fn one_unit(ends: [String; 2]) -> String {
     format!("{low} to {high}")
 }
 
-/// Formats a value with its unit and with all its digits, so that [`parse_quantity`] returns
-/// exactly the same value.
+/// Formats a value with its unit and with all its digits. If [`parse_quantity`] reads the result,
+/// it returns exactly the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }

@@ -80,7 +80,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Replaces characters by their codes as [`printable`] does, but keeps line breaks.
+/// Replaces control characters by their codes, as [`printable`] does, but keeps line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
@@ -169,8 +169,8 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|unit| UNITS.contains(&unit))
 }
 
-/// Returns true if no line break is allowed between a word and the next word: inside a number such
-/// as `16 384`, and before a unit.
+/// Returns true if no line break is allowed between the words `word` and `next`. A line break is
+/// not allowed inside a number such as `16 384`, and between a number and a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());

@@ -113,9 +113,8 @@ const GROUPING: [char; 8] = [
     ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
 ];
 
-/// Reader of the numbers in a text table. It learns two marks from the numbers: the first number
-/// with a decimal mark determines the decimal mark of the table, and the first number with a
-/// thousands separator determines this separator.
+/// Reader of the numbers in a text table. The reader learns the decimal mark from the first number
+/// that has one, and the thousands separator from the first number that has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark; `None` as long as no number has one.

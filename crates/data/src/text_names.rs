@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 /// known unit.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column in a text file, which is found from the name of the column.
+/// Meaning of a column in a text file. The meaning is found from the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// Column whose name has no known meaning.

@@ -71,8 +71,9 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes `content` to a regular file, a pipe or a device. A regular file is written as by
-/// [`write_new_file`]. For a pipe, the function waits until another program reads from the pipe.
+/// Writes the content that the function `write` gives to a regular file, a pipe or a device. A
+/// regular file is written as by [`write_new_file`]. For a pipe, the function waits until another
+/// program reads from the pipe.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -88,9 +89,9 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file. The content is first written to a temporary file in the same folder, so
-/// that other programs see either the old file or the complete new file. An existing file is
-/// replaced only if `overwrite` is true.
+/// Writes a regular file with the content that the function `write` writes. This function first
+/// writes to a temporary file in the same folder. Other programs therefore see either the old file
+/// or the complete new file. An existing file is replaced only if `overwrite` is true.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,

@@ -243,7 +243,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the same error with a further step that the user can take so that the file is read.
+    /// Returns the same error with one more remedy, a step that the user can take so that the file
+    /// is read.
     pub fn with(mut self, remedy: Remedy) -> Self {
         if let SurfaceError::Refused { remedies, .. } = &mut self {
             remedies.push(remedy);

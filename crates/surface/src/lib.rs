@@ -40,9 +40,9 @@ pub use topography::options::ReadOptions;
 pub use topography::surface::{Cropped, Detrend, Topography};
 pub use topography::unit::Unit;
 
-/// Functions for programs that read files of other data, such as measured force curves. They read
-/// the bytes of a file, decompress gzip, and read columns of NumPy arrays and of arrays of the
-/// program Igor Pro.
+/// Functions for programs that read other data than surfaces, such as measured force curves. The
+/// functions read the bytes of a file, decompress gzip, and read columns of NumPy arrays and of
+/// arrays of the program Igor Pro.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::igor::{IgorWave, WaveDimension, is_igor_wave};

@@ -147,8 +147,8 @@ impl EquivalentLine {
         })
     }
 
-    /// Returns the same line without its short waves, whose wave numbers exceed `wave_number` in
-    /// rad/m.
+    /// Returns the same line without its short waves. These are the waves whose wave numbers exceed
+    /// `wave_number` in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine {
             faces: self
@@ -195,9 +195,9 @@ impl EquivalentLine {
         4.0 * power / length
     }
 
-    /// Computes the rms height, gradient and curvature of a line that has only the modes `modes`.
-    /// `length` is the length of the line in m. A mode is a wave with a whole number of periods on
-    /// this length.
+    /// Computes the rms height, the rms gradient and the rms curvature of a line of the length
+    /// `length` in m that has only the modes `modes`. A mode is a wave with a whole number of
+    /// periods on this length.
     pub fn amplitude_of_modes(&self, length: f64, modes: ModeRange) -> Amplitude {
         let square = |mode: u64| ModeSquare {
             mode,
@@ -212,10 +212,10 @@ impl EquivalentLine {
 /// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The profile in the file is an equivalent line already. It is used unchanged as the rigid
-    /// profile.
+    /// Profile in the file that is used unchanged as the rigid profile, because the profile is
+    /// already an equivalent line.
     Profile(MeasuredProfile),
-    /// The rigid profile is an equivalent line of the measured surfaces.
+    /// Equivalent line of the measured surfaces, which is used as the rigid profile.
     Equivalent(EquivalentLine),
 }
 

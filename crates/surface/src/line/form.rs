@@ -17,7 +17,7 @@ use strum::IntoStaticStr;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
-    /// Paraboloid of depth r²/2R, the sphere of Hertz and JKR.
+    /// Paraboloid of depth r²/2R, by which Hertz and JKR approximate a sphere.
     Paraboloid {
         /// Radius of curvature R in m.
         radius: f64,
@@ -174,8 +174,8 @@ impl Form {
         }
     }
 
-    /// Returns a mutable reference to the radius of a form in m. It is the radius of a sphere, of
-    /// the first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
+    /// Returns a mutable reference to the radius of a form in m: the radius of a sphere, of the
+    /// first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
@@ -279,10 +279,11 @@ impl Form {
     }
 
     /// Returns the depth g(x) in m of the equivalent profile below its apex, at a distance x from
-    /// the axis in m. It is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`].
+    /// the axis in m. The formula is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
+    /// [`Form::depth`].
     ///
-    /// For a punch the depth is 0. For two spheres it is the depth of the first sphere alone;
-    /// [`Form::depth_of_spring`] takes both spheres into account.
+    /// For a punch the depth is 0. For two spheres the result is the depth of the first sphere
+    /// alone; [`Form::depth_of_spring`] takes both spheres into account.
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -437,8 +438,8 @@ impl Form {
     }
 }
 
-/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
-/// has the equivalent profile κₙ |x|ⁿ.
+/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for the exponent n = `exponent`. With this
+/// factor, a body of the depth rⁿ has the equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // The logarithms of Γ are subtracted, because both values of Γ may be too large for a number.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();

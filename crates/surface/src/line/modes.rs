@@ -214,11 +214,11 @@ const COUNTS: [f64; BLOCK] = {
 /// with the same seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, …. They are uniform
-/// in [0, 2π). Mode k is the wave with k periods on the profile.
+/// Returns the random phases φ_k in rad, between 0 and 2π, of the modes k = `first`, `first` + 1,
+/// …. Mode k is the wave with k periods on the profile.
 ///
-/// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every
-/// platform.
+/// The phase of a mode depends only on the seed and on k. The phase is the same, bit for bit, on
+/// every platform.
 pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     let mut generator = phase_words(seed, first);
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))

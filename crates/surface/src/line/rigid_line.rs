@@ -5,11 +5,11 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 use std::sync::Arc;
 
-/// A rigid profile above springs at the positions x = (i + ½)Δx.
+/// A rigid profile above a row of springs at the positions x = (i + ½)Δx, i = 0, 1, ….
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Gaps c_i = max z − z_i in m between the highest point of the body and its surface above
-    /// spring i, for the springs under the body. Each gap is at least 0.
+    /// Gaps c_i = max z − z_i in m, one for each spring i under the body. z_i is the height of the
+    /// profile above spring i, and max z is its highest point. Each gap is at least 0.
     pub gaps: Arc<Vec<f64>>,
     /// Index of the leftmost spring under the body, counted from the left end of the foundation
     /// (the row of all springs). The index is above zero only for a punch.
@@ -20,7 +20,7 @@ pub struct Line {
     pub length: f64,
     /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height in m of the highest point of the profile above the apex of the form without
+    /// Height in m of the highest point of the profile, measured from the apex of the form without
     /// roughness.
     pub summit: f64,
     /// Largest gap in m.
@@ -208,8 +208,9 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts `heights` (m) in `bins` equal bins between `low` and `high` (m). Both ends are
-    /// included. Heights outside this range, or not finite, are left out.
+    /// Counts `heights` (m) in `bins` equal bins between `low` and `high` (m). A height equal to
+    /// `low` or `high` is counted. Heights outside this range, and heights that are not finite, are
+    /// left out.
     ///
     /// ```
     /// let histogram =

@@ -101,8 +101,8 @@ impl Cubic {
     }
 }
 
-/// Rows of the table of a [`Form::Table`](crate::Form::Table). There are no rows until the file is
-/// read.
+/// Rows of the table of a [`Form::Table`](crate::Form::Table). There are no rows until the file of
+/// the table is read.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -255,8 +255,8 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns `count` depths in m of the equivalent profile below its apex. They are at the
-    /// distances 0, `spacing`, 2 `spacing`, … (m) from the axis.
+    /// Returns `count` depths in m of the equivalent profile below its apex, at the distances 0,
+    /// `spacing`, 2 `spacing`, … (m) from the axis.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.cubics.len() {

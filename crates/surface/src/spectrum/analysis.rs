@@ -35,8 +35,8 @@ pub struct Analysis {
     pub spectra: Vec<(Along, Vec<Bin>)>,
     /// Isotropic spectrum fitted to the measured power spectra of all surfaces together.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge
-    /// or finds no Hurst exponent between 0 and 1.
+    /// Self-affine spectrum fitted to the measured power spectra of all surfaces together. `None`
+    /// if the fit does not converge or finds no Hurst exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
     /// Rms height, gradient and other moments of the [equivalent line](crate::EquivalentLine) of
     /// the surfaces.
@@ -55,8 +55,8 @@ pub struct Analysis {
     /// Whether this analysis assumes that the surfaces have shorter waves than the points resolve
     /// ([`AnalysisOptions::end`]).
     pub end: End,
-    /// True if the fitted spectrum ends at a longer wave than the shortest resolved one, because
-    /// shorter waves have no significant power.
+    /// True if the fitted spectrum ends at a longer wave than the shortest resolved wave. The
+    /// reason is that shorter waves have no significant power.
     pub ends_inside: bool,
     /// True if the analysis leaves out the waves parallel to one axis of a map. It leaves out these
     /// waves if whole rows or columns are offset against each other, or if each row was levelled.
@@ -66,9 +66,9 @@ pub struct Analysis {
     /// squared gradient of the map. It is 0 if the difference is negligible, or if chance or
     /// offsets of whole rows or columns explain the difference.
     pub apart: f64,
-    /// Distance in m by which the odd rows of a map are displaced along the even rows. Such a
-    /// displacement occurs in a file that alternates between trace and retrace. `None` if no map
-    /// has a displacement.
+    /// Distance in m by which the odd rows of a map are displaced against the even rows, in the
+    /// direction of the rows. Such a displacement occurs in a file that alternates between trace
+    /// and retrace. `None` if no map has a displacement.
     pub displaced: Option<f64>,
     /// True if the curvature of each surface was removed before the analysis, as
     /// [`AnalysisOptions::detrend`] can request.
@@ -93,8 +93,8 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Returns the share of long waves in the mean square height of the equivalent line. Long waves
-    /// are longer than a quarter of the longest row ([`Analysis::length`]).
+    /// Returns the share of long waves in the mean square height of the equivalent line. A wave is
+    /// long if it is longer than a quarter of the longest row ([`Analysis::length`]).
     pub fn long_wave_share(&self) -> f64 {
         let [all_waves, _, _] = self.isotropic.integrals();
         let quarter = 4.0 * TAU / self.length;

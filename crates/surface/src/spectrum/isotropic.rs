@@ -48,8 +48,8 @@ pub struct Node {
     pub line: f64,
 }
 
-/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at
-/// several wave numbers, the [nodes](Node). Between them ln C2D is linear in ln q.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. The density is given
+/// at several wave numbers q, the [nodes](Node). Between the nodes, ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -78,8 +78,8 @@ pub(super) struct Integral {
 
 impl IsotropicSpectrum {
     /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. The
-    /// density is constant below the first wave number at which the spectrum is given (its first
-    /// node). It is zero above the last wave number of the spectrum.
+    /// density is constant below the first node, the smallest wave number at which the spectrum is
+    /// given. The density is zero above the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -187,8 +187,9 @@ impl IsotropicSpectrum {
         [0, 1, 2].map(|index| others[index] / own[index] - 1.0)
     }
 
-    /// Adds further errors of the method to the relative errors of the integrals. The squares of
-    /// the errors are added, because the errors are independent.
+    /// Adds further errors of the method of estimation to the relative errors of the three
+    /// integrals ∫ q^power C2D dq, power = 1, 2, 3. The squares of the errors are added, because
+    /// the errors are independent.
     pub(super) fn add_method_errors(&mut self, errors: [f64; 3]) {
         for (method, error) in self.method.iter_mut().zip(errors) {
             *method = method.hypot(error);

@@ -1,4 +1,5 @@
-//! The isotropic spectrum of largest penalised likelihood.
+//! The isotropic spectrum of largest penalised likelihood. The spectrum is given at several wave
+//! numbers, the nodes.
 //!
 //! The fit finds the values x_i = ln C2D at the nodes that minimise Σ w (P/m + ln m) + λ Σ (x_{i−1}
 //! − 2x_i + x_{i+1})². The first sum runs over the observations: P is the observed mean power of w

@@ -24,7 +24,7 @@ pub(super) struct LevelledSurface {
     /// True for each point that was measured, and false for each interpolated point. Empty if all
     /// points were measured.
     pub measured: Vec<bool>,
-    /// Distances of the points along and between the rows in m.
+    /// Distances in m between neighbouring points of a row, and between neighbouring rows.
     pub distances: [f64; 2],
     /// True if the surface is not periodic, so that the analysis uses a window function.
     pub windowed: bool,

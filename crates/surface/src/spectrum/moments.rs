@@ -59,7 +59,7 @@ impl Moment {
         Moment::new(factor * self.value, relative)
     }
 
-    /// Returns the square root of the moment, with the errors of the root.
+    /// Returns the square root of the moment, with the errors of this root.
     pub fn root(self) -> Self {
         let missing_short_waves = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
         let relative = RelativeErrors {

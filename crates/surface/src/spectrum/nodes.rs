@@ -24,9 +24,9 @@ pub(super) struct WaveRange {
 /// Nodes that are equally spaced in ln q. A node is a wave number q at which a spectrum is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nodes {
-    /// ln q of the first node.
+    /// Natural logarithm of the first wave number in rad/m.
     pub first: f64,
-    /// Distance between nodes in ln q.
+    /// Difference of ln q between neighbouring nodes.
     pub step: f64,
     pub count: usize,
     /// Largest wave number of the spectrum in rad/m. It is larger than the wave number of the last
@@ -34,7 +34,7 @@ pub(super) struct Nodes {
     pub end: f64,
 }
 
-/// Place of a wave number between two neighbouring nodes.
+/// Place of a wave number relative to two neighbouring nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
     /// Index of the node at or below the wave number. A node is a wave number at which the spectrum
@@ -61,7 +61,7 @@ impl NodePlace {
     }
 }
 
-/// Interval of the wave number in rad/m in which a spectrum is a power law.
+/// Interval of wave numbers in rad/m in which a spectrum is a power law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     pub low: f64,
@@ -77,9 +77,9 @@ impl Piece {
 }
 
 impl Nodes {
-    /// Creates nodes, the wave numbers at which a spectrum is given. They cover `range` with
-    /// `per_decade` nodes per decade. `end` states whether the spectrum continues beyond this
-    /// range.
+    /// Creates nodes, the wave numbers at which a spectrum is given. The nodes cover `range`, with
+    /// at least `per_decade` nodes per decade. `end` states whether the spectrum continues beyond
+    /// `range`.
     pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
         let ratio = range.last / range.first;
         let pieces = (per_decade * ratio.log10()).ceil().max(2.0);

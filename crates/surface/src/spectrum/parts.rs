@@ -68,8 +68,8 @@ pub(super) struct Spread {
     /// differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
-    /// surface. A surface without four quarters is divided into halves. The ratio is 1 if chance
-    /// explains the differences.
+    /// surface, or among its halves if there are no quarters. The ratio is 1 if chance explains the
+    /// differences.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,

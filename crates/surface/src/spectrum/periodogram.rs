@@ -185,8 +185,8 @@ pub(super) fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Averages powers in 10 bins per decade of the wave number. Each element of `waves` is one wave,
-/// or the mean of several waves with the same wave number.
+/// Averages powers in bins of the wave number, 10 bins per decade. Each element of `waves` is one
+/// wave, or the mean of several waves with the same wave number.
 pub(super) fn bins(waves: impl IntoIterator<Item = Bin>) -> Vec<Bin> {
     // Sums over the waves in each bin, by the number of the bin on the logarithmic axis.
     let mut sums: BTreeMap<i64, Bin> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Results that are computed from the points of the surfaces without their spectra.
+//! Results that are computed from the points of the surfaces, without a spectrum.
 
 use super::identities::departures;
 use super::interlaced;

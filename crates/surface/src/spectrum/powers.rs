@@ -1,5 +1,5 @@
-//! Power spectra of all surfaces together. They give the observations for the fits, and averaged
-//! spectra for figures.
+//! Power spectra of all surfaces together. From these spectra follow the observations for the fits,
+//! and averaged spectra for figures.
 
 use super::levelled::LevelledSurface;
 use super::map_power::MapPower;

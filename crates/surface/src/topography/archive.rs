@@ -1,4 +1,4 @@
-//! ZIP archives in memory. The total size of their files after decompression is limited.
+//! ZIP archives in memory. The total size of the decompressed files of an archive is limited.
 
 use super::bytes::most_expanded;
 use crate::error::{Place, SurfaceError, refused};

@@ -156,13 +156,14 @@ impl Layout {
     }
 }
 
-/// Returns true if a file is a binary wave of Igor: it begins with the headers of a wave, and their
-/// check sum is right.
+/// Returns true if a file is a binary wave, the array file of the program Igor: it begins with the
+/// headers of a wave, and the check sum of the headers is right.
 pub fn is_igor_wave(bytes: &[u8]) -> bool {
     Layout::of(bytes).is_some_and(|layout| layout.check_sum(bytes) == 0)
 }
 
-/// Returns an error if a file seems to be a wave of version 5 but its check sum is wrong.
+/// Returns an error if a file seems to be a binary wave of version 5, but the check sum of its
+/// headers is wrong.
 pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
     match Layout::of(bytes) {
         Some(layout) if !layout.is_old() && layout.check_sum(bytes) != 0 => {
@@ -290,8 +291,8 @@ impl<'a> IgorWave<'a> {
         numbers.numbers(count, self.kind)
     }
 
-    /// Returns the value that the note gives for a key. If several lines of the note have the key,
-    /// the first one counts.
+    /// Returns the value of a key in the note of the array. If several lines of the note have the
+    /// key, the first line counts. Returns `None` if no line has the key.
     pub fn entry(&self, key: &str) -> Option<&str> {
         self.note.split(['\r', '\n']).find_map(|line| {
             let (name, value) = line.split_once(':')?;
@@ -299,8 +300,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns the number that the note gives for a key. Returns `None` if the note does not have
-    /// the key, or if the value is not a finite number.
+    /// Returns the value of a key in the note of the array as a number. Returns `None` if the note
+    /// does not have the key, or if the value is not a finite number.
     pub fn number(&self, key: &str) -> Option<f64> {
         let number: f64 = self.entry(key)?.parse().ok()?;
         number.is_finite().then_some(number)

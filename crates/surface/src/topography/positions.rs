@@ -21,7 +21,7 @@ pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Opti
     (0..positions.len()).find(|index| !is_even(*index, positions[*index]))
 }
 
-/// Returns the mean distance between at least two positions.
+/// Returns the mean distance in m between neighbours among at least two positions in m.
 pub(super) fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }

@@ -74,8 +74,9 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Returns the largest error of a number because of its printed digits. It is half a unit of
-    /// the last digit, plus some rounding errors of floating-point numbers.
+    /// Returns the largest error of the number `value` that results from its printing with these
+    /// digits. The error is half a unit of the last digit, plus some rounding errors of
+    /// floating-point numbers.
     pub fn half(self, value: f64) -> f64 {
         let digits_before_mark = if value == 0.0 {
             i32::MIN / 2

@@ -59,8 +59,8 @@ pub struct Topography {
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
-    /// Positions in m that the points had before resampling; empty for a surface that was not
-    /// resampled.
+    /// Positions in m that the points had before the surface was resampled at even distances; empty
+    /// for a surface that was not resampled.
     pub(super) resampled: Vec<f64>,
     /// True if the median height of each row was subtracted from the row.
     pub(crate) aligned: bool,
@@ -78,7 +78,7 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// Returns an error if the surface has a slope above [`LARGEST`].
+    /// Returns an error if a slope between neighbouring points of the surface exceeds [`LARGEST`].
     pub(super) fn check_slopes(&self) -> Result<(), SurfaceError> {
         for index in 1..self.heights.len() {
             // The first point in a row has no neighbour before it in the row.

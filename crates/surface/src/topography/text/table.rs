@@ -37,8 +37,8 @@ pub(super) struct Table {
     /// Indices of the rows before which the file has an empty line.
     breaks: Vec<usize>,
     is_paused: bool,
-    /// Numbers before the first row that state how many rows and columns follow; `None` if there
-    /// are none.
+    /// Numbers before the first row that state how many rows and columns the table has; `None` if
+    /// there are no such numbers.
     pub counts: Option<Counts>,
 }
 
