@@ -30,7 +30,7 @@ pub struct MeasuredOptions {
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
-    /// Options of the analysis of the spectrum.
+    /// Options for the analysis of the measured surfaces, from which the spectrum follows.
     pub spectrum: AnalysisOptions,
 }
 

@@ -40,11 +40,11 @@ const LARGEST_OFFSETS: f64 = 0.25;
 /// Place of a wave in the plane of its two wave numbers, relative to one axis of this plane.
 #[derive(Clone, Copy)]
 pub(super) struct AxisPlace {
-    /// Number of periods of the wave across the axis, which is its distance from the axis in the
-    /// plane of wave numbers.
+    /// Number of periods of the wave over the map, perpendicular to the axis. This number is the
+    /// distance of the wave from the axis in the plane of wave numbers.
     pub across: f64,
-    /// Number of periods of the wave along the axis, divided by the number of points along the
-    /// axis.
+    /// Number of periods of the wave over the map, parallel to the axis, divided by the number of
+    /// points in this direction.
     pub along: f64,
 }
 
@@ -128,8 +128,8 @@ pub(super) struct TrueWaves {
     /// True if the waves parallel to an axis are left out, because whole rows or columns are
     /// offset.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and their neighbouring
-    /// waves, as a share of the squared gradient of the map.
+    /// Largest difference between the remaining waves parallel to an axis and the waves in
+    /// neighbouring directions, as a share of the squared gradient of the map.
     pub apart: f64,
 }
 

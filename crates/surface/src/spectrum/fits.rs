@@ -24,7 +24,7 @@ const BEFORE_END: f64 = 4.0;
 /// estimate the influence of missing short waves.
 const CONTINUED: f64 = 4.0;
 
-/// Fits of spectra to observations over one range of wave numbers.
+/// Fits of several spectra to the same observations, over one range of wave numbers.
 #[derive(Clone, Copy)]
 pub(super) struct SpectrumFits {
     range: WaveRange,

@@ -1,5 +1,5 @@
-//! Comparison of the moments of a spectrum with the statistics of the points from which the
-//! spectrum was computed. For exact data the moments and the statistics are equal.
+//! Comparison of the moments of a fitted spectrum with the statistics of the measured points. For
+//! exact data the moments and the statistics are equal.
 
 use super::isotropic::IsotropicSpectrum;
 use super::moments::{Moment, line_moments};

@@ -14,7 +14,8 @@ const GRID: f64 = 0.02;
 /// depend on the spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
-    /// Terms of the expected mean of each observation. The mean is the sum of the terms.
+    /// Terms of the expected mean of each observation: one list for each observation. The expected
+    /// mean is the sum of the terms in its list.
     pub terms: Vec<Vec<Term>>,
     pub nodes: Nodes,
 }
@@ -76,8 +77,9 @@ impl<'a> Model<'a> {
         condensed
     }
 
-    /// Computes the negative logarithm of the likelihood: the sum of w (P/m + ln m) over the
-    /// observations. P is the observed mean power of w waves, and m is its expected mean.
+    /// Returns the negative logarithm of the likelihood of the observations. It is the sum of w
+    /// (P/m + ln m) over the observations: P is the observed mean power of w waves, and m from
+    /// `means` is the expected mean power.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()

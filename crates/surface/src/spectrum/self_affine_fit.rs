@@ -71,7 +71,7 @@ pub(super) struct PowerLaw {
     parameters: Parameters,
     /// Number of parameters that were fitted.
     free: usize,
-    /// Negative logarithm of the likelihood of the observations with these parameters.
+    /// Negative logarithm of the likelihood of the observations for this spectrum.
     pub misfit: f64,
     /// Hurst exponent of a spectrum with a roll-off.
     hurst_with_roll_off: f64,

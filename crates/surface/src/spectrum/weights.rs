@@ -1,5 +1,4 @@
-//! Factors by which measured powers are multiplied so that all parts of a surface have the same
-//! weight.
+//! Factors for measured powers, with which all parts of a surface have the same weight.
 
 /// Factors by which the powers of a surface are multiplied, one factor for each octave of the wave
 /// number (a range up to twice its first wave number).

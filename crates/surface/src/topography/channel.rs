@@ -11,13 +11,14 @@ const MOST_LISTED: usize = 8;
 /// are needed because other channels with a unit of length contain deflections or amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
-/// Returns true for the name of a channel of heights in a file of a scanning probe microscope.
+/// Returns true if `name` is the name of a channel of heights, as scanning probe microscopes write
+/// it.
 pub(super) fn names_heights(name: &str) -> bool {
     let name = name.to_lowercase();
     HEIGHTS.iter().any(|word| name.contains(word))
 }
 
-/// The channel that the options request.
+/// The channel of a file that the options request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.

@@ -1,5 +1,5 @@
-//! Containers of contact.engineering. A container is an archive with an index file in JSON or YAML,
-//! which lists surfaces and their measurements.
+//! Containers of the web site contact.engineering. A container is an archive with an index file in
+//! JSON or YAML, which lists surfaces and the measurements of each surface.
 
 use super::options::ReadOptions;
 use super::reading::Reading;
@@ -84,9 +84,9 @@ enum Mode {
     Curvature,
 }
 
-/// Returns all measurements of the surface called `name`, or the single measurement called `name`.
-/// If no name is given, the container must have only one surface, and all its measurements are
-/// returned.
+/// Returns measurements that the index file lists: all measurements of the surface called `name`,
+/// or the single measurement called `name`. If no name is given, the container must have only one
+/// surface, and all measurements of this surface are returned.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -155,8 +155,8 @@ fn chosen(
 }
 
 impl Measurement {
-    /// Returns the name of the NetCDF file with the scaled heights or, if there is none, the name
-    /// of the original file of the measurement.
+    /// Returns the name of the data file of the measurement in the archive. It is the NetCDF file
+    /// with the scaled heights or, if there is none, the original file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {

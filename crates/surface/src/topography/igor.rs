@@ -1,6 +1,6 @@
 //! Binary waves, the array files of the program Igor Pro. A file has a header, an array of numbers
-//! in up to four dimensions, a note, and names of the elements of each dimension. Numbers that are
-//! neighbours in the file are neighbours in the first dimension of the array.
+//! in up to four dimensions, a text (note), and names of the elements along each dimension. Numbers
+//! that are neighbours in the file are neighbours along the first dimension of the array.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
@@ -98,8 +98,8 @@ pub struct WaveDimension {
 /// numbers of the array remain encoded as bytes until they are requested.
 #[derive(Debug)]
 pub struct IgorWave<'a> {
-    /// Dimensions of the array. Numbers that are neighbours in the file are neighbours in the first
-    /// dimension.
+    /// Dimensions of the array. Numbers that are neighbours in the file are neighbours along the
+    /// first dimension.
     pub dimensions: [WaveDimension; DIMENSIONS],
     /// Unit of the numbers in the array; empty if the file states no unit.
     pub unit: String,

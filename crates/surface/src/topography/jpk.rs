@@ -51,8 +51,8 @@ pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
         .is_some_and(|first| has(first, grid::WIDTH) && has(first, grid::HEIGHT))
 }
 
-/// Reads the wanted channel. Channels are numbered from 0, without the thumbnail. A channel
-/// contains heights if its unit is a length and its name says that it contains heights.
+/// Reads one channel of an image of JPK. Channels are numbered from 0, without the thumbnail. A
+/// channel contains heights if its unit is a length and its name says that it contains heights.
 pub(super) fn read(
     directories: &[Directory<'_>],
     wanted: Wanted<'_>,

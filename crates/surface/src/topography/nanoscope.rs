@@ -33,8 +33,8 @@ const PER_MAGNIFICATION: f64 = 1.0e-7;
 /// difference is larger, a message states both distances.
 const DIFFERENT: f64 = 0.01;
 
-/// Reads the wanted channel. Channels are numbered from 0. If neither a number nor a name is
-/// wanted, reads the only channel of heights.
+/// Reads one channel of a Nanoscope file. Channels are numbered from 0. If `wanted` is neither a
+/// number nor a name, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();

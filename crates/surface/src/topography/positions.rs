@@ -6,12 +6,13 @@ use asperity_data::between;
 /// neighbouring points. Larger values could make lengths and mean squares overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
-/// Largest displacement of a point from its place on an even grid that still counts as rounding, as
-/// a share of the spacing.
+/// Largest displacement of a point from an even grid that still counts as rounding, as a share of
+/// the spacing of the grid.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
-/// Returns the index of the first position that does not lie on the even grid with the first
-/// position `first` in m and the spacing `distance` in m; `None` if all positions lie on the grid.
+/// Returns the index of the first position that does not lie on an even grid; `None` if all
+/// positions lie on the grid. The grid begins at the position `first` in m and has the spacing
+/// `distance` in m.
 pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
     let most = UNEVEN * distance.abs();
     let is_even = |index: usize, position: f64| {
