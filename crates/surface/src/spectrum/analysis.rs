@@ -58,8 +58,8 @@ pub struct Analysis {
     /// True if the fitted spectrum ends at a longer wave than the shortest resolved wave. The
     /// reason is that shorter waves have no significant power.
     pub ends_inside: bool,
-    /// True if the analysis leaves out the waves parallel to one axis of a map. It leaves out these
-    /// waves if whole rows or columns are offset against each other, or if each row was levelled.
+    /// True if the analysis leaves out short waves parallel to one axis of a map, because whole
+    /// rows or columns are offset against each other.
     pub offsets: bool,
     /// Largest difference, over all maps, between the waves parallel to an axis and the waves in
     /// neighbouring directions. The difference of the squared gradients is given as a share of the

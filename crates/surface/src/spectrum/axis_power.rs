@@ -125,8 +125,8 @@ pub(super) struct WavesByAxis {
 /// The waves of a map without those that offsets of rows or columns have changed.
 pub(super) struct TrueWaves {
     pub waves: Vec<Wave>,
-    /// True if the waves parallel to an axis are left out, because whole rows or columns are
-    /// offset.
+    /// True if short waves parallel to an axis are left out, because whole rows or columns are
+    /// offset against each other.
     pub offsets: bool,
     /// Largest difference between the remaining waves parallel to an axis and the waves in
     /// neighbouring directions, as a share of the squared gradient of the map.

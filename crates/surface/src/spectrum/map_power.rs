@@ -24,8 +24,8 @@ pub(super) struct MapPower {
     /// wave numbers. They cover only one half of the plane of wave numbers, because the other half
     /// has the same powers.
     pub waves: Vec<Wave>,
-    /// True if the waves parallel to one axis are left out. The reason is that whole rows or
-    /// columns are offset against each other, or that each row was levelled.
+    /// True if short waves parallel to one axis are left out, because whole rows or columns are
+    /// offset against each other.
     pub offsets: bool,
     /// Largest difference between the remaining waves parallel to an axis and the waves in
     /// neighbouring directions, as a share of the squared gradient of the map. It is 0 if the

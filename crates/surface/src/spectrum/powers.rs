@@ -139,8 +139,8 @@ impl Powers {
 
     /// Returns the number of scans whose waves are observed one by one. A scan is a map, or all
     /// profiles together, because the powers of profiles are averaged. Returns `None` if not all
-    /// waves of the surfaces are known: if a surface is not periodic, if waves were left out, or if
-    /// the surfaces have different waves.
+    /// waves of the surfaces are known: if a surface is not periodic, if waves were left out
+    /// because of offsets, or if the surfaces have different waves.
     pub fn periodic_scans(&self) -> Option<f64> {
         match (self.profiles.as_slice(), self.maps.as_slice()) {
             ([profiles], []) => (!profiles.windowed).then_some(1.0),
