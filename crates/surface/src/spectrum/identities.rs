@@ -1,5 +1,5 @@
-//! Comparison of the moments of a spectrum with the statistics of the points from which the
-//! spectrum was computed. For exact data the moments and the statistics are equal.
+//! Comparison of the moments of a fitted spectrum with the statistics of the measured points. For
+//! exact data the moments and the statistics are equal.
 
 use super::isotropic::IsotropicSpectrum;
 use super::moments::{Moment, line_moments};
@@ -14,9 +14,9 @@ pub(super) struct Departures {
 }
 
 /// Compares the moments of the equivalent line with the measured points. The rms gradient of the
-/// line is compared with the slopes between points, and its rms height with `height` in m, if this
-/// is known. The comparison finds, for example, a spike that the window function hides from the
-/// spectrum. Differences within three standard errors count as zero.
+/// line is compared with the slopes between points. The rms height of the line is compared with
+/// `height` in m, if this height is known. Such a comparison finds, for example, a spike that the
+/// window function hides from the spectrum. Differences within three standard errors count as zero.
 pub(super) fn departures(
     isotropic: &IsotropicSpectrum,
     height: Option<f64>,

@@ -7,15 +7,15 @@ use super::unit::Unit;
 /// read, and corrections of the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Unit of positions and heights if the file states no unit.
+    /// Unit of the positions and heights, for a file that states no unit.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states no unit for them. With `None`, [`Self::unit`] is
-    /// used.
+    /// Unit of the heights, for a file that states no unit of heights. With `None`, [`Self::unit`]
+    /// is used.
     pub height_unit: Option<Unit>,
-    /// Unit of positions and heights that is assumed if neither the file nor [`Self::unit`] states
-    /// one.
+    /// Unit of the positions and heights that is assumed if neither the file nor [`Self::unit`]
+    /// states a unit.
     pub convention: Option<Unit>,
-    /// Distance between neighbouring points in m if the file states no distance.
+    /// Distance between neighbouring points in m, for a file that states no distance.
     pub spacing: Option<f64>,
     /// True if missing heights are interpolated from their neighbours. Otherwise a missing height
     /// is an error.
