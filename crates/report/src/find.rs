@@ -17,14 +17,14 @@ use serde::Serialize;
 /// report states only the number.
 const MOST_LISTED: usize = 8;
 
-/// Report on a search in a scene: which value of a number, such as the preload, gives a wanted
-/// value of a result, such as the adhesion force.
+/// Report on a search for the value of one number of a scene, such as the preload, with which a
+/// result, such as the adhesion force, has a wanted value.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     pub title: &'a str,
-    /// Scene in which the number is varied.
+    /// Scene, one number of which, such as the preload, is varied in the search.
     pub scene: &'a Scene,
-    /// Values of the number at which the result reaches the wanted value, on each profile.
+    /// Values of the varied number, on each profile, with which the result has the wanted value.
     pub found: &'a Found,
 }
 

@@ -8,8 +8,8 @@ use asperity_plot::{
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
-/// Two quantities of a force loop that a chart shows over each other. A force loop is the curve of
-/// loading and unloading.
+/// Pair of quantities that a chart of a force loop shows, one over the other. A force loop is the
+/// curve of loading and unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -456,8 +456,8 @@ impl LoopLine {
     }
 }
 
-/// Returns one chart of all `loops`, with axes for the quantities `units`. Each loop is drawn over
-/// the loops before it.
+/// Returns one chart of all `loops`. `units` states the quantities on the two axes and their units.
+/// Each loop is drawn over the loops before it.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let mut places = Vec::new();
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];

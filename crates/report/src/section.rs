@@ -20,13 +20,12 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, and the number of columns of equal width into which the
-/// chart divides this range.
+/// Part of a profile that a chart shows: a range of springs, divided into columns of equal width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// Index, from 0 along the profile, of the first spring of the range.
+    /// Index, from 0 along the profile, of the first spring that the chart shows.
     pub first: usize,
-    /// Number of springs in the range.
+    /// Number of springs that the chart shows.
     pub springs: usize,
     /// Number of columns of the chart.
     pub columns: usize,
@@ -47,11 +46,11 @@ pub struct LineColumns {
 /// chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// Index, from 0 along the profile, of the first spring of the part.
+    /// Index, from 0 along the profile, of the first spring that the chart shows.
     pub first: usize,
-    /// Number of springs of the part.
+    /// Number of springs that the chart shows.
     pub springs: usize,
-    /// Heights of the lowest and the highest point of the profile in this part, m.
+    /// Heights in m of the lowest and the highest point of the shown part of the profile.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface on the scale of the heights of the profile, m.
     pub level: f64,

@@ -25,15 +25,16 @@ const NOT_ALLOWED: &str = "not allowed";
 
 const PROFILES: &str = "profiles";
 
-/// Report on how much the results of a scene change if one of its numbers is changed by +10 % or
-/// −10 %. This is reported for each number. A whole number changes by at least 1, and a wavelength
-/// by at least one wave on the length.
+/// Report on the sensitivity of a scene: how much its results change if one of its numbers, such as
+/// a length, is changed by +10 % or −10 %. Each number is changed by itself. A whole number changes
+/// by at least 1, and a wavelength by at least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     pub title: &'a str,
-    /// Scene whose numbers are changed.
+    /// Scene whose numbers, such as lengths, are changed one by one.
     pub scene: &'a Scene,
-    /// Changes of the results, such as the adhesion force, for each changed number.
+    /// Changes of the results, such as the adhesion force, due to the change of each number of the
+    /// scene.
     pub sensitivity: &'a Sensitivity,
 }
 

@@ -37,8 +37,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Number of springs, and where the edges of contact patches may lie ([`Edges`]), so that the error
-/// of a scene is within a tolerance. [`choose`] returns a value of this type.
+/// Settings with which the error of a scene is within a tolerance: the number of springs, and where
+/// the edges of contact patches may lie ([`Edges`]). [`choose`] returns a value of this type.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.

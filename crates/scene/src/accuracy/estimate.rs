@@ -50,8 +50,8 @@ const fn ratio(numerator: u64, denominator: u64) -> Ratio {
     }
 }
 
-/// Estimated relative error of an [`Outcome`] that is caused by the finite number of springs. The
-/// error is that of the adhesion force or of the force curve.
+/// Estimated relative error that the finite number of springs causes in an [`Outcome`]. The error
+/// is that of the adhesion force or of the force curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated: adhesion force or force curve.
@@ -105,14 +105,14 @@ impl Estimate {
 pub enum Evidence {
     /// By an exact formula for the adhesion force. The estimate is then the true error.
     ClosedForm,
-    /// By solutions of the same scene with other numbers of springs, which are the items of the
-    /// field. The edges of patches lie between springs ([`Edges::SubCell`]).
+    /// By comparison with two further solutions of the same scene. The list has their numbers of
+    /// springs. The edges of their contact patches lie between springs ([`Edges::SubCell`]).
     Solutions(Vec<u64>),
 }
 
 /// Estimates the relative error that the finite number of springs causes in `outcome`, the result
-/// of `scene`. The error refers to the adhesion force or, if the loading has no tensile force, to
-/// the force curve. Names of measured files are relative to `folder`.
+/// of `scene`. The error is that of the adhesion force or, if the loading has no tensile force,
+/// that of the force curve. Names of measured files are relative to `folder`.
 ///
 /// If a closed form exists, the estimate is the true error. Otherwise it follows from two further
 /// solutions with other numbers of springs, and the true error exceeds it in about 5 of 100 cases.

@@ -123,7 +123,7 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
-    /// Adhesion force of a scene with a tensile force.
+    /// Adhesion force. Its error is used for a scene whose loading has a tensile force.
     AdhesionForce,
     /// Force curve of a scene without a tensile force.
     ///
@@ -134,7 +134,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Returns `adhesion force` or `force curve`.
+    /// Returns the name of this quantity for users: `adhesion force` or `force curve`.
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",

@@ -53,9 +53,10 @@ impl Governing {
     /// Below this number the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
-    /// Derives the parameters of a scene. `unit` is needed for a self-affine roughness: the
-    /// [`Amplitude`] of its profile, scaled to an rms height of 1 m. `measured` is needed for a
-    /// measured roughness: the amplitude of the surface.
+    /// Derives the governing parameters of a scene. `unit` is the [`Amplitude`] of a self-affine
+    /// profile after scaling to an rms height of 1 m; it is needed only for a self-affine
+    /// roughness. `measured` is the amplitude of a measured surface; it is needed only for a
+    /// measured roughness.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         // If the scene states κ, γ = h⟨∇z⟩E*/κ². If it states e_el/γ, γ follows from e_el = E* h²
         // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
@@ -68,7 +69,8 @@ impl Governing {
         .with_adhesion(scene.adhesion)
     }
 
-    /// Returns the parameters for the same profile and modulus with another adhesion.
+    /// Returns the governing parameters of a contact with the same profile and modulus but another
+    /// adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let Some(adhesion) = adhesion else {
             return Governing {
@@ -101,8 +103,9 @@ impl Governing {
         value_of(parameter, self.energy(parameter)?, self.work_of(adhesion)?)
     }
 
-    /// Returns the work of adhesion of `adhesion` on this profile in J/m². Returns `None` if the
-    /// adhesion is stated by κ or e_el/γ and the profile is smooth.
+    /// Returns the work of adhesion in J/m² that `adhesion` means on this profile. It is the stated
+    /// work, or the work that follows from the stated κ or e_el/γ. Returns `None` if κ or e_el/γ is
+    /// stated and the profile is smooth.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),

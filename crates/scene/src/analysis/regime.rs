@@ -107,9 +107,10 @@ impl Regime {
         self.into()
     }
 
-    /// Returns a text with two regimes of the same body, such as
-    /// `pressure-sensitive (d=0), insensitive (F=0)`. The first regime, `self`, follows from
-    /// F_a(d=0). The second one, `after_zero_force`, follows from F_a(F=0).
+    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0),
+    /// insensitive (F=0)`. `self` follows from the adhesion force after a loading that turns at
+    /// first touch (d = 0). `after_zero_force` follows from the adhesion force after a loading that
+    /// turns at zero force (F = 0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

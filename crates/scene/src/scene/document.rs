@@ -134,7 +134,8 @@ impl Document {
         Document::parse(&to_ron(scene), name)
     }
 
-    /// Returns this document with one field changed, as [`Document::set_all`] does.
+    /// Returns this document with one field changed. `path` is the path of the field, such as
+    /// `length`. `value` is the new value in RON, or a number with a unit, such as `2 mm`.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set_all`].
@@ -316,7 +317,7 @@ impl Document {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text.
+    /// Returns the number of comments in the text of the scene.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
@@ -327,8 +328,9 @@ impl Document {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document as part of a resumed session: with its text when it was first opened
-    /// ([`Self::opened`]), and with the changes since then ([`Self::overrides`]).
+    /// Returns this document with the history of an earlier session of the program. `opened` is the
+    /// text with which that session began. `overrides` are the changes of fields since then, each
+    /// with the path of the field and its new value.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document {
             opened,

@@ -33,7 +33,7 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// All optional parts, in the order of their fields in a scene file.
+    /// All optional parts of a scene, in the order of their fields in a scene file.
     pub const ALL: [Effect; 4] = [
         Effect::Form,
         Effect::Roughness,

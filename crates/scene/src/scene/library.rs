@@ -110,9 +110,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes, which need not exist. It is `asperity/presets` in
-/// `$XDG_CONFIG_HOME` or in `~/.config`. On Windows it is in the folder for roaming application
-/// data. Returns `None` if the user has no home folder.
+/// Returns the folder of the user's own scenes, which need not exist. The folder is
+/// `asperity/presets` in `$XDG_CONFIG_HOME` or in `~/.config`. On Windows `asperity/presets` is in
+/// the folder for roaming application data. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     Some(strategy.config_dir().join("asperity").join("presets"))

@@ -154,8 +154,8 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness from a file: either random profiles with the spectrum of a measured surface, or
-    /// the heights of the file as an equivalent line.
+    /// Roughness from a file. Either the file is a measured surface, and random profiles get its
+    /// spectrum, or the file has the heights of the equivalent line, the profile itself.
     Measured(Measured),
 }
 
@@ -244,8 +244,8 @@ impl Scene {
         }
     }
 
-    /// Returns true if the heights of the measured file are used, unchanged, as the equivalent
-    /// line.
+    /// Returns true if the scene uses the heights of the measured file, unchanged, as the heights
+    /// of its profile. Returns false if random profiles get the spectrum of the measured surface.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
@@ -268,9 +268,10 @@ impl Scene {
         files
     }
 
-    /// Returns the paths of the measured files in `folder`, for each of the two bodies. The first
-    /// element has all files of the rough body. The second element has the file of the opposite
-    /// body; it is missing if the scene has no such file.
+    /// Returns the paths of the measured files, whose names are relative to `folder`. The first
+    /// element of the list has the paths of all files of the rough body. The second element has the
+    /// path of the file of the opposite body. There is no second element if the scene names no such
+    /// file.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces
@@ -397,9 +398,9 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns where the edges of contact patches lie if a scene file does not state it. With the
-    /// exact solver they lie anywhere between springs ([`Edges::SubCell`]). With the stepwise
-    /// solver, patches consist of whole springs ([`Edges::Grid`]).
+    /// Returns the default of [`Numerics::edges`], which states where the edges of contact patches
+    /// lie. With the exact solver they lie anywhere between springs ([`Edges::SubCell`]). With the
+    /// stepwise solver, patches consist of whole springs ([`Edges::Grid`]).
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => read_default(EDGES),

@@ -21,7 +21,7 @@ pub(super) fn describes(path: &str) -> bool {
 /// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// Field that has the value.
+    /// Field of the scene to which `value` belongs.
     pub field: &'static Field,
     /// Value of the field with its unit and all its digits.
     pub value: String,

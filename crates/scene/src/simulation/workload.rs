@@ -114,19 +114,20 @@ impl Stage {
 /// Part of the computation of a scene in a [`Workload`], with its costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
-    /// Part of the computation.
+    /// The part of the computation, such as the contact tree.
     pub stage: Stage,
-    /// True if the scene needs this part.
+    /// True if the scene needs this part of the computation.
     pub runs: bool,
-    /// Reason as text: the name of the field that requires this part, or why the part is skipped.
+    /// Name of the field that requires this part of the computation, or the reason in words why the
+    /// part is skipped.
     pub because: &'static str,
-    /// Number of times that this part passes over the profile or over the contact tree. `None` if
-    /// this number depends on the loading stages.
+    /// Number of times that this part of the computation passes over the profile or over the
+    /// contact tree. `None` if this number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Upper bound of the number of springs that all passes together visit; `None` if the number of
-    /// passes is unknown.
+    /// Upper bound of the number of springs that this part of the computation visits in all its
+    /// passes. `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
-    /// Memory in bytes of the arrays that this part adds.
+    /// Memory in bytes of the arrays that this part of the computation adds.
     pub bytes: u64,
 }
 
