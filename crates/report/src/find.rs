@@ -28,9 +28,10 @@ pub struct FindReport<'a> {
     pub found: &'a Found,
 }
 
-/// Returns the answer of a search in one or two sentences. They state the median and the quartiles,
-/// over the profiles, of the number at which the result reaches the wanted value. They also state
-/// how many profiles have no such number, and where a crossing may be missed.
+/// Returns the answer of a search in one or two sentences. The sentences state the median and the
+/// quartiles, over the profiles, of the number with which the result reaches the wanted value. The
+/// sentences also state how many profiles have no such number, and where the search may have missed
+/// a number.
 pub fn found_in_words(found: &Found) -> String {
     let words = SearchWords::new(found);
     let reaches_always = found.answers.iter().all(reaches_everywhere);

@@ -402,8 +402,8 @@ fn value_or_dash(value: Option<f64>, unit: &str) -> String {
 
 /// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
 /// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
-/// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0) of
-/// an unloading from first touch, and F_a(F=0) of an unloading from zero force.
+/// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0) after
+/// a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero force.
 pub fn preload_chart(
     staircase: &Staircase,
     spread: &[(f64, Statistics)],

@@ -95,8 +95,9 @@ fn column_name(axis: &ChartAxis) -> String {
     format!("{} ({})", axis.symbol_or_name(), axis.unit)
 }
 
-/// Writes a report in a format. `provenance` contains the lines of
-/// [`scene_provenance`](crate::scene_provenance). They are written only into CSV, SVG and JSON.
+/// Writes a report in a format. `provenance` has the lines of
+/// [`scene_provenance`](crate::scene_provenance). These lines are written only into CSV, SVG and
+/// JSON.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be

@@ -47,7 +47,7 @@ const TRANSFORM_POINTS: usize = 1 << 20;
 /// Progress of a measurement of errors and computing times. [`measure`] passes values of this type
 /// to its argument `watch`.
 pub enum Progress<'a> {
-    /// The setting that is varied, and the value that is tried next as text, such as `512 springs`.
+    /// The setting that is varied and, as text such as `512 springs`, the value that is tried next.
     Trying(Knob, &'a str),
     /// Table of the solutions computed so far. The errors in the table are relative to the finest
     /// of these solutions.

@@ -19,11 +19,11 @@ const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N. The edge of a contact patch may lie anywhere between two springs
-    /// ([`Edges::SubCell`]).
+    /// Number of springs N of the exact solver. The edge of a contact patch may lie anywhere
+    /// between two springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N. Contact patches consist of whole springs, as in Popov and Filippov
-    /// (2012) ([`Edges::Grid`]).
+    /// Number of springs N of the exact solver. Contact patches consist of whole springs, as in
+    /// Popov and Filippov (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
@@ -46,9 +46,9 @@ impl Knob {
 /// Computing times of a scene, from several computations with the same setting.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
-    /// Shortest time in s.
+    /// Shortest of the measured computing times, in s.
     pub minimum: f64,
-    /// Median time in s.
+    /// Median of the measured computing times, in s.
     pub median: f64,
     /// Number of timed computations.
     pub runs: usize,
@@ -197,7 +197,7 @@ impl CostTable {
     }
 
     /// Returns the shortest computing time of a row in s, and the [`main_error`](Self::main_error)
-    /// of the row. Returns `None` unless both are known, positive and finite.
+    /// of the row. Returns `None` unless the time and the error are known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let seconds = row.seconds?.minimum;
         let figure = self.main_error(row)?;

@@ -249,12 +249,13 @@ fn tabor_number(
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are steep: its equivalent profile does not rise everywhere from the
-/// axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts
-/// (JKR).
+/// Steep waves of a wavy sphere. Waves are steep if the equivalent profile of the sphere does not
+/// rise everywhere from the axis outwards. With steep waves, the rule of Hess differs from the
+/// theory of Johnson, Kendall and Roberts (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
+    /// Ratio λ²/(AR), with the wavelength λ and the amplitude A of the waves and the radius R of
+    /// the sphere.
     pub ratio: f64,
     /// Factor by which the waves raise the pull-off force of the sphere in the theory of JKR. It is
     /// (1 + A√(πE*/2λγ))², with the effective modulus E* and the work of adhesion γ. The formula
@@ -263,8 +264,9 @@ pub struct SteepWaves {
 }
 
 impl SteepWaves {
-    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere from the axis
-    /// outwards.
+    /// Smallest ratio λ²/(AR) for which the equivalent profile of a wavy sphere rises everywhere
+    /// from the axis outwards. λ is the wavelength and A the amplitude of the waves, and R the
+    /// radius of the sphere.
     pub const LEAST_RATIO: f64 = Warning::LEAST_WAVE_RATIO;
 
     /// Returns the ratio and the factor of a scene whose wavy sphere has steep waves; `None` if the

@@ -68,9 +68,10 @@ impl RoughnessParameter {
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Converts `value`, a value of this parameter, to the ratio of an energy per area to the work
-    /// of adhesion γ. For κ the energy per area is h⟨∇z⟩E*, so that the ratio is κ². For e_el/γ the
-    /// energy per area is e_el, so that the ratio is `value` itself.
+    /// Returns the energy per area that this parameter compares with the work of adhesion γ,
+    /// divided by γ. `value` is the value of this parameter. For κ the energy per area is h⟨∇z⟩E*,
+    /// so that the result is κ². For e_el/γ the energy per area is e_el, so that the result is
+    /// `value` itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -78,8 +79,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Converts a ratio of an energy per area to the work of adhesion to a value of this parameter.
-    /// This is the inverse of [`Self::energy_over_work`].
+    /// Returns the value of this parameter that belongs to `ratio`, an energy per area divided by
+    /// the work of adhesion. This function is the inverse of [`Self::energy_over_work`].
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -180,7 +181,7 @@ impl Adhesion {
         }
     }
 
-    /// Returns true if the scene states a work of adhesion on closing.
+    /// Returns true if the scene states a work of adhesion on closing besides the work on opening.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }

@@ -125,7 +125,9 @@ impl Document {
         })
     }
 
-    /// Creates a document for a scene that has no text. The function [`to_ron`] writes the text.
+    /// Creates a document from a scene that a program has made and that therefore has no text. The
+    /// document gets the text that [`to_ron`] writes. `name` is the name with which error messages
+    /// begin.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -209,8 +211,8 @@ impl Document {
         &self.text
     }
 
-    /// Returns the loading stages of the scene. Each stage has its index in the loading, so that
-    /// [`Document::with_stages`] can take the list after changes.
+    /// Returns the loading stages of the scene, each with its index in the loading. The list can be
+    /// changed and passed to [`Document::with_stages`], where a new stage has the index `None`.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene
             .loading
@@ -240,7 +242,7 @@ impl Document {
         Ok(new.with_true_words())
     }
 
-    /// Returns the present text, with all comments.
+    /// Returns the present text of the scene, with all comments.
     pub fn text(&self) -> &str {
         self.text.as_str()
     }

@@ -51,8 +51,8 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field of this optional part. It is `loading` for unloading. For the
-    /// other parts it is the [`name`](Self::name).
+    /// Returns the path in a scene of the field of this optional part: `loading` for the unloading,
+    /// and the [`name`](Self::name) for any other part.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self {
             "loading"

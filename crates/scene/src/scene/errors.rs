@@ -196,7 +196,8 @@ pub enum NumberError {
     /// The scene has no numerical value at this path and cannot have one.
     #[error("the scene has no such number")]
     Missing,
-    /// The new value contradicts another value of the scene. The text names both fields.
+    /// The new value contradicts another value of the scene. The string is a text for users that
+    /// names both fields.
     #[error("{0}")]
     Contradiction(String),
 }

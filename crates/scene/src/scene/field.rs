@@ -163,9 +163,9 @@ impl Field {
         }
     }
 
-    /// Formats the value of this field with its unit, such as `100 µm, 200 nm`. `written` is the
-    /// value in RON, a number or a pair of wavelengths. `format` formats each number with its unit.
-    /// Returns `None` for any other value.
+    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is the
+    /// value in RON: a number or a pair of wavelengths. `format` formats each number with its unit.
+    /// Returns `None` if `written` is neither a number nor a pair of wavelengths.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         match self.range {
             Range::Real(..) => Some(format(written.parse().ok()?, self.unit)),
@@ -179,8 +179,8 @@ impl Field {
         }
     }
 
-    /// Adds the unit of the shown value to a typed number without a unit. For example, `50` becomes
-    /// `50 mJ/m²` if the shown value is `4.356 mJ/m²`.
+    /// Returns the typed number `typed` with a unit. If `typed` has no unit, the unit of the shown
+    /// value `shown` is added: `50` becomes `50 mJ/m²` if the shown value is `4.356 mJ/m²`.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         if let Range::Real(..) = self.range {
             return in_unit(typed, unit_of(shown));

@@ -93,8 +93,8 @@ pub enum Source {
     Working,
 }
 
-/// Item of the list that [`scenes`] returns. It is a scene, or a file whose name ends in `.ron` but
-/// which is no valid scene.
+/// Item of the list that [`scenes`] returns. The item is a scene, or a file whose name ends in
+/// `.ron` but that has no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the scene. The name of a file in the working folder ends in `.ron`. Other names have

@@ -67,7 +67,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Name of the surface or measurement to read from a file with several of them.
+    /// Name of the surface or measurement to read from a file that contains several surfaces or
+    /// measurements.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,

@@ -154,8 +154,9 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness from a file. Either the file is a measured surface, and random profiles get its
-    /// spectrum, or the file has the heights of the equivalent line, the profile itself.
+    /// Roughness from a file. Either the file has a measured surface, and random profiles get the
+    /// spectrum of this surface. Or the file has heights that are used, unchanged, as the heights
+    /// of the profile.
     Measured(Measured),
 }
 
@@ -197,7 +198,7 @@ impl Scene {
     }
 
     /// Returns the indices of the springs under the body. If the body is a punch narrower than the
-    /// profile, these are the springs under its flat end. Otherwise they are all springs.
+    /// profile, these are the springs under its flat end. Otherwise all springs are under the body.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form
@@ -205,8 +206,8 @@ impl Scene {
             .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene. Returns `None`
-    /// for any other roughness.
+    /// Returns the spectrum of the self-affine roughness of this scene, for a profile of the length
+    /// of the scene. Returns `None` for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine {
             hurst,
@@ -330,8 +331,8 @@ pub struct Numerics {
     /// Solver for the equilibrium of the springs: the exact solver, or the stepwise method of Popov
     /// and Filippov (2012).
     pub solver: Solver,
-    /// Where an edge of a contact patch may lie: anywhere between two springs, or only so that the
-    /// patch consists of whole springs.
+    /// Where an edge of a contact patch may lie: anywhere between two springs, or only where the
+    /// patch then consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,

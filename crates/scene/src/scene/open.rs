@@ -90,8 +90,8 @@ pub fn is_path(name: &str) -> bool {
 }
 
 /// Opens the scene that an argument of the command line names. The argument `-` means standard
-/// input. Any other argument is opened as by [`open`]. A pipe or a device is read to its end, so
-/// the function may wait for another program.
+/// input. Any other argument is the name of a scene or the path of its file, as for [`open`]. A
+/// pipe or a device is read to its end, so that the function may wait for another program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].

@@ -27,7 +27,7 @@ pub struct Statement {
     pub value: String,
 }
 
-/// Lists the values on which the solution of a scene depends. These are all numbers, and the
+/// Lists the values on which the solution of a scene depends. The list has each number, and those
 /// choices and names that differ from their defaults.
 ///
 /// ```

@@ -84,11 +84,12 @@ impl Reach {
     format_quantity(*allowed, unit)
 )]
 pub struct BeyondFullContact {
-    /// Force, indentation or displacement that should end the stage, in `unit`.
+    /// Target value of the stage, in `unit`: the force, indentation or displacement that should end
+    /// the stage.
     pub found: f64,
     /// Force, indentation or displacement at full contact, in `unit`.
     pub full_contact: f64,
-    /// Largest allowed value, in `unit`, rounded down to four digits.
+    /// Largest allowed target value, in `unit`, rounded down to four digits.
     pub allowed: f64,
     /// SI unit of the three values, N or m.
     pub unit: &'static str,
