@@ -28,8 +28,8 @@ pub struct PreloadReport<'a> {
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Results computed so far, such as the adhesion force, for each preload and each profile. The
-    /// quantities are [`Results::OF_PRELOADS`].
+    /// Results computed so far, such as the adhesion force, for each preload and each profile.
+    /// [`Results::OF_PRELOADS`] lists the quantities.
     pub results: &'a Results,
     /// Adhesion force of the first profile as a function of the preload; `None` for a report
     /// without a figure.

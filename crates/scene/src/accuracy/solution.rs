@@ -18,8 +18,9 @@ pub(super) const FEWEST: u64 = 16;
 /// loads.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of the [`crate::accuracy::table::CostTable::QUANTITIES`], in
-/// their order. `None` if a quantity is missing.
+/// Relative errors or differences of the adhesion force, the force curve, the dissipated energy and
+/// the largest contact length ([`crate::accuracy::table::CostTable::QUANTITIES`]). `None` for a
+/// missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Forces, energy, contact length and force curve of one solution. A value of zero is stored as

@@ -305,7 +305,8 @@ impl Document {
         &self.overrides
     }
 
-    /// Stores the lines above the scene, if the document was read from a table of results.
+    /// Returns this document with `head`, the lines above the scene in the table of results from
+    /// which the document was read.
     pub(super) fn of_table(self, head: &str) -> Document {
         Document {
             table_head: head.to_string(),
