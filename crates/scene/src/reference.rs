@@ -37,7 +37,8 @@ pub fn closed_form(
 ///
 /// * the form is a wavy sphere or a table;
 /// * the contact at pull-off is longer than the profile;
-/// * the preload does not press the body beyond the contact at pull-off.
+/// * the preload is so small that the contact after the loading is smaller than the contact at
+///   pull-off.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

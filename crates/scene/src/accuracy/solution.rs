@@ -18,8 +18,9 @@ pub(super) const FEWEST: u64 = 16;
 /// loads.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of the [`crate::accuracy::table::CostTable::QUANTITIES`], in
-/// their order. `None` if a quantity is missing.
+/// Relative errors or differences of the adhesion force, the force curve, the dissipated energy and
+/// the largest contact length ([`crate::accuracy::table::CostTable::QUANTITIES`]). `None` for a
+/// missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Forces, energy, contact length and force curve of one solution. A value of zero is stored as
@@ -123,7 +124,7 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
-    /// Adhesion force of a scene with a tensile force.
+    /// Adhesion force. Its error is used for a scene whose loading has a tensile force.
     AdhesionForce,
     /// Force curve of a scene without a tensile force.
     ///
@@ -134,7 +135,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Returns `adhesion force` or `force curve`.
+    /// Returns the name of this quantity for users: `adhesion force` or `force curve`.
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",

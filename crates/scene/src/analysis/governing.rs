@@ -53,9 +53,10 @@ impl Governing {
     /// Below this number the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
-    /// Derives the parameters of a scene. `unit` is needed for a self-affine roughness: the
-    /// [`Amplitude`] of its profile, scaled to an rms height of 1 m. `measured` is needed for a
-    /// measured roughness: the amplitude of the surface.
+    /// Derives the governing parameters of a scene. `unit` is the [`Amplitude`] of a self-affine
+    /// profile after scaling to an rms height of 1 m; it is needed only for a self-affine
+    /// roughness. `measured` is the amplitude of a measured surface; it is needed only for a
+    /// measured roughness.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         // If the scene states κ, γ = h⟨∇z⟩E*/κ². If it states e_el/γ, γ follows from e_el = E* h²
         // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
@@ -68,7 +69,8 @@ impl Governing {
         .with_adhesion(scene.adhesion)
     }
 
-    /// Returns the parameters for the same profile and modulus with another adhesion.
+    /// Returns the governing parameters of a contact with the same profile and modulus but another
+    /// adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let Some(adhesion) = adhesion else {
             return Governing {
@@ -101,8 +103,9 @@ impl Governing {
         value_of(parameter, self.energy(parameter)?, self.work_of(adhesion)?)
     }
 
-    /// Returns the work of adhesion of `adhesion` on this profile in J/m². Returns `None` if the
-    /// adhesion is stated by κ or e_el/γ and the profile is smooth.
+    /// Returns the work of adhesion in J/m² that `adhesion` means on this profile. It is the stated
+    /// work, or the work that follows from the stated κ or e_el/γ. Returns `None` if κ or e_el/γ is
+    /// stated and the profile is smooth.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -246,12 +249,13 @@ fn tabor_number(
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are steep: its equivalent profile does not rise everywhere from the
-/// axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts
-/// (JKR).
+/// Steep waves of a wavy sphere. Waves are steep if the equivalent profile of the sphere does not
+/// rise everywhere from the axis outwards. With steep waves, the rule of Hess differs from the
+/// theory of Johnson, Kendall and Roberts (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
+    /// Ratio λ²/(AR), with the wavelength λ and the amplitude A of the waves and the radius R of
+    /// the sphere.
     pub ratio: f64,
     /// Factor by which the waves raise the pull-off force of the sphere in the theory of JKR. It is
     /// (1 + A√(πE*/2λγ))², with the effective modulus E* and the work of adhesion γ. The formula
@@ -260,8 +264,9 @@ pub struct SteepWaves {
 }
 
 impl SteepWaves {
-    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere from the axis
-    /// outwards.
+    /// Smallest ratio λ²/(AR) for which the equivalent profile of a wavy sphere rises everywhere
+    /// from the axis outwards. λ is the wavelength and A the amplitude of the waves, and R the
+    /// radius of the sphere.
     pub const LEAST_RATIO: f64 = Warning::LEAST_WAVE_RATIO;
 
     /// Returns the ratio and the factor of a scene whose wavy sphere has steep waves; `None` if the

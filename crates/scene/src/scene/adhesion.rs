@@ -68,9 +68,10 @@ impl RoughnessParameter {
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of an energy per area to the work of adhesion γ, if this parameter has the
-    /// value `value`. For κ the energy is h⟨∇z⟩E* and the ratio is κ². For e_el/γ the energy is
-    /// e_el and the ratio is the value itself.
+    /// Returns the energy per area that this parameter compares with the work of adhesion γ,
+    /// divided by γ. `value` is the value of this parameter. For κ the energy per area is h⟨∇z⟩E*,
+    /// so that the result is κ². For e_el/γ the energy per area is e_el, so that the result is
+    /// `value` itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -78,8 +79,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter that belongs to an [energy
-    /// ratio](Self::energy_over_work).
+    /// Returns the value of this parameter that belongs to `ratio`, an energy per area divided by
+    /// the work of adhesion. This function is the inverse of [`Self::energy_over_work`].
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -104,8 +105,8 @@ pub struct Adhesion {
 /// which the work follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion. Less energy may be gained where the interface closes than is spent where
-    /// it opens.
+    /// Work of adhesion. The energy that is gained where the interface closes may be smaller than
+    /// the energy that is spent where the interface opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
@@ -161,8 +162,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given
-    /// instead.
+    /// Returns the work of adhesion γ on opening in J/m² that the scene states. Returns `None` if
+    /// the scene states κ or e_el/γ instead.
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength {
             Some(opening)
@@ -180,13 +181,13 @@ impl Adhesion {
         }
     }
 
-    /// Returns true if the scene states a work of adhesion on closing.
+    /// Returns true if the scene states a work of adhesion on closing besides the work on opening.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }
 
-    /// Returns the given parameter, κ or e_el/γ, and its value; `None` if a work of adhesion is
-    /// given instead.
+    /// Returns the parameter that the scene states, κ or e_el/γ, and its value. Returns `None` if
+    /// the scene states a work of adhesion instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))
