@@ -2,8 +2,8 @@
 //!
 //! A *cell* is one combination of values on the axes. A *streak* consists of all cells that differ
 //! only in the preload, and is computed with a single loading. A *unit* consists of streaks on one
-//! random profile with the same roughness. A unit is computed by one thread, so that the roughness
-//! of its profile is made only once.
+//! random profile with the same roughness. One thread computes the whole unit, so that the
+//! roughness of the profile is made only once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;

@@ -30,8 +30,8 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// Premises of the model that cells do not meet on this profile: the number of each such cell,
-    /// with its premises.
+    /// Warnings on this profile, one for each cell that does not meet all premises of the model:
+    /// the number of the cell, and the premises that it does not meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 

@@ -9,8 +9,8 @@ use asperity_scene::{
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene does
-    /// not determine it. `computed` are the governing parameters of the computed scene, such as κ.
-    /// They are needed only for a measured surface.
+    /// not determine this value. `computed` are the governing parameters of the computed scene,
+    /// such as κ. They are needed only if the scene has a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());

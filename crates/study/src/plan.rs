@@ -53,8 +53,9 @@ pub struct Plan {
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An
-    /// axis of preloads is always the last one, and each preload replaces the loading of the scene.
+    /// Axes of the study. The cells are numbered so that the value on the last axis changes
+    /// fastest. An axis of preloads is always the last axis, and its preloads replace the loading
+    /// of the scene.
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
@@ -63,25 +64,25 @@ pub struct Plan {
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,
-    /// Forces at which the contact is computed for [`Quantity::StiffnessExponent`] and
-    /// [`Quantity::ForceExponent`].
+    /// Range of forces at which the contact without adhesion is computed. It is used for
+    /// [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene
     /// without such files, and for a plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed for [`Quantity::StiffnessExponent`] and
-/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h,
-/// length L of the profile.
+/// Range of forces at which the contact without adhesion is computed for
+/// [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`]. The unit of force is E* h L,
+/// with the effective modulus E*, the rms height h, and the length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
-    /// Smallest force of the range, above zero.
+    /// Smallest force of the range in units of E* h L, above zero.
     pub from: f64,
-    /// Largest force of the range.
+    /// Largest force of the range in units of E* h L.
     pub to: f64,
-    /// Number of forces in the range, at least 2, with equal ratios of neighbouring forces.
+    /// Number of forces in the range, at least 2. Neighbouring forces have equal ratios.
     pub count: u64,
 }
 
@@ -194,12 +195,13 @@ impl Plan {
         coordinates.join(", ")
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, with the values of the cell on the axes. A
-    /// value on an axis of preloads is not set: the scene has the loading of the scene of the plan,
-    /// and the preload replaces it only when the cell is computed.
+    /// Returns the scene of [cell](Plan) number `cell`, in which the quantities of the axes have
+    /// the values of this cell. A preload of the cell is not set: the returned scene still has the
+    /// loading of the scene of the plan. The preload replaces this loading when the cell is
+    /// computed.
     ///
     /// # Errors
-    /// Returns an error if the scene lacks the number of an axis, or if a value is out of its
+    /// Returns an error if the scene lacks the quantity of an axis, or if a value is out of its
     /// range.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()

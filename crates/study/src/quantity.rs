@@ -1,5 +1,5 @@
-//! Quantities that a study records for each cell and profile. One table has a row for each
-//! quantity.
+//! Quantities that a study records for each cell (combination of values on the axes) and each
+//! profile. A table in this file describes one quantity in each row.
 
 use super::case_outcome::CaseOutcome;
 use asperity_scene::Regime;
@@ -197,19 +197,20 @@ quantities! {
 }
 
 impl Quantity {
-    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal
-    /// adhesion force F_a,max.
+    /// Adhesion forces without a preload, F_a(d=0) and F_a(F=0), as quantities that are divided by
+    /// the ideal adhesion force F_a,max.
     pub const ADHESION_SHARES: [Quantity; 2] = [
         Quantity::FirstTouchAdhesionShare,
         Quantity::ZeroForceAdhesionShare,
     ];
 
-    /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
+    /// Two quantities: the regime of adhesion that follows from F_a(d=0), and the regime of
+    /// adhesion that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns in words where the loading turns. The regimes on a map of this quantity are those
-    /// after this turn: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and
-    /// `turned at first touch` for any other quantity.
+    /// Returns words that state at which point the loading turns before the adhesion force is
+    /// taken: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and `turned at first
+    /// touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "turned at zero force"
@@ -218,8 +219,8 @@ impl Quantity {
         }
     }
 
-    /// Returns a short text for the point at which the loading turns: `F=0` for zero force, `d=0`
-    /// for first touch.
+    /// Returns the symbol of the point at which the loading turns: `F=0` for zero force, `d=0` for
+    /// first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "F=0"

@@ -19,7 +19,8 @@ pub struct Status {
     pub total: u64,
     /// Number of records of the complete study that do not exist yet.
     pub missing: u64,
-    /// Number of existing records that have no values because they cannot be computed.
+    /// Number of records in the files of the study that have a reason instead of values, because
+    /// they cannot be computed.
     pub failed: u64,
     /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
@@ -54,7 +55,7 @@ pub struct Attempt {
     pub started: u64,
     /// Time of the last write of the process, in s since 1970.
     pub written: f64,
-    /// Number of records that the process wrote.
+    /// Number of records that this process wrote.
     pub records: u64,
     /// Mean number of records that the process wrote per second from its beginning to its last
     /// write; `None` if both times are equal.

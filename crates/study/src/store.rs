@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Version of the format of the files of results, [`ShardFile`], in the folder of a study.
+/// Version of the format of the files of results in the folder of a study, [`ShardFile`].
 pub const STORE_VERSION: u32 = 1;
 /// Largest length in bytes of a line of a shard file or a table, as a protection against damaged
 /// files. Lines of records are much shorter.
@@ -82,8 +82,8 @@ pub struct ShardFile {
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a study with a plan. If the folder exists with the same plan, it is
-    /// opened as it is.
+    /// Creates the folder of a study with a plan. If a folder with the same plan already exists, it
+    /// is opened without a change.
     ///
     /// # Errors
     /// Returns an error if the folder has another plan or cannot be written, or if a measured file

@@ -82,8 +82,8 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps, one for each combination of values on the axes of the study that
-    /// are not axes of the maps.
+    /// Returns the number of maps. There is one map for each combination of values on the axes of
+    /// the study that are not shown as axes of the maps.
     pub fn slices(&self) -> u64 {
         self.others
             .iter()
@@ -157,8 +157,8 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the study with the values of map number 0, as a scene file for the
-    /// explorer.
+    /// Returns a scene file for the explorer. It has the scene of the study with the values of map
+    /// number 0 on all axes.
     ///
     /// # Errors
     /// Returns an error if a value of the scene is not allowed.
@@ -190,8 +190,8 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are
-    /// not axes of the maps.
+    /// Returns a copy of a scene file in which the quantities of the other axes of the study, which
+    /// are not axes of the maps, have the values of map number `slice`.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.
