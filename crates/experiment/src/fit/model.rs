@@ -1,4 +1,5 @@
-//! The force of a scene at the measured displacements, for any values of the parameters.
+//! Computation of the force of a scene at the measured displacements, for any values of the
+//! parameters of a fit.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
@@ -33,7 +34,8 @@ pub(crate) struct Model<'a> {
     scene: CheckedScene,
     simulation: &'a mut Simulation,
     contact: Option<ContactOfForm>,
-    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
+    /// Accuracy of the computed forces. It is given as a noise, in units of the noise of the curve,
+    /// and is at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
@@ -45,13 +47,12 @@ struct ContactOfForm {
     lengths: Lengths,
 }
 
-/// Stiffness of the instrument in N/m, and number and choice of the points at which a curve is
-/// computed.
+/// Choice of the points at which a force curve is computed, and stiffness of the instrument in N/m.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampling {
     pub stiffness: f64,
     pub points: usize,
-    /// Smallest jump of the force in N that gets points at both of its ends.
+    /// Size in N of the smallest jump of the force at whose both ends the curve gets points.
     pub least_jump: f64,
 }
 
@@ -113,7 +114,8 @@ impl<'a> Model<'a> {
         Ok(ContactOfForm { contact, lengths })
     }
 
-    /// Computes the forces in N at the points of the curve.
+    /// Computes the forces in N at all points of the measured curve, for the given values of the
+    /// parameters.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
@@ -342,7 +344,7 @@ impl Sampling {
         self.over(leg, [from, high], 1, free)
     }
 
-    /// Returns the curve of an unloading from an indentation in m to separation.
+    /// Returns the force curve of an unloading from the indentation `from` in m to separation.
     pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = leg.end().min(from);
         let separated = CurvePoint {
