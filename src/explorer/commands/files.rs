@@ -41,8 +41,8 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     Ok(())
 }
 
-/// Asks for the name of a file in which the present scene is saved before the explorer ends. If the
-/// present scene is already saved, another scene with unsaved changes becomes the present scene
+/// Asks for the name of a file for the present scene, which is saved before the explorer ends. If
+/// the present scene is already saved, another scene with unsaved changes becomes the present scene
 /// first.
 pub fn save_before_leaving(app: &mut App) {
     if !app.edit.is_unsaved()

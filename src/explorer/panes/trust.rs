@@ -1,5 +1,6 @@
-//! The pane of accuracy of the adhesion force. It shows errors over computing times (the cost of
-//! accuracy), the errors from each source, and what other theories state about the same surface.
+//! The pane that shows the accuracy of the adhesion force. It has three parts: the error as a
+//! function of the computing time (the cost of accuracy), the errors from each source, and the
+//! verdicts of other theories on the adhesion of the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
