@@ -8,8 +8,8 @@ use asperity_study::StudyError;
 use asperity_surface::SurfaceError;
 use std::error::Error;
 
-/// Returns the words of the command line for a remedy: an option with its value and, if a field of
-/// the scene has the same effect, the path of this field.
+/// Returns the words of the command line for a remedy. These are an option with its value and, if a
+/// field of the scene has the same effect, the path of this field.
 pub fn option(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "--channel with its name, in a scene roughness.surface_name",

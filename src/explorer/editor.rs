@@ -88,7 +88,7 @@ impl Editor {
         self.parameters.get(self.selected)
     }
 
-    /// Selects the parameter in this row, or in the last row if there is no such row.
+    /// Selects the parameter in row number `row`, or in the last row if there are fewer rows.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }

@@ -30,7 +30,7 @@ pub struct Opening {
 
 #[derive(Debug, Error)]
 pub enum OpeningError {
-    /// There is no such scene, or it is invalid.
+    /// The scene does not exist, or it is invalid.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
     #[error(
@@ -62,7 +62,7 @@ impl Opening {
     }
 
     /// Opens what an argument of the command line names: a scene, the folder of a study, or a
-    /// stream such as standard input.
+    /// stream such as standard input from which a scene is read.
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }

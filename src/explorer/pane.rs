@@ -33,8 +33,8 @@ impl Pane {
         )
     }
 
-    /// Returns the name of an exported file for this pane. From the list of parameters, the force
-    /// curve is exported.
+    /// Returns the name of the file to which this pane is exported. For the list of parameters,
+    /// this is the file of the force curve, which is exported in its place.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Force | Self::Parameters => "force",

@@ -50,7 +50,7 @@ impl MeasuredFile {
 }
 
 /// Returns true if a file is a table of numbers that could be read as a force curve with further
-/// options, which state its columns, their units or the travel of the instrument.
+/// options. Such options state the columns, their units or the travel of the instrument.
 pub fn lacks_options(path: &Path) -> bool {
     let Err(error) = MeasuredCurve::read(path, &CurveOptions::default()) else {
         return false;

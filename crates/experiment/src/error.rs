@@ -117,8 +117,8 @@ pub enum ExperimentError {
         /// Numbers of the segments of the curve.
         segments: RangeInclusive<usize>,
     },
-    /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an
-    /// option.
+    /// The curve cannot be read or fitted, because a property of the curve, the scene or an option
+    /// is not allowed.
     #[error("{found}; allowed: {allowed}")]
     Refused {
         /// What was found in the curve, the scene or the options, in words.

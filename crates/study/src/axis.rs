@@ -279,8 +279,8 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol or name of the axis and its value with the index `place`, such as `H =
-    /// 0.3`.
+    /// Returns one value of the axis as text, with the symbol or name of the axis, such as `H =
+    /// 0.3`. `place` is the index of the value.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!(
@@ -309,7 +309,7 @@ impl Axis {
         Some(values[next.saturating_sub(further)])
     }
 
-    /// Returns the indices of the values in ascending order of the values.
+    /// Returns the indices of the values of this axis, sorted so that the values ascend.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
         places.sort_by(|one, other| self.values[*one].total_cmp(&self.values[*other]));

@@ -30,7 +30,8 @@ pub(super) struct Cells<'p> {
     chunks: u64,
 }
 
-/// All cells of a plan that differ only in the preload, on one profile, computed with one loading.
+/// Streak: all cells of a plan that differ only in the preload, on one profile. A streak is
+/// computed with a single loading.
 pub(super) struct Streak {
     /// Cells of the streak, one for each preload. A cell is one combination of values on the axes.
     pub cells: Range<u64>,

@@ -1,5 +1,6 @@
-//! Comparison of one quantity between random profiles (the model of this program) and random square
-//! surfaces in three dimensions: the ratio of the means and its errors.
+//! Comparison of one quantity between random profiles and random square surfaces in three
+//! dimensions. Profiles are the model of this program. The result is the ratio of the two means,
+//! with its errors.
 
 use super::quantity::Quantity;
 use super::statistics::Statistics;

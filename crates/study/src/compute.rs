@@ -18,7 +18,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
 
-/// Results of a computed streak, which is a loading with all its preloads; see [`Streak`].
+/// Results of a computed streak. A streak consists of all cells that differ only in the preload,
+/// and is computed with a single loading.
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
@@ -27,7 +28,8 @@ pub(super) struct SolvedStreak {
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
-/// Streaks of a plan, with what is needed to compute those that are missing.
+/// Streaks of a plan, with the data that are needed to compute the missing streaks. A streak
+/// consists of all cells that differ only in the preload.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
     /// Numbers of the units that are to be computed. A unit is the part of the plan that one thread

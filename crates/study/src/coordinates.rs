@@ -9,8 +9,8 @@ use asperity_scene::fields::{Field, Range};
 /// Relative deviation from a whole number below which a quotient counts as this whole number.
 const ROUNDING: f64 = 1e-9;
 
-/// Which values of a number of a scene are allowed in a search. Values between them would give the
-/// same contact, or are not possible in a scene.
+/// Rule that states which values of a number of a scene a search may try. Values between the
+/// allowed ones would give the same contact, or are not possible in a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Allowed {
     /// Any value.

@@ -63,8 +63,8 @@ impl GridLayer {
     }
 }
 
-/// Returns the logarithmic scale if all means are above zero and at least a third of them are
-/// small, which means below a fiftieth of the largest mean. Otherwise returns the linear scale.
+/// Returns the scale that suits the means. It is logarithmic if all means are above zero and at
+/// least a third of them are below a fiftieth of the largest mean. Otherwise it is linear.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means

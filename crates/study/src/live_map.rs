@@ -92,8 +92,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the [cells](Plan) that a map of this resolution contains, in groups
-    /// of cells with the same value of H.
+    /// Returns the numbers of those [cells](Plan) that the map has at this resolution. Cells with
+    /// the same value of H form a group.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let parameters = level.places_on(plan, 0);

@@ -42,8 +42,8 @@ pub struct ProfileAdhesion {
     /// Regime of adhesion that follows from F_a(F=0), with the fitted spectrum; `None` if the
     /// regime is unknown.
     pub regime_after_zero_force: Option<Regime>,
-    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, which no
-    /// rough profile exceeds; `None` if it is not known.
+    /// Ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as the profile.
+    /// No rough profile exceeds it. `None` if it is not known.
     #[serde(skip)]
     pub largest_force: Option<f64>,
 }
@@ -118,8 +118,8 @@ impl MeasuredAdhesion {
         }
     }
 
-    /// Returns the ideal adhesion force F_a,max in N of a flat face of the length of the profiles,
-    /// which no rough profile exceeds; `None` if it is not known.
+    /// Returns the ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as
+    /// the profiles. No rough profile exceeds it. `None` if it is not known.
     pub fn largest_force(&self) -> Option<f64> {
         self.profiles.first()?.largest_force
     }

@@ -8,7 +8,8 @@ use super::recorder::{Recorded, with_recorder};
 use asperity_data::Warning;
 use asperity_scene::{RunError, Simulation};
 
-/// Profiles of a plan that are not computed yet. Each of them is computed in all cells of the plan.
+/// Profiles of a plan that are not computed yet. A profile is computed in all cells of the plan
+/// together.
 pub(super) struct MissingProfiles {
     pub plan: Plan,
     /// Indices of the random profiles that are to be computed, from 0.

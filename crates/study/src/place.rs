@@ -130,8 +130,8 @@ fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene, each with its axis (without values). Counts, such as
-/// the number of springs, and numbers that are zero are left out.
+/// Returns the physical numbers of a scene. Each number is given as an axis without values, and its
+/// value. Counts, such as the number of springs, and numbers that are zero are left out.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));

@@ -15,11 +15,11 @@ pub(super) const PRELOAD: &str = "preload";
 
 /// Largest number of random profiles of a [`Plan`] for each [cell](Plan).
 pub const MOST_LINES: u64 = 1_000_000;
-/// Largest number of records of a [`Plan`]: the number of [cells](Plan) times the number of random
-/// profiles.
+/// Largest number of records of a [`Plan`]. A record belongs to one [cell](Plan) and one random
+/// profile.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Largest number of scenes in a plan with which every scene is checked. In larger plans only the
+/// Largest number of scenes in a plan up to which each scene is checked. In larger plans only the
 /// scenes at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
 /// Largest number of cells with invalid scenes that an error message lists. Further cells are only
@@ -134,8 +134,7 @@ impl Plan {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Returns the number of records of the complete study: the number of [cells](Plan) times the
-    /// number of profiles.
+    /// Returns how many records the complete study has: one for each [cell](Plan) and each profile.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }

@@ -161,9 +161,9 @@ pub struct Staircase {
 
 impl Staircase {
     /// Computes the adhesion force of a checked scene at the preloads in N of an axis. Further
-    /// preloads are then added, until every jump of the adhesion force lies between two preloads
-    /// that differ by at most 1/2048 of the axis, on the scale of the axis. `control` reports the
-    /// staircase at the preloads of the axis, and again after each refinement.
+    /// preloads are then added near the jumps of the adhesion force, until each jump lies between
+    /// two preloads that differ by at most 1/2048 of the axis, on the scale of the axis. `control`
+    /// receives the staircase after the preloads of the axis, and again after each refinement.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of
@@ -223,9 +223,9 @@ impl Staircase {
         Ok(staircase)
     }
 
-    /// Returns true if the position of every jump of the adhesion force is known precisely: the
-    /// jump lies between two computed preloads that differ by at most 1/2048 of the axis of
-    /// preloads, on the scale of this axis.
+    /// Returns true if the staircase is complete, which means that the preload of each jump is
+    /// known precisely. The jump lies between two computed preloads that differ by at most 1/2048
+    /// of the axis of preloads, on the scale of this axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }

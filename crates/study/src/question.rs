@@ -49,7 +49,7 @@ pub struct Question {
     pub(super) plan: Plan,
 }
 
-/// How the quantity depends on the sought number. The method of the search follows from this.
+/// Way in which the quantity depends on the sought number. It determines the method of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
     /// The quantity is monotonic in the number: it never falls, or it never rises.
@@ -243,8 +243,8 @@ impl Question {
         self.axis.is_of_preloads()
     }
 
-    /// Returns how the quantity depends on the sought number, as far as this is known for any
-    /// profile.
+    /// Returns the way in which the quantity depends on the sought number, as far as it is known
+    /// without a computation on a profile.
     pub(super) fn course(&self) -> Course {
         match self.axis.target {
             Target::Preload { .. } => match self.quantity {

@@ -16,8 +16,7 @@ use asperity_scene::Scene;
 use serde::Serialize;
 
 /// Options of a [`Reference`], which compares random profiles with random square surfaces in three
-/// dimensions: the numbers of both, and the number of grid cells along the side of a square
-/// surface.
+/// dimensions. They state how many profiles, square surfaces and grid cells are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square surface, a power of two.
@@ -117,8 +116,8 @@ pub struct Reference {
     /// Longest and shortest wave of the roughness on profiles and square surfaces. Each wave is
     /// given as the number of its periods over the length L. `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods over the length L of the shortest wave of the scene, if the grid of the
-    /// square surfaces is too coarse for this wave. The comparison then omits this wave. `None` if
+    /// Shortest wave of the scene, given as its number of periods over the length L, if the
+    /// comparison omits this wave because the grid of the square surfaces is too coarse. `None` if
     /// no wave is omitted.
     pub omitted: Option<u64>,
     /// Roughness of profiles and square surfaces; `None` for a smooth body.

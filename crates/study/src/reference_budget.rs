@@ -26,7 +26,7 @@ pub struct ReferenceBudget {
     /// Relative difference between profiles and square surfaces: the mean over the profiles divided
     /// by the mean over the square surfaces, minus 1. `None` if the difference is unknown.
     pub difference: Option<f64>,
-    /// Lower bound of the error of the model: the part of the magnitude of `difference` that
+    /// Lower bound of the error of the model. It is the magnitude of `difference` as far as it
     /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
     /// and `None` if one of these errors is unknown.
     pub model: Option<f64>,

@@ -35,8 +35,8 @@ pub(super) struct Resolved {
     /// Longest and shortest wave of the roughness, each as the number of its periods over the
     /// length of the profile; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods of the shortest wave of the scene over the length of the profile, if the
-    /// grid of the square surfaces does not resolve this wave; otherwise `None`.
+    /// Shortest wave of the scene, given as its number of periods over the length of the profile,
+    /// if the grid of the square surfaces does not resolve this wave. Otherwise `None`.
     pub omitted: Option<u64>,
     /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards.
     /// The profile model is exact for such a body as long as the contact does not reach the ends of

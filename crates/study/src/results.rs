@@ -200,7 +200,7 @@ impl Results {
         }
     }
 
-    /// Stores the records of a computed profile in all cells.
+    /// Stores the records of a computed profile, one for each cell.
     pub(super) fn take_in(&mut self, solved: SolvedProfile) {
         for (cell, record) in (0..).zip(solved.records) {
             self.set_record(cell * self.plan.lines + solved.line, record);
@@ -355,8 +355,8 @@ impl Results {
             .map(String::as_str)
     }
 
-    /// Returns the reason why a cell has no values, if it cannot be computed on any profile;
-    /// otherwise `None`.
+    /// Returns the reason why a cell has no values at all, because it cannot be computed on any
+    /// profile. Otherwise `None`.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());

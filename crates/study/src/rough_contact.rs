@@ -45,7 +45,7 @@ const FULLER_TABOR: Criterion = Criterion::new(
     1.0,
 );
 
-/// Nominally flat, randomly rough contact with adhesion.
+/// Contact of nominally flat, randomly rough bodies with adhesion, to which the criteria apply.
 pub(super) struct RoughContact {
     pub amplitude: Amplitude,
     /// Work of adhesion divided by the effective modulus, γ/E*, in m.

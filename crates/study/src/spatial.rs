@@ -41,7 +41,7 @@ pub(super) struct Body {
     pub works: Option<[f64; 2]>,
 }
 
-/// Turning point of the loop, which is the same for square surfaces and lines.
+/// Turning point of the loop. It is the same for square surfaces and for profiles (lines).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
     /// The loop turns at the contained force in N.

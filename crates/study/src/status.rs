@@ -130,9 +130,9 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Returns two numbers for a shard, a part of the plan: the number of all its records, and the
-/// number of those that exist. The function passes only the records of this shard, so counting all
-/// shards takes as long as counting the whole study.
+/// Returns two numbers for a shard, which is a part of the plan: the number of all records of the
+/// shard, and the number of the existing ones. Only the records of this shard are counted, so that
+/// counting all shards takes as long as counting the whole study once.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let mut total = 0;
     let mut there = 0;

@@ -77,8 +77,8 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
-/// Shows whether a file has been written, and continues with the next step, which may be a question
-/// to the user or the end of the explorer.
+/// Shows a message whether a file has been written. Then takes the next step, which may be a
+/// question to the user or the end of the explorer.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     let is_scene = file.content == Content::Scene;

@@ -227,9 +227,8 @@ pub(crate) struct FreeParts {
 }
 
 impl FreeParts {
-    /// Finds the parts of a curve without contact. `averaged` is the number of points of the file
-    /// of which each of the `points` is the mean, and `least_noise` is the smallest assumed noise
-    /// in N.
+    /// Finds the parts of a curve without contact. Each of the `points` is the mean of `averaged`
+    /// points of the file. `least_noise` is the smallest assumed noise in N.
     pub fn of(
         points: &Points,
         options: &CurveOptions,

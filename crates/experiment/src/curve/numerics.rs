@@ -200,8 +200,8 @@ pub(crate) struct Coefficient {
     pub error: f64,
 }
 
-/// Returns the coefficients of the linear combination of columns that fits the values by least
-/// squares; `None` if a column is a linear combination of the columns before it.
+/// Fits a linear combination of columns to the values by least squares, and returns its
+/// coefficients. `None` if a column is a linear combination of the columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<Coefficient>> {
     let basis = right_angled(columns);
     let mut residuals = values.to_vec();

@@ -1,5 +1,5 @@
-//! Computation of the force of a scene at the measured displacements, for any values of the
-//! parameters of a fit.
+//! Computation of the force at the measured displacements. The force is that of a scene in which
+//! the parameters of a fit have given values.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
@@ -129,10 +129,10 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns, for each point of the curve, the range of forces that a jump of the model covers,
-    /// relative to the force of the model at the point, in N. Only jumps of at least `least` N
-    /// between the two neighbouring points count. The value is `None` for a point without such a
-    /// jump.
+    /// Returns for each point of the curve whether the force of the model jumps there, and over
+    /// which range. The range is relative to the force of the model at the point, in N. Only jumps
+    /// of at least `least` N between the two neighbouring points count. The value is `None` for a
+    /// point without such a jump.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -164,12 +164,14 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns, for each point of the curve, the distance in m from a jump of the model, if the
-    /// point lies on the wrong side of the jump; otherwise `None`. A point lies on the wrong side
-    /// if its residual exceeds `least` N, and its force lies inside the jump or nearer to the force
-    /// of the model beyond the jump than to the force of the model at the point. All points between
-    /// such a point and the jump have to lie on the wrong side too. `residuals` are the measured
-    /// forces minus those of the model, in N.
+    /// Returns for each point of the curve the distance in m from a jump of the model, if the point
+    /// lies on the wrong side of this jump; otherwise `None`. `residuals` are the measured forces
+    /// minus those of the model, in N.
+    ///
+    /// A point lies on the wrong side if two conditions are met. First, its residual exceeds
+    /// `least` N. Second, its measured force lies inside the jump, or nearer to the force of the
+    /// model beyond the jump than to the force of the model at the point. All points between such a
+    /// point and the jump have to lie on the wrong side too.
     pub fn distances_from_jumps(
         &mut self,
         values: &Values,

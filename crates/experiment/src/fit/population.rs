@@ -64,8 +64,8 @@ impl Population {
         count
     }
 
-    /// Returns a measure of the extent of the population: the logarithm of the extent of the
-    /// members in a coordinate, averaged over all coordinates.
+    /// Returns a measure of the extent of the population: the logarithm of the standard deviation
+    /// of the members in one coordinate, averaged over all coordinates.
     pub fn log_extent(&self) -> f64 {
         let count = self.members.first().map_or(0, |member| member.place.len());
         let mut sum = 0.0;

@@ -113,9 +113,9 @@ pub struct FitResult {
     /// How well the model describes the curve.
     #[serde(rename = "description")]
     pub grade: Grade,
-    /// Upper end of the 95 % interval of the work of adhesion in J/m², if the curve does not
-    /// exclude a scene without adhesion at the level of 5 %. `None` if the curve does exclude such
-    /// a scene, or if the work of adhesion is not free.
+    /// Largest work of adhesion in J/m² that is compatible with a curve without clear adhesion. It
+    /// is the upper end of the 95 % interval. `None` if the curve excludes a scene without adhesion
+    /// at the level of 5 %, or if the work of adhesion is not free.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values. `None` if the curve shows no adhesion, or

@@ -410,8 +410,8 @@ impl<'a> Space<'a> {
     }
 
     /// Returns the end of the range at which coordinate number `index` of a place lies. Returns
-    /// `None` if this coordinate lies inside its range. Also returns `None` at an end that is a
-    /// possible value: a work of adhesion of 0, or a work of adhesion on closing equal to that on
+    /// `None` if this coordinate lies inside its range. Some ends are possible values, and give
+    /// `None` too: a work of adhesion of 0, and a work of adhesion on closing equal to that on
     /// opening.
     pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];

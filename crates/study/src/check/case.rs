@@ -64,7 +64,7 @@ impl Case {
     }
 }
 
-/// Returns the bounds of the error of a case for both rules for the edges of patches of contact.
+/// Returns the bounds of the error of a case, one for each rule for the edges of contact patches.
 /// `grid` is the bound for edges at springs, and `sub_cell` is the bound for edges between springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
