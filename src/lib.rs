@@ -45,8 +45,9 @@
 //! equivalent lines that have the spectrum of the surface.
 //!
 //! A [`Modulus`] holds the elastic constants. A [`contact::ContactBuilder`] holds the work of
-//! adhesion and the stiffness of the instrument. A [`Cycle`] has the results of a loading: the force
-//! curve as points and as columns, numbers such as the pull-off force, and the contact patches.
+//! adhesion and the stiffness of the instrument. A [`Cycle`] has the results of a loading: the
+//! force curve as points and as columns, numbers such as the pull-off force, and the contact
+//! patches.
 //!
 //! # A rough sphere, and its adhesion over the preload
 //!
@@ -71,15 +72,15 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`ProfileBuilder::run`] also computes κ, the Tabor number, the ideal adhesion force and the regime
-//! of adhesion.
+//! [`ProfileBuilder::run`] also computes κ, the Tabor number, the ideal adhesion force and the
+//! regime of adhesion.
 //!
 //! # A scene
 //!
-//! A [`scene::Scene`] holds all data that a computation needs. [`scene::open`] opens a built-in scene
-//! by its name, or reads a scene from a RON file. A scene must be checked before it is computed
-//! ([`Scene::checked`]). [`run`] computes the scene of a file. If the scene names measured surfaces,
-//! [`run`] looks for them in the folder of this file:
+//! A [`scene::Scene`] holds all data that a computation needs. [`scene::open`] opens a built-in
+//! scene by its name, or reads a scene from a RON file. A scene must be checked before it is
+//! computed ([`Scene::checked`]). [`run`] computes the scene of a file. If the scene names measured
+//! surfaces, [`run`] looks for them in the folder of this file:
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
@@ -112,8 +113,8 @@
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
 //! | [`study`] | many scenes | tables, statistics |
 //!
-//! Charts and reports are in further crates. The command line and the explorer are not in a crate of
-//! their own, but in the modules [`cli`] and [`explorer`] of this crate.
+//! Charts and reports are in further crates. The command line and the explorer are not in a crate
+//! of their own, but in the modules [`cli`] and [`explorer`] of this crate.
 
 pub mod cli;
 pub mod explorer;

@@ -132,14 +132,15 @@ impl Ensemble {
     }
 
     /// Returns the premises of the model that profiles of the ensemble do not meet, each with the
-    /// number of these profiles.
+    /// number of profiles that do not meet it.
     pub fn warnings(&self) -> Vec<CountedWarning> {
         self.results.warnings(0)
     }
 
-    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
-    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
-    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
+    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

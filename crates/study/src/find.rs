@@ -31,9 +31,9 @@ pub struct Found {
     /// Reason why the scene could not be computed with one of the values that the search tried.
     /// `None` if the scene could be computed with all tried values.
     pub refused: Option<String>,
-    /// Premises of the model that the profiles do not meet, each with the number of these profiles.
-    /// The premises are checked on the scene with the median answer, or on the scene of the
-    /// question if there is no median answer.
+    /// Premises of the model that the profiles do not meet, each with the number of profiles that
+    /// do not meet it. The premises are checked on the scene with the median answer, or on the
+    /// scene of the question if there is no median answer.
     pub warnings: Vec<CountedWarning>,
 }
 

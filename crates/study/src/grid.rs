@@ -16,9 +16,10 @@ pub struct GridCell {
     /// Statistics over the random profiles for each quantity of the grid, in the order of
     /// [`Grid::layers`]; `None` if the quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
-    /// Number of profiles in each regime of adhesion, counted twice: first with the regime that
-    /// follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows from
-    /// F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Number of profiles in each regime of adhesion, as two counts. In the first count, the regime
+    /// follows from F_a(d=0), the adhesion force of a loading that turns at first touch
+    /// ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion force of
+    /// a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub regimes: [RegimeCounts; 2],
 }
 

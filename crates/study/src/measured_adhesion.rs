@@ -275,9 +275,10 @@ impl MeasuredAdhesion {
         Some((low, high))
     }
 
-    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
-    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
-    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
+    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let after_touch = self.profiles.iter().map(|profile| profile.regime);
         let after_zero_force = self

@@ -10,9 +10,9 @@ use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 
 /// Returns the premises of the model that random profiles of a scene do not meet, each with the
-/// number of these profiles. The scene is computed on `profiles` random profiles. If it cannot be
-/// computed on any of them, only those premises are checked that depend on the fields of the scene
-/// alone. `control` receives the number of computed profiles.
+/// number of profiles that do not meet it. The scene is computed on `profiles` random profiles. If
+/// it cannot be computed on any of them, only those premises are checked that depend on the fields
+/// of the scene alone. `control` receives the number of computed profiles.
 ///
 /// # Errors
 /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the

@@ -155,8 +155,9 @@ pub struct Reference {
     /// Errors of the comparison, one for each source of errors. They are errors of the adhesion
     /// force, or of the indentation at the preload for a scene without adhesion.
     pub budget: ReferenceBudget,
-    /// Premises of the model that profiles of the scene do not meet, each with the number of these
-    /// profiles. Only the first [`Reference::profiles_for_warnings`] profiles are checked.
+    /// Premises of the model that profiles of the scene do not meet, each with the number of
+    /// profiles that do not meet it. Only the first [`Reference::profiles_for_warnings`] profiles
+    /// are checked.
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of convolutions that the solver computed for all square surfaces together, as a

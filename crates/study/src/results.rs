@@ -366,8 +366,8 @@ impl Results {
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
-    /// the number of these profiles. The list is empty for results that were read from files, in
-    /// which only the number of premises is recorded, as [`Quantity::Warnings`].
+    /// the number of profiles that do not meet it. The list is empty for results that were read
+    /// from files, in which only the number of premises is recorded, as [`Quantity::Warnings`].
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
@@ -485,9 +485,11 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, counted twice:
-    /// first with the regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime
-    /// that follows from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, as two counts.
+    /// In the first count, the regime follows from F_a(d=0), the adhesion force of a loading that
+    /// turns at first touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0),
+    /// the adhesion force of a loading that turns at zero force
+    /// ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         Quantity::REGIMES.map(|quantity| {
             let records = self.records_of(cell);

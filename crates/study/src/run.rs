@@ -75,8 +75,8 @@ impl StudyProgress {
 pub struct StudyRun {
     /// Progress at the end of the run.
     pub progress: StudyProgress,
-    /// Premises of the model that records of this run do not meet, each with the number of these
-    /// records.
+    /// Premises of the model that records of this run do not meet, each with the number of records
+    /// that do not meet it.
     pub warnings: Vec<CountedWarning>,
 }
 

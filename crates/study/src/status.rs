@@ -24,7 +24,7 @@ pub struct Status {
     pub failed: u64,
     /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
-    /// Progress of each [`Shard`], a part of the plan, on which a process has worked.
+    /// Progress of each [`Shard`], a part of the plan, on which at least one process has worked.
     pub shards: Vec<ShardStatus>,
 }
 
