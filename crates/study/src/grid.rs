@@ -24,9 +24,10 @@ pub struct GridCell {
 }
 
 impl GridCell {
-    /// Returns the number of profiles in each regime of adhesion. The regime follows from F_a(F=0)
-    /// if `quantity` is [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other
-    /// quantity.
+    /// Returns the number of profiles in each regime of adhesion. If `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], the regime follows from F_a(F=0), the adhesion force of
+    /// a loading that turns at zero force. For any other quantity it follows from F_a(d=0), the
+    /// adhesion force of a loading that turns at first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -141,8 +142,9 @@ impl Grid {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// Returns the quantities that the grid shows. If regimes are known, the regime that follows
-    /// from F_a(d=0) comes first and the regime that follows from F_a(F=0) last.
+    /// Returns the quantities that the grid shows, in the order of the layers. If the regimes of
+    /// adhesion are known, they are added: the regime that follows from F_a(d=0) as the first
+    /// quantity, and the regime that follows from F_a(F=0) as the last quantity.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [after_touch, after_zero_force] = Quantity::REGIMES;
         let mut quantities = Vec::with_capacity(self.layers.len() + 2);

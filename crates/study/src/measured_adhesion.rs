@@ -36,11 +36,11 @@ pub struct ProfileAdhesion {
     /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
     /// change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), with the fitted spectrum; `None` if the
-    /// regime is unknown.
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(d=0), the adhesion force
+    /// of a loading that turns at first touch. `None` if the regime is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), with the fitted spectrum; `None` if the
-    /// regime is unknown.
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(F=0), the adhesion force
+    /// of a loading that turns at zero force. `None` if the regime is unknown.
     pub regime_after_zero_force: Option<Regime>,
     /// Ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as the profile.
     /// No rough profile exceeds it. `None` if it is not known.

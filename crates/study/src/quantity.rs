@@ -21,17 +21,21 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The profile and its governing parameters are needed.
+    /// The quantity needs the profile and its governing parameters, such as κ, but no loading.
     Profile,
-    /// Statistics of the heights without the form are needed.
+    /// The quantity needs statistics of the heights of the roughness, without the form of the body.
     Heights,
-    /// A loading that turns at first touch is needed, for F_a(d=0).
+    /// The quantity needs a loading that turns at first touch, which gives the adhesion force
+    /// F_a(d=0).
     Touch,
-    /// A loading that turns where the force is back at zero is needed, for F_a(F=0).
+    /// The quantity needs a loading that turns at zero force, which gives the adhesion force
+    /// F_a(F=0).
     ZeroForce,
-    /// The loading to the preload is needed, or the loading of the scene.
+    /// The quantity needs the loading to the preload or, if the study has no preloads, the loading
+    /// of the scene.
     Loading,
-    /// The force curve without adhesion is needed, for its exponents.
+    /// The quantity needs the force curve of the contact without adhesion, from which exponents
+    /// follow.
     Stiffness,
 }
 

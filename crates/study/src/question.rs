@@ -198,7 +198,7 @@ impl Question {
         })
     }
 
-    /// Returns an error for an empty range.
+    /// Returns an error if the range of searched numbers is empty, or if one of its ends is NaN.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let (from, to) = self.searched;
         // This comparison also refuses an end that is NaN.

@@ -18,8 +18,9 @@ pub(super) type Records = Vec<Vec<f64>>;
 /// Values of a record or, if they cannot be computed, the reason as one line of text.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Computes the records of a plan. The recorder keeps the profile, its contact tree and its
-/// properties for the next record on the same profile.
+/// Recorder, which computes the records of a plan. A record has the recorded quantities of one cell
+/// on one profile. The recorder keeps the profile, its contact tree and its statistics for the next
+/// record on the same profile.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,

@@ -47,7 +47,8 @@ pub struct Merged {
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of records in the files that repeat another record with exactly the same values.
+    /// Number of repeated records in the files. A repeated record has exactly the same values as
+    /// another record of the same [cell](Plan) and profile.
     pub duplicates: u64,
     /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,

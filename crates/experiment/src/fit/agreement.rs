@@ -21,8 +21,8 @@ const ROUGHLY: f64 = 0.03;
 const MOST_AT_JUMPS: f64 = 0.1;
 
 /// Agreement of a model with a measured curve, at the points that are in contact in the measurement
-/// or in the model. Points at jumps are counted separately. Such a point lies on the wrong side of
-/// a jump of the model.
+/// or in the model. Points at jumps are counted separately. At such a point the measured force has
+/// already jumped and the force of the model has not, or the reverse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Agreement {
