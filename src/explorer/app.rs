@@ -225,7 +225,8 @@ impl App {
     }
 
     /// Prepares the state for a command that changes the scene or the panes. The message is
-    /// removed. A series of moves of the mark on the map, which counts as one edit, ends.
+    /// removed. If the last edit was a series of moves of the mark on the map, a later move is a
+    /// new edit.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
         // If the computation of the scene has failed, the message with the reason stays visible.
@@ -368,8 +369,8 @@ impl App {
         self.grid().map(Grid::quantities).unwrap_or_default()
     }
 
-    /// Returns the quantity that follows the shown quantity of the map. The first quantity follows
-    /// the last one.
+    /// Returns the quantity that the map shows next. After the last quantity of the map comes the
+    /// first one.
     pub fn next_mapped(&self) -> Quantity {
         let present = self.mapped();
         let quantities = self.mappable();

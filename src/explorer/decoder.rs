@@ -52,7 +52,7 @@ enum Pending {
     Paste(Vec<u8>),
 }
 
-/// Converts the bytes of a terminal to events.
+/// Decoder, which converts the bytes of a terminal to events such as a pressed key.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: Pending,

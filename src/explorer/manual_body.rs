@@ -15,7 +15,7 @@ const MOST_POINTS: u32 = 512;
 
 /// State of the contact at which manual loading begins.
 pub struct ManualBegin {
-    /// Indentation in m.
+    /// Indentation in m at which manual loading begins.
     pub indentation: f64,
     /// True if the contact is already separated.
     pub is_separated: bool,

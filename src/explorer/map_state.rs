@@ -1,5 +1,5 @@
-//! State of the pane of the map, which shows either the live map over H and κ or a map of a study
-//! over the axes of the study.
+//! State of the pane of the map. The pane shows the live map, which is computed for the present
+//! scene over H and κ, or a map of a study over axes of this study.
 
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};

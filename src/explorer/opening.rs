@@ -105,7 +105,7 @@ pub enum Opened {
     Curve(Box<Measured>),
     /// Measured force curve that cannot be read yet, because the user has to type an option first.
     Question(Box<CurveQuestion>),
-    /// Measured surface, to be made the roughness of the present scene.
+    /// Path of a measured surface, which becomes the roughness of the present scene.
     Surface(PathBuf),
 }
 

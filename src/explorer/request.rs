@@ -1,4 +1,4 @@
-//! Requests from the explorer to the solver.
+//! Requests from the explorer to the solver for a state of the contact.
 
 use super::player::At;
 use asperity_scene::CheckedScene;

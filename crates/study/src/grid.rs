@@ -129,7 +129,7 @@ impl Grid {
         }
     }
 
-    /// Returns the number of columns and the number of rows of the grid.
+    /// Returns the size of the grid: first the number of columns, then the number of rows.
     pub fn size(&self) -> (usize, usize) {
         let columns = self.across.values.len();
         let rows = self.up.as_ref().map_or(1, |up| up.values.len());

@@ -51,7 +51,7 @@ pub struct Plan {
     pub title: String,
     /// Note for readers of the results, such as a limit of the study; may be empty.
     pub notice: String,
-    /// Scene whose numbers vary. Paths of files in it are absolute.
+    /// Scene whose numbers vary. The paths of its measured files are absolute.
     pub scene: Scene,
     /// Axes of the study. The cells are numbered so that the value on the last axis changes
     /// fastest. An axis of preloads is always the last axis, and its preloads replace the loading

@@ -58,7 +58,7 @@ const SHARE: (f64, f64) = (0.0, 1.0);
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
         /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The
-        /// text of each variant begins with its name in plans and tables.
+        /// documentation of each variant begins with the name of the quantity in plans and tables.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Quantity {
             $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
@@ -208,8 +208,9 @@ impl Quantity {
         Quantity::ZeroForceAdhesionShare,
     ];
 
-    /// Two quantities: the regime of adhesion that follows from F_a(d=0), and the regime of
-    /// adhesion that follows from F_a(F=0).
+    /// Regimes of adhesion as quantities. The first follows from F_a(d=0), the adhesion force of a
+    /// loading that turns at first touch. The second follows from F_a(F=0), the adhesion force of a
+    /// loading that turns at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
     /// Returns words that state at which point the loading turns before the adhesion force is

@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a
-//! target, and the answer to this question on one profile.
+//! An inverse question, and its answer on one profile. The question is: at which value of a number
+//! of a scene, or at which preload, does a quantity reach a target?
 
 use super::axis::{Axis, Spacing, Target};
 use super::coordinates::{Allowed, Coordinates};

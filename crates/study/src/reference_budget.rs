@@ -1,4 +1,5 @@
-//! Errors of a comparison with three dimensions, one for each source of errors.
+//! Errors of a comparison between profiles and bodies in three dimensions, one for each source of
+//! errors.
 
 use super::compared::Compared;
 use serde::Serialize;

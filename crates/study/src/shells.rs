@@ -1,5 +1,5 @@
-//! Roughness of random square surfaces. The waves of a square surface are grouped in shells, and
-//! each shell has the variance of one mode of the line (profile).
+//! Roughness of random square surfaces. The waves of a square surface are grouped in shells by
+//! their wave number. Each shell has the variance of one mode of the profile (line).
 
 use asperity_surface::{EquivalentLine, SelfAffine};
 use serde::Serialize;

@@ -23,8 +23,8 @@ const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
-/// Body of a scene in three dimensions. The random phases of its roughness are chosen later by a
-/// seed.
+/// Body of a scene in three dimensions. Only the random phases of the roughness are not part of it;
+/// a seed determines them when the surface is loaded.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,

@@ -76,8 +76,8 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms the selected pane in or out, in if `steps` is positive. The point of the profile at
-/// `position` in m does not move on the screen.
+/// Zooms the selected pane. Positive `steps` zoom in, negative `steps` zoom out. The point of the
+/// profile at `position` in m does not move on the screen.
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let pointer = position.and_then(|position| share_of_shown(app, position));
     let profile = app.view.profile;

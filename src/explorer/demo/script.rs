@@ -1,4 +1,4 @@
-//! Scripts of the demos.
+//! Scripts of the demos. A script is a list of commands and pauses that a demo plays.
 
 use Cue::{Do, Enter, Open, Repeat, Select, Wait};
 

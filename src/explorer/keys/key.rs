@@ -24,8 +24,8 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Returns the event of a press of this key. For a range of characters, returns the event of
-    /// the first character.
+    /// Returns the event that the terminal sends when this key is pressed. For a range of
+    /// characters, it is the event of the first character.
     pub fn event(&self) -> KeyEvent {
         KeyEvent::new(self.first, self.modifiers)
     }

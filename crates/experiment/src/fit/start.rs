@@ -63,9 +63,10 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    /// Estimates the initial values. The modulus follows from the upper half of the loading, and
-    /// the work of adhesion from the pull-off force of a smooth body. The contact point is that of
-    /// the curve, unless the loading extrapolates to a very different one.
+    /// Estimates the initial values. The modulus follows from the upper half of the loading. The
+    /// work of adhesion follows from the pull-off force, as if the body were smooth. The contact
+    /// point is the one that was found when the curve was read, unless the extrapolated loading
+    /// gives a very different one.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,

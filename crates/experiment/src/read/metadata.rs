@@ -24,7 +24,8 @@ const SENSITIVITY: [&str; 5] = [
 /// Names of the travel of the piezo in files, reduced by [`letters`].
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
-/// Stiffness and sensitivity of the instrument, and the travel of its piezo.
+/// Properties of the instrument that a file states: stiffness, sensitivity, and travel of the
+/// piezo.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Metadata {
     /// Stiffness of the instrument: the name of the stiffness in the file, and its value in N/m.

@@ -128,8 +128,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a random body with one of several kinds of profiles. The same seed gives the same
-    /// body on every machine.
+    /// Creates a random body. `seed` determines the kind of its profile and its heights. The same
+    /// seed gives the same body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
