@@ -489,8 +489,6 @@ impl App {
             .is_some_and(|outcome| outcome.instrument.is_some())
     }
 
-    /// Returns `force` in N without rounding errors: zero if the force is only a rounding error of
-    /// the largest marked force. Such rounding errors occur after a stage that ends at zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, point) in Mark::all(self.legs()) {
