@@ -2,9 +2,9 @@
 //!
 //! F_a(d=0), the adhesion force after the first touch, falls about exponentially with κ. It hardly
 //! ever becomes zero, because a single spring still adheres. The boundary κ* is therefore defined
-//! by the mean of F_a(d=0) over the profiles: there it falls below a share of the ideal adhesion
-//! force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each boundary in κ is also a
-//! boundary in e_el/γ.
+//! as the value of κ at which the mean of F_a(d=0) over the profiles falls below a given share of
+//! the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each
+//! boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -24,9 +24,10 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections. It is constant, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the
-/// values on the other axes, on where the loading turns ([`AdhesionBoundary::protocol`]), and on
-/// the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. Adhesion counts as
+/// vanished if the mean adhesion force is below a given share of the ideal adhesion force F_a,max.
+/// The value depends on this share, on the values on the other axes of the study, and on the point
+/// at which the loading turns ([`AdhesionBoundary::protocol`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes of the study other than κ or e_el/γ, one for each axis in
@@ -52,9 +53,9 @@ pub struct Crossing {
     /// Position of the boundary: `Equal` within the studied range, `Less` below this range,
     /// `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of the boundary [`Crossing::value`]. `None` for fewer
-    /// than two profiles, or if the scatter of the profiles allows a boundary beyond the studied
-    /// range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]. `None` if there are fewer than
+    /// two profiles, or if the scatter of the profiles is so large that the boundary may lie beyond
+    /// the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -156,8 +157,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns in words the point at which the loading turns, `first touch` or `zero force`. The
-    /// boundary is that of the adhesion after this turn.
+    /// Returns the name of the point at which the loading turns, `first touch` or `zero force`. The
+    /// boundary refers to the adhesion in the unloading from this point.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"

@@ -1,5 +1,5 @@
-//! The outcome of one loading on one profile. All quantities that a study records are taken from
-//! it.
+//! The outcome of one loading on one profile. A study takes all quantities that it records from
+//! this outcome.
 
 use asperity_contact::{
     Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
@@ -11,14 +11,16 @@ use asperity_scene::{Governing, Regime, Scene};
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters of the computed scene, such as κ.
     pub governing: Governing,
-    /// Properties of the profile, which are computed if a study records them.
+    /// Statistics of the profile. They are computed only if the study records them.
     pub profile: ProfileRecord,
-    /// Scene that was computed. Its field `loading` is ignored, because a preload may replace the
-    /// loading.
+    /// Scene that was computed. Do not use its field `loading`: a preload of the study may have
+    /// replaced this loading.
     pub scene: &'o Scene,
-    /// Adhesion force F_a(d=0) in N, if the loading turns at first touch.
+    /// Adhesion force F_a(d=0) in N of a loading that turns at first touch; `None` if this loading
+    /// was not computed or has no adhesion force.
     pub first_touch: Option<f64>,
-    /// Adhesion force F_a(F=0) in N, if the loading turns at zero force.
+    /// Adhesion force F_a(F=0) in N of a loading that turns at zero force; `None` if this loading
+    /// was not computed or has no adhesion force.
     pub zero_force: Option<f64>,
     /// Adhesion force F_smooth in N of the smooth body after the same preload. It is computed only
     /// if a study records a regime.
@@ -62,8 +64,9 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` goes up
-    /// to the turning point, and `reversal` describes the turn and the way back.
+    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` presses
+    /// the bodies together up to the turning point, and `reversal` describes the turn and the
+    /// unloading.
     pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -77,7 +80,7 @@ impl LoadingOutcome {
 /// Properties that depend only on the profile and the elasticity.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
-    /// Rms height about the mean, m, without the form.
+    /// Root mean square of the heights about their mean in m, without the form of the body.
     pub rms_height: Option<f64>,
     /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of
     /// the rms height; `None` for a flat profile. Both are zero for a normal distribution.

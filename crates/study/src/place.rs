@@ -9,8 +9,8 @@ use asperity_scene::{
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene does
-    /// not determine it. `computed` are the governing parameters of the computed scene, such as κ.
-    /// They are needed only for a measured surface.
+    /// not determine this value. `computed` are the governing parameters of the computed scene,
+    /// such as κ. They are needed only if the scene has a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -130,8 +130,8 @@ fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene, each with its axis (without values). Counts, such as
-/// the number of springs, and numbers that are zero are left out.
+/// Returns the physical numbers of a scene. Each number is given as an axis without values, and its
+/// value. Counts, such as the number of springs, and numbers that are zero are left out.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));

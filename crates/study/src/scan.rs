@@ -1,9 +1,9 @@
 //! Search for crossings of a quantity that may rise and fall over a range of numbers.
 //!
-//! First the quantity is computed at evenly spaced numbers. Then those intervals are halved in
-//! which the quantity may reach the target between the computed numbers. These are intervals in
-//! which the quantity deviates from a straight line by as much as its distance from the target, or
-//! in which it turns close to the target.
+//! First the quantity is computed at evenly spaced numbers. An interval between two of these
+//! numbers is then halved if the quantity may reach the target within it. This is assumed if the
+//! quantity deviates from a straight line by as much as its distance from the target, or if the
+//! quantity turns close to the target.
 
 use super::coordinates::Coordinates;
 use asperity_scene::RunError;
@@ -63,7 +63,8 @@ struct Suspect {
 }
 
 impl Scan {
-    /// Scans the whole range of the coordinates.
+    /// Scans the whole range of the coordinates for crossings of `target`. `compute` returns the
+    /// quantity at a number.
     pub fn of(
         coordinates: Coordinates,
         target: f64,

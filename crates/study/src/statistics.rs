@@ -40,8 +40,8 @@ pub struct Statistics {
     /// Smallest and largest value of the quantity among the profiles.
     pub range: (f64, f64),
     /// Lower and upper end of the 95 % confidence interval of the median, for any distribution.
-    /// With 8 profiles the interval contains the median of infinitely many profiles in about 93 of
-    /// 100 cases, with 16 and more in about 95. `None` for fewer than 4 values.
+    /// `None` for fewer than 4 values. The interval contains the median of infinitely many profiles
+    /// in about 93 of 100 cases if it is computed from 8 profiles, and in about 95 from 16 or more.
     pub median_interval: Option<(f64, f64)>,
     /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single
     /// value.
@@ -121,8 +121,8 @@ impl Statistics {
         })
     }
 
-    /// Columns of a table of statistics. For each column, the text is the last part of its name,
-    /// such as `median`, and the function returns its value.
+    /// Columns of a table of statistics. Each element has the last part of the name of a column,
+    /// such as `median`, and the function that returns the value of this column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -179,8 +179,8 @@ impl Statistics {
         (least >= 0.0 && share.is_finite()).then_some(share)
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. A single
-    /// value has no spread, and both ends are the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. If there is
+    /// only one value, both ends are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -297,8 +297,9 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if less than three quarters of the profiles of known
-    /// regime are in the most frequent regime; otherwise `None`.
+    /// Returns the second most frequent regime if the profiles disagree, which means that less than
+    /// three quarters of the profiles of known regime are in the most frequent regime. Otherwise
+    /// `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
@@ -314,7 +315,7 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Returns the names of the regimes that occur, each with its number of profiles. Profiles of
+    /// Returns the regimes that occur, each as its name and its number of profiles. Profiles of
     /// unknown regime have the name `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
