@@ -27,7 +27,6 @@ const NO_NOISE: f64 = 1e-5;
 /// Largest deviation from a whole number with which a quotient of a force and the last digit still
 /// counts as whole. Smaller deviations come from rounding.
 const ROUNDED: f64 = 0.05;
-
 /// Largest force at the end of a retraction, as a share of the largest tension, with which the body
 /// still counts as detached.
 const STILL_HELD: f64 = 0.3;
