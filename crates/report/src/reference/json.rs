@@ -45,7 +45,8 @@ struct ModelJson<V> {
     loading: Vec<LoadedJson<V>>,
 }
 
-/// Numbers of one model, or ratios of the numbers of both models, at one force of the loading without adhesion.
+/// Numbers of one model, or ratios of the numbers of both models, at one force of the loading
+/// without adhesion.
 #[derive(Serialize)]
 struct LoadedJson<V> {
     force: f64,

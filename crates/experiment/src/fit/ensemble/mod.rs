@@ -9,15 +9,27 @@
 //! over all profiles ([`posterior`]). The result also states the effect of errors of the roughness,
 //! and whether the profiles describe the curves ([`deviation`]).
 
+mod computed;
 pub(crate) mod deviation;
-pub(crate) mod posterior;
-pub(crate) mod summary;
-pub(crate) mod table;
+pub(crate) mod estimate;
+mod likelihood;
+mod noise;
+mod place_search;
+mod polynomials;
+mod posterior;
+pub(crate) mod predictions;
+mod scatter;
+mod summary;
+mod table;
 
+use self::computed::{Specimen, Workers, seed_of};
 use self::deviation::{Response, RoughnessShifts, Shifts, SummaryDeviation, deviations};
-use self::posterior::{CurveOfEnsemble, IntervalEstimate, MODULUS, Posterior, Predictions, WORK};
+use self::estimate::IntervalEstimate;
+use self::place_search::placed;
+use self::posterior::Posterior;
+use self::predictions::{CurveOfEnsemble, Predictions};
 use self::summary::Measurement;
-use self::table::{Axis, End, Place, Specimen, Table, Workers, placed, seed_of};
+use self::table::{Axis, End, MODULUS, Place, Table, WORK};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused, refused_with};
 use crate::fit::scene::wrong;
