@@ -103,9 +103,9 @@ fn recognise_retraction(
 }
 
 /// Brings approach and retraction into the order of time, and returns a phrase on the change;
-/// `None` if the order was right. If a file has the columns of approach and retraction side by side,
-/// the rows of both may begin at the turning point. A file may also contain the retraction before
-/// the approach.
+/// `None` if the order was right. If a file has the columns of approach and retraction side by
+/// side, the rows of both may begin at the turning point. A file may also contain the retraction
+/// before the approach.
 fn put_in_order(
     columns: &mut Columns,
     segments: &mut Segments,

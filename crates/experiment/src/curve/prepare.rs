@@ -227,7 +227,7 @@ fn least_noise(forces: &[f64]) -> f64 {
 
 /// Returns the step in N between the values that the forces can have, if all forces are whole
 /// multiples of such a step, as the output of an analogue-digital converter is. Returns `None` if
-/// there is no such step, or if the step is smaller than the range of the forces times [`NO_NOISE`].
+/// there is no such step, or if the step is below the range of the forces times [`NO_NOISE`].
 fn digit(forces: &[f64]) -> Option<f64> {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -1,5 +1,5 @@
-//! Probability of the parameters γ and E*, given the mean prediction over measured curves. This mean
-//! is compared with the predictions over the random profiles of a table.
+//! Probability of the parameters γ and E*. The mean prediction over the measured curves is compared
+//! with the predictions over the random profiles of a table.
 
 use super::posterior::{Extent, Limits, Posterior};
 use super::scatter::Scatter;

@@ -126,8 +126,8 @@ impl Polynomials {
         self.by_half(&self.terms(description), 1 - (line % 2) as usize)
     }
 
-    /// Predicts ln γ and ln E* of a curve that belongs to no profile of the table. The prediction is
-    /// the mean of the predictions by both polynomials.
+    /// Predicts ln γ and ln E* of a curve that belongs to no profile of the table, by the mean of
+    /// the predictions of both polynomials.
     pub fn of_curve(&self, description: &Description) -> [f64; 2] {
         let terms = self.terms(description);
         let even = self.by_half(&terms, 0);

@@ -1,5 +1,5 @@
-//! Probability distribution of the parameters γ and E* on a grid, and the estimates that follow from
-//! the distribution.
+//! Probability distribution of the parameters γ and E* on a grid, and the estimates that follow
+//! from the distribution.
 
 use super::estimate::IntervalEstimate;
 use super::table::{End, MODULUS, Place, WORK};

@@ -1,5 +1,5 @@
-//! Parameters γ and E* that are predicted from the summaries of computed and of measured curves, and
-//! the results of each measured curve.
+//! Parameters γ and E* that are predicted from the summaries of computed and of measured curves,
+//! and the results of each measured curve.
 
 use super::estimate::IntervalEstimate;
 use super::likelihood::Likelihood;
