@@ -54,8 +54,8 @@ impl FitsReport<'_> {
     }
 
     /// Returns an error message if no curve was fitted. The message names the first few files with
-    /// their reasons, and the number of the others. Returns `None` if at least one curve was fitted,
-    /// whether the model describes this curve or not.
+    /// their reasons, and the number of the others. Returns `None` if at least one curve was
+    /// fitted, whether the model describes this curve or not.
     pub fn failure(&self) -> Option<String> {
         let reasons = self.failures_in_words();
         if reasons.len() < self.rows.len() {

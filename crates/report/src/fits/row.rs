@@ -12,8 +12,9 @@ pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
     /// For each free parameter three numbers in SI units: its value, and the lower and the upper
-    /// end of its 95 % interval. Empty if the curve was not fitted. If a fit finds only a bound of the
-    /// parameter, the bound is the lower or the upper end, and the other two numbers are `None`.
+    /// end of its 95 % interval. Empty if the curve was not fitted. If a fit finds only a bound of
+    /// the parameter, the bound is the lower or the upper end, and the other two numbers are
+    /// `None`.
     pub parameters: Vec<[Option<f64>; 3]>,
     /// Numbers of the curve and of its fit in SI units, such as the pull-off force; `None` for an
     /// unknown number. Their order is that of the columns in the CSV table, after the parameters.
