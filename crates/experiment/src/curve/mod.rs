@@ -33,8 +33,9 @@ pub struct MeasuredCurve {
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,
-    /// Index, from 0, of the segment of each point. The body is pressed in segments with even
-    /// indices, and pulled in segments with odd indices.
+    /// Index, counted from 0, of the segment of each point. A segment is a part of the curve
+    /// between two turning points. The body is pressed in segments with even indices, and pulled in
+    /// segments with odd indices.
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before the contact.
     pub(crate) free: usize,
@@ -42,8 +43,8 @@ pub struct MeasuredCurve {
     pub(crate) free_at_end: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force in N. It is that of the points before contact,
-    /// or the value [`CurveOptions::noise`] if it is given.
+    /// Standard deviation of the noise of the force in N. It is computed from the points before
+    /// contact unless [`CurveOptions::noise`](crate::CurveOptions::noise) gives its value.
     pub noise: f64,
     /// Features that are computed from the curve without a model, such as its jumps.
     pub features: CurveFeatures,
@@ -162,8 +163,8 @@ impl MeasuredCurve {
         columns
     }
 
-    /// Returns for each point whether it lies between the part before contact and the part after
-    /// contact. These parts were found without a model.
+    /// Returns true for each point between the part before contact and the part after contact, and
+    /// false for each other point. The two parts were found without a model.
     pub(crate) fn in_contact(&self) -> Vec<bool> {
         let end = self.force.len() - self.free_at_end;
         (0..self.force.len())

@@ -22,7 +22,8 @@ use std::path::Path;
 /// Smallest number of points of a curve, so that both segments can have enough points with and
 /// without contact.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise that is assumed for a curve without noise, as a share of the range of the force.
+/// Standard deviation of the noise that is assumed for a curve without noise, as a share of the
+/// range of the force.
 const NO_NOISE: f64 = 1e-5;
 /// Largest deviation from a whole number with which a quotient of a force and the last digit still
 /// counts as whole. Smaller deviations come from rounding.

@@ -29,6 +29,7 @@ use words::{percent_or_unknown, ratio};
 /// reports, and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
+    /// First line of the report.
     pub title: &'a str,
     /// Scene that is computed in both ways.
     pub scene: &'a Scene,

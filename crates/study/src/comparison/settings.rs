@@ -9,7 +9,6 @@ use crate::spatial::{SquareLoading, Turn};
 pub(super) const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
 /// Number of steps of the indentation of a square surface from the preload to pull-off.
 const STEPS: f64 = 40.0;
-
 /// Largest difference between two lengths or two numbers of cells, as a share of them, that counts
 /// as a rounding error.
 pub(super) const ROUNDING: f64 = 1e-9;

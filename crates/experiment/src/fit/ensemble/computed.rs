@@ -74,7 +74,7 @@ impl Specimen<'_> {
             let first = all.len();
             let mut approach = Body::new(&contact, 2);
             // The moduli are taken in descending order, because the largest modulus has the
-            // smallest indentation, and the approach can only go on.
+            // smallest indentation, and the approach cannot go back.
             for modulus in moduli.iter().rev() {
                 if (self.stop)() {
                     return Err(ContactError::Interrupted.into());
@@ -107,19 +107,84 @@ pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
 /// the instrument are in units of `scale`.
 struct ForceLoop<'a> {
     stiffness: f64,
+    /// E* of the curve divided by E* of the computed contact.
     scale: f64,
     protocol: &'a Protocol,
 }
 
+/// Approach and retraction of one computed curve.
+struct ComputedLoop {
+    pressed: DisplacementCurve,
+    pulled: DisplacementCurve,
+    /// Displacement in m at the turning point.
+    top: f64,
+    /// Force in N at the turning point.
+    turning_force: f64,
+    /// Factor that turns the computed forces into forces in N.
+    scale: f64,
+}
+
+impl ComputedLoop {
+    /// Returns the displacement in m at the end of the retraction, relative to the turning point.
+    fn end(&self) -> f64 {
+        match self.pulled.points().last() {
+            Some(point) => point.displacement - self.top,
+            None => -self.top,
+        }
+    }
+
+    /// Returns the force in N of the approach or of the retraction at a displacement in m relative
+    /// to the turning point.
+    fn force_at(&self, curve: &DisplacementCurve, displacement: f64) -> f64 {
+        if let Some(point) = curve.at(self.top + displacement) {
+            return self.scale * point.force;
+        }
+        // By rounding, the turning point may lie beyond the end of the computed curve.
+        let is_turn = displacement > -1e-9 * self.top.abs();
+        if is_turn { self.turning_force } else { 0.0 }
+    }
+}
+
 impl ForceLoop<'_> {
-    /// Presses the body further up to the preload, and computes the points of the approach and of
-    /// the retraction from there. The body itself remains on the approach. The force at which it
-    /// turns differs from the measured preload by the error of the preload, which results from
-    /// noise.
+    /// Presses the body further up to the preload, and returns the forces with noise at the
+    /// measured displacements of approach and retraction.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
+        let computed = self.compute(body, noise.of_preload)?;
+        let mut branches = Branches {
+            approach: Vec::with_capacity(protocol.approach.len()),
+            retraction: Vec::with_capacity(protocol.retraction.len()),
+            noise: protocol.noise,
+            free: protocol.free,
+        };
+        for &displacement in &protocol.approach {
+            let force = computed.force_at(&computed.pressed, displacement);
+            let force = force + noise.at(branches.approach.len());
+            branches.approach.push(Point {
+                displacement,
+                force,
+            });
+        }
+        let first = branches.approach.len();
+        for displacement in until_loss(&protocol.retraction, computed.end()) {
+            let force = computed.force_at(&computed.pulled, displacement);
+            let force = force + noise.at(first + branches.retraction.len());
+            branches.retraction.push(Point {
+                displacement,
+                force,
+            });
+        }
+        Ok(branches)
+    }
+
+    /// Presses the body further up to the preload, and computes the approach and the retraction
+    /// from there. The body itself remains on the approach. The force at which the body turns
+    /// differs from the measured preload by `preload_error` in N, because noise changes the
+    /// measured preload.
+    fn compute(&self, body: &mut Body, preload_error: f64) -> Result<ComputedLoop, ContactError> {
+        let protocol = self.protocol;
         let least_force = LEAST_TURN * protocol.preload;
-        let turning_force = (protocol.preload + noise.of_preload).max(least_force);
+        let turning_force = (protocol.preload + preload_error).max(least_force);
         body.move_to(Move::ToForce(turning_force / self.scale))?;
         let approach = body.leg();
         let turn = body.point().indentation;
@@ -131,51 +196,23 @@ impl ForceLoop<'_> {
         };
         let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
         let pulled = sampling.pull(&retraction, turn)?;
-
         let top = match pressed.points().last() {
             Some(point) => point.displacement,
             None => turn,
         };
-        let end = match pulled.points().last() {
-            Some(point) => point.displacement - top,
-            None => -top,
-        };
-        let force_at = |curve: &DisplacementCurve, displacement: f64| {
-            if let Some(point) = curve.at(top + displacement) {
-                return self.scale * point.force;
-            }
-            // By rounding, the turning point may lie beyond the end of the computed curve.
-            let is_turn = displacement > -1e-9 * top.abs();
-            if is_turn { turning_force } else { 0.0 }
-        };
-        let mut branches = Branches {
-            approach: Vec::with_capacity(protocol.approach.len()),
-            retraction: Vec::with_capacity(protocol.retraction.len()),
-            noise: protocol.noise,
-            free: protocol.free,
-        };
-        for &displacement in &protocol.approach {
-            let force = force_at(&pressed, displacement) + noise.at(branches.approach.len());
-            branches.approach.push(Point {
-                displacement,
-                force,
-            });
-        }
-        let first = branches.approach.len();
-        for displacement in until_loss(&protocol.retraction, end) {
-            let index = first + branches.retraction.len();
-            let force = force_at(&pulled, displacement) + noise.at(index);
-            branches.retraction.push(Point {
-                displacement,
-                force,
-            });
-        }
-        Ok(branches)
+        Ok(ComputedLoop {
+            pressed,
+            pulled,
+            top,
+            turning_force,
+            scale: self.scale,
+        })
     }
 }
 
-/// Returns the displacements of a retraction. If they do not reach the loss of contact of the
-/// computed curve, at the displacement `end`, further displacements are added.
+/// Returns the displacements of a retraction in m, relative to the turning point. If the measured
+/// displacements `retraction` end before the computed curve loses contact, at the displacement
+/// `end`, further displacements are added.
 fn until_loss(retraction: &[f64], end: f64) -> Vec<f64> {
     let mut displacements = retraction.to_vec();
     let count = retraction.len();

@@ -10,7 +10,6 @@ use asperity_scene::{Roughness, Scene, Solver};
 /// Smallest allowed number of random profiles. With fewer profiles, the covariance of the
 /// predictions is too uncertain.
 const FEWEST_LINES: u64 = 16;
-
 /// Largest allowed standard error of the roughness. For larger errors the results would not change
 /// in proportion to the error.
 const MOST_ERROR: f64 = 0.5;

@@ -7,9 +7,8 @@ use super::table::{End, MODULUS, Place, WORK};
 /// Number of cells of a grid along each axis.
 const CELLS: usize = 96;
 /// Largest allowed probability of one value of an axis. If a value has a larger probability, the
-/// grid is too coarse and is replaced by a finer one.
-/// A normal distribution has this probability at its mean if the step of the axis is a fifth of the
-/// standard deviation.
+/// grid is too coarse and is replaced by a finer one. A normal distribution has this probability at
+/// its mean if the step of the axis is a fifth of the standard deviation.
 const MOST_AT_VALUE: f64 = 0.08;
 /// Probability of one value of an axis below which the value counts as outside the distribution.
 const NEGLIGIBLE: f64 = 1e-7;
@@ -17,7 +16,6 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// negligible probability. The margin is needed because on a coarse grid the largest probability of
 /// a narrow ridge may be some values away from the true maximum.
 const MARGIN: usize = 8;
-
 /// Smallest step of a grid. With a smaller step the values of an axis would differ only by rounding
 /// errors.
 const LEAST_STEP: f64 = 1e-12;
@@ -93,7 +91,8 @@ impl Extent {
         self.high - self.low
     }
 
-    /// Returns evenly spaced values; a single value if the width is 0.
+    /// Returns the values of an axis of a grid over this interval, evenly spaced; a single value if
+    /// the width is 0.
     pub fn values(self) -> Vec<f64> {
         if self.width() == 0.0 {
             return vec![self.low];

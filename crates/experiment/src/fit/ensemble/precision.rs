@@ -5,7 +5,6 @@ use super::result::{Prospect, Shares};
 
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 pub(super) const NORMAL: f64 = 1.96;
-
 /// Numbers of measured curves for which the expected precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 

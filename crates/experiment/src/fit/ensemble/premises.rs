@@ -7,9 +7,10 @@ use asperity_contact::Move;
 use asperity_data::CountedWarning;
 use asperity_scene::{Adhesion, CheckedScene, Material, Strength};
 
-/// Returns the premises of the model that some random profiles do not meet. A few profiles are
-/// computed with the parameters of a place and a preload in N. If no profile can be computed, the
-/// result has only the premises that can be checked with the fields of the scene.
+/// Returns the premises of the model that some random profiles do not meet, each with the number of
+/// these profiles. A few profiles are computed with the parameters of `place`, up to a preload in
+/// N. If no profile can be computed, the result has only the premises that can be checked with the
+/// fields of the scene.
 pub(super) fn warnings_at(
     workers: &Workers<'_>,
     place: Place,
