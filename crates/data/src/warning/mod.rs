@@ -8,8 +8,7 @@ mod conditions;
 mod remedy;
 mod sentence;
 
-use crate::remedy::Note;
-use crate::remedy::Wording;
+use crate::remedy::{Note, Wording};
 use std::fmt::{Display, Formatter, Result};
 
 /// A premise of the model that a result does not meet, with the values that show it. `Display`
