@@ -11,9 +11,10 @@ mod sentence;
 use crate::remedy::{Note, Wording};
 use std::fmt::{Display, Formatter, Result};
 
-/// A premise of the model that a result does not meet, with the values that show it. `Display`
-/// writes one line: which premise does not hold, what this means for the results, and which step
-/// helps.
+/// A premise of the model that a result does not meet, with the values that show it. The model is a
+/// rigid profile in contact with a row of independent springs (method of dimensionality reduction).
+/// `Display` writes one line: which premise does not hold, what this means for the results, and
+/// which step helps.
 ///
 /// ```
 /// use asperity_data::Warning;
@@ -44,9 +45,10 @@ pub enum Warning {
         /// Largest number of springs that were in contact at the same time.
         springs: u64,
     },
-    /// The steps of the stepwise solver are too coarse for the loading. Either a stage that ends at
-    /// a force passes it by more than [`Warning::LARGEST_EXCESS_OF_FORCE`], or the whole loading
-    /// has fewer than [`Warning::LEAST_STEPS`] steps from its deepest to its highest place.
+    /// The steps of the stepwise solver are too coarse for the loading. Either a stage that should
+    /// end at a force passes this force by more than [`Warning::LARGEST_EXCESS_OF_FORCE`]. Or the
+    /// whole loading has fewer than [`Warning::LEAST_STEPS`] steps from its deepest to its highest
+    /// place.
     CoarseSteps {
         /// Length of a step in m.
         step: f64,
@@ -90,7 +92,7 @@ pub enum Warning {
         slope: f64,
     },
     /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of Johnson,
-    /// Kendall and Roberts (JKR) nor the rule of Hess applies.
+    /// Kendall and Roberts (JKR) nor the rule of Hess, by which springs detach, applies.
     LongRangedAttraction {
         /// Tabor number.
         tabor_number: f64,

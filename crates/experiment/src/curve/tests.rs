@@ -102,7 +102,7 @@ fn what_is_no_curve_is_refused() {
     let of = |force: &dyn Fn(f64, f64) -> f64| {
         lines(of_spring(600).into_iter().map(|(d, f)| (d, force(d, f))))
     };
-    let (all, plain) = (of_spring(600), of(&|_, f| f));
+    let all = of_spring(600);
     // An approach of only 17 points is too short.
     let few = (0..42_i32).map(|index| {
         if index < 17 {
@@ -154,6 +154,11 @@ fn what_is_no_curve_is_refused() {
             "{said}: {error}"
         );
     }
+}
+
+#[test]
+fn options_that_do_not_fit_a_curve_are_refused() {
+    let plain = lines(of_spring(600));
     let with = CurveOptions::default;
     for (options, said) in [
         (
