@@ -86,6 +86,7 @@ pub use asperity_data::Warning;
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};
+    pub use crate::leg::jumps::{Jump, JumpKind};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::moving_body::{MovingBody, load_body};
     pub use crate::stepwise::Stepwise;

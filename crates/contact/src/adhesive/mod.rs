@@ -6,6 +6,7 @@
 //! range of indentations in which its edges move without a jump. Curves, extremes and energies are
 //! sums over the runs. Only the edge model determines the length of a patch.
 
+pub(crate) mod jumps;
 pub(crate) mod levels;
 pub(crate) mod loading;
 pub(crate) mod run;
