@@ -12,7 +12,7 @@
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
 //!   a [`LegRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
 //!   a point of the curve, a [`Branch`] joins stages in one direction, and a [`Patch`] is a run of
-//!   springs in contact. The module [`motion`] also returns a [`History`] of all stages and counts
+//!   springs in contact. [`Events`] are the jumps and marks of a loading, each as an [`Event`]. The module [`motion`] also returns a [`History`] of all stages and counts
 //!   of computing [`Work`].
 //! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by
 //!   theory.
@@ -50,6 +50,7 @@ mod crossing;
 mod cycle;
 mod detachment;
 mod error;
+mod events;
 mod figures;
 mod foundation;
 mod history;
@@ -71,6 +72,7 @@ pub use closed_form::ClosedForm;
 pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
+pub use events::{Event, Events};
 pub use figures::{Figures, Mark};
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
@@ -86,6 +88,7 @@ pub use asperity_data::Warning;
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};
+    pub use crate::events::JumpCollector;
     pub use crate::leg::jumps::{Jump, JumpKind};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::moving_body::{MovingBody, load_body};

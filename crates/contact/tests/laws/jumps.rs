@@ -2,7 +2,8 @@
 //! that is stored and lost.
 
 use super::*;
-use asperity_contact::motion::{Jump, JumpKind, Stepwise};
+use asperity_contact::motion::{Jump, JumpCollector, JumpKind, Stepwise};
+use asperity_contact::{Events, LoadOptions, Mark};
 
 const LEAST: usize = Jump::LEAST_SPRINGS as usize;
 
@@ -337,4 +338,109 @@ fn the_stepwise_solver_has_no_jumps() {
     let record = solver.advance(Move::ToIndentation(0.3)).unwrap();
     let [low, high] = record.passed();
     assert_eq!(solver.leg().jumps(low, high), Err(ContactError::Stepwise));
+}
+
+/// Events of a loading, with the records of its stages.
+fn events_of(
+    contact: &Contact,
+    targets: &[Move],
+    least_share: f64,
+    most: usize,
+) -> (Events, Vec<LegRecord>) {
+    let mut jumps = JumpCollector::default();
+    let options = LoadOptions::default().samples(64).jumps(&mut jumps);
+    let cycle = contact.load_with(targets, options).unwrap();
+    let events = jumps.events(cycle.stages(), least_share, most).unwrap();
+    (events, cycle.stages().to_vec())
+}
+
+proptest! {
+    #![proptest_config(cases(700))]
+
+    #[test]
+    fn events_are_all_jumps_and_marks_in_order(
+        body in bodies(150), stiff: bool, share in 0.0..0.5_f64, most in 1_usize..9,
+    ) {
+        let mut targets = body.tour();
+        if !stiff {
+            targets = vec![Move::ToDisplacement(0.3), Move::ToDisplacement(0.1), Move::ToSeparation];
+        }
+        let stiffness = if stiff { f64::INFINITY } else { 0.3 * body.stiffness() };
+        let contact = body.under(stiffness);
+        let (all, legs) = events_of(&contact, &targets, 0.0, usize::MAX);
+        let marks = Mark::all(&legs);
+        let mut found: Vec<Mark> = all.list.iter().filter_map(|event| event.mark).collect();
+        found.sort_by_key(|mark| marks.iter().position(|(other, _)| mark == other));
+        prop_assert_eq!(found, marks.iter().map(|(mark, _)| *mark).collect::<Vec<_>>());
+        prop_assert_eq!(all.listed_jumps, all.jumps);
+        let in_order = all.list.windows(2).all(|pair| {
+            let loads = legs[pair[0].stage].direction == Direction::Loading;
+            let sign = if loads { 1.0 } else { -1.0 };
+            let onward = sign * (pair[1].indentation - pair[0].indentation) >= 0.0;
+            // The event of the instrument is that of the whole stage.
+            let is_of_contact = pair[1].instrument_loss.is_none();
+            pair[0].stage < pair[1].stage
+                || pair[0].stage == pair[1].stage && (onward || !is_of_contact)
+        });
+        prop_assert!(in_order, "{:?}", all.list);
+        // The energies of all jumps are a part of those of the whole motion.
+        let [_, slack] = body.scales().map(|scale| 1e-12 * scale);
+        let energies = all.list.iter().filter_map(|event| event.jump).map(|jump| jump.energy);
+        let energies: Vec<f64> = energies.collect();
+        let whole = |direction: Direction| -> f64 {
+            let stages = legs.iter().filter(|leg| leg.direction == direction);
+            stages.map(|leg| leg.released_energy).sum()
+        };
+        prop_assert!((all.gained - all.released - energies.iter().sum::<f64>()).abs() <= slack);
+        prop_assert!(all.gained <= -whole(Direction::Loading) + slack);
+        prop_assert!(all.released <= whole(Direction::Unloading) + slack);
+        let lost: f64 = all.list.iter().filter_map(|event| event.instrument_loss).sum();
+        prop_assert_eq!(lost, legs.iter().map(|leg| leg.jump_energy).sum::<f64>());
+
+        let (few, _) = events_of(&contact, &targets, share, most);
+        let largest = energies.iter().fold(0.0, |largest, energy| energy.abs().max(largest));
+        let mut expected: Vec<f64> = energies.iter().map(|energy| energy.abs()).collect();
+        expected.retain(|energy| *energy >= share * largest);
+        expected.sort_by(|energy, other| other.total_cmp(energy));
+        expected.truncate(most);
+        let listed = few.list.iter().filter_map(|event| event.jump);
+        let mut found: Vec<f64> = listed.map(|jump| jump.energy.abs()).collect();
+        found.sort_by(|energy, other| other.total_cmp(energy));
+        prop_assert_eq!((few.jumps, few.listed_jumps), (all.jumps, found.len()));
+        prop_assert_eq!(found, expected);
+    }
+}
+
+#[test]
+fn the_stepwise_solver_has_no_events() {
+    let body = Body::new(sphere(50, 101), Edges::Grid, FOUNDATION, 0.02);
+    let contact = body.contact();
+    let mut jumps = JumpCollector::default();
+    let mut solver = Stepwise::new(&contact, 0.01, 2, &|| false).unwrap();
+    let refused = load_body(&mut solver, &[Move::ToTouch], |record, leg| {
+        jumps.observe(record, leg)
+    });
+    assert_eq!(refused, Err(ContactError::Stepwise));
+    assert_eq!(jumps.events(&[], 0.0, 9), Ok(Events::default()));
+}
+
+#[test]
+fn a_compliant_instrument_jumps_too() {
+    let body = Body::new(sphere(50, 101), Edges::SubCell, FOUNDATION, 0.02);
+    let targets = [Move::ToDisplacement(0.3), Move::ToSeparation];
+    let (events, legs) = events_of(&body.under(0.1), &targets, 0.0, 9);
+    let lost: Vec<f64> = events
+        .list
+        .iter()
+        .filter_map(|event| event.instrument_loss)
+        .collect();
+    assert_eq!(lost, [legs[0].jump_energy, legs[1].jump_energy]);
+    assert!(lost.iter().all(|lost| *lost > 0.0));
+    let (events, _) = events_of(&body.contact(), &targets, 0.0, 9);
+    assert!(
+        events
+            .list
+            .iter()
+            .all(|event| event.instrument_loss.is_none())
+    );
 }
