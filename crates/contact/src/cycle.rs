@@ -4,6 +4,7 @@ use super::body::{Body, Reversal};
 use super::branches::Branch;
 use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
+use super::events::JumpCollector;
 use super::figures::Figures;
 use super::history::{CurvePoint, History, LegRecord};
 use super::leg::{Leg, PatchState};
@@ -44,6 +45,7 @@ const SAMPLES: usize = 512;
 pub struct LoadOptions<'a> {
     samples: Option<u64>,
     indentations: &'a [f64],
+    jumps: Option<&'a mut JumpCollector>,
     before_stage: Option<&'a mut dyn FnMut(usize) -> bool>,
 }
 
@@ -65,6 +67,17 @@ impl<'a> LoadOptions<'a> {
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions {
             indentations,
+            ..self
+        }
+    }
+
+    /// Sets a collector of the jumps of all stages, from which
+    /// [`JumpCollector::events`](crate::motion::JumpCollector::events) lists the events of the
+    /// loading.
+    #[must_use]
+    pub fn jumps(self, jumps: &'a mut JumpCollector) -> Self {
+        LoadOptions {
+            jumps: Some(jumps),
             ..self
         }
     }
@@ -200,6 +213,7 @@ impl Contact {
         let LoadOptions {
             samples,
             indentations,
+            mut jumps,
             mut before_stage,
         } = options;
         check_targets(stages)?;
@@ -218,6 +232,9 @@ impl Contact {
         let mut points = Vec::with_capacity(stages.len());
         let history = load_body(&mut body, stages, |record, leg| {
             points.push(points_between(record, leg, indentations)?);
+            if let Some(jumps) = &mut jumps {
+                jumps.observe(record, leg)?;
+            }
             if points.len() < stages.len() && !may_begin(points.len()) {
                 return Err(ContactError::Interrupted);
             }

@@ -164,31 +164,37 @@ impl Mark {
     /// Finds the special points of a force curve. Returns each mark with its point, in the order of
     /// the variants of [`Mark`]. `legs` are the records of all loading stages.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-        let preload = Branch::preload(legs).map(|(stage, point)| Preload {
-            target: legs[stage].target,
-            point,
-        });
-        let pull_off = Branch::pull_off(legs).map(|(_, point)| point);
+        let marked = Mark::in_stages(legs).into_iter();
+        marked.map(|marked| (marked.mark, marked.point)).collect()
+    }
+
+    /// Finds the points of a force curve that have a mark, as [`Mark::all`] does, each with its
+    /// stage.
+    pub(super) fn in_stages(legs: &[LegRecord]) -> Vec<MarkedPoint> {
         let mut marks = Vec::new();
-        if let Some(point) = legs.iter().find_map(jump_into_contact)
-            && point.force < 0.0
-        {
-            marks.push((Mark::JumpIn, point));
-        }
-        if let Some(preload) = preload {
-            marks.push((Mark::Preload, preload.without_rounding()));
-        }
-        let Some(pull_off) = pull_off else {
-            return marks;
+        let mut add = |mark: Mark, stage: usize, point: CurvePoint| {
+            marks.push(MarkedPoint { mark, stage, point });
         };
-        if pull_off.force < 0.0 {
-            marks.push((Mark::PullOff, pull_off));
-        }
-        if let Some(point) = last_jump_out_of_contact(legs)
-            && point.force > pull_off.force * (1.0 - ROUNDING)
+        if let Some((stage, point)) = first_jump_into_contact(legs)
             && point.force < 0.0
         {
-            marks.push((Mark::JumpOut, point));
+            add(Mark::JumpIn, stage, point);
+        }
+        if let Some((stage, point)) = Branch::preload(legs) {
+            let target = legs[stage].target;
+            let preload = Preload { target, point };
+            add(Mark::Preload, stage, preload.without_rounding());
+        }
+        if let Some((stage, pull_off)) = Branch::pull_off(legs) {
+            if pull_off.force < 0.0 {
+                add(Mark::PullOff, stage, pull_off);
+            }
+            if let Some((stage, point)) = last_jump_out_of_contact(legs)
+                && point.force > pull_off.force * (1.0 - ROUNDING)
+                && point.force < 0.0
+            {
+                add(Mark::JumpOut, stage, point);
+            }
         }
         marks
     }
@@ -202,6 +208,21 @@ impl Mark {
             Mark::JumpOut => "jump-out",
         }
     }
+}
+
+/// Point of a force curve with its mark.
+pub(super) struct MarkedPoint {
+    pub mark: Mark,
+    /// Index of the stage of the point.
+    pub stage: usize,
+    pub point: CurvePoint,
+}
+
+/// Returns the first point in contact after the first jump of a history into contact, and the index
+/// of its stage.
+fn first_jump_into_contact(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let mut stages = legs.iter().enumerate();
+    stages.find_map(|(stage, leg)| Some((stage, jump_into_contact(leg)?)))
 }
 
 /// Returns the first point in contact after the first jump of a loading into contact.
@@ -221,11 +242,11 @@ fn jump_out_of_contact(leg: &LegRecord) -> Option<CurvePoint> {
     Some(jump[0])
 }
 
-/// Returns the last point in contact of the last unloading, if the body jumps out of contact there.
-fn last_jump_out_of_contact(legs: &[LegRecord]) -> Option<CurvePoint> {
-    let unloading = Branch::last_unloading(legs)?;
-    let mut stages = legs[unloading.stages].iter().rev();
-    stages.find_map(jump_out_of_contact)
+/// Returns the last point in contact of the last unloading, if the body jumps out of contact there,
+/// and the index of its stage.
+fn last_jump_out_of_contact(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let mut stages = Branch::last_unloading(legs)?.stages.rev();
+    stages.find_map(|stage| Some((stage, jump_out_of_contact(&legs[stage])?)))
 }
 
 #[cfg(test)]

@@ -12,8 +12,9 @@
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
 //!   a [`LegRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
 //!   a special point of the curve. A [`Branch`] joins successive stages in one direction. A
-//!   [`Patch`] is a group of neighbouring springs in contact. A [`History`], which the module
-//!   [`motion`] returns, has the records of all stages and counts of computing [`Work`].
+//!   [`Patch`] is a group of neighbouring springs in contact. [`Events`] are the jumps and marks of
+//!   a loading, each as an [`Event`]. A [`History`], which the module [`motion`] returns, has the
+//!   records of all stages and counts of computing [`Work`].
 //! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by
 //!   theory.
 //! * Errors: [`ContactError`] names the value or the stage that is refused.
@@ -50,6 +51,7 @@ mod crossing;
 mod cycle;
 mod detachment;
 mod error;
+mod events;
 mod figures;
 mod foundation;
 mod history;
@@ -71,6 +73,7 @@ pub use closed_form::ClosedForm;
 pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
+pub use events::{Event, Events};
 pub use figures::{Figures, Mark};
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
@@ -86,6 +89,8 @@ pub use asperity_data::Warning;
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};
+    pub use crate::events::JumpCollector;
+    pub use crate::leg::jumps::{Jump, JumpKind};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::moving_body::{MovingBody, load_body};
     pub use crate::stepwise::Stepwise;

@@ -7,6 +7,7 @@
 //! energies are sums over the runs. The edge model, which states where edges may lie, decides the
 //! length of a patch.
 
+pub(crate) mod jumps;
 pub(crate) mod levels;
 pub(crate) mod loading;
 pub(crate) mod run;

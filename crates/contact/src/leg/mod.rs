@@ -99,13 +99,6 @@ struct PinnedPatch {
     pin: Option<f64>,
 }
 
-/// Number of springs that attach (positive) or detach (negative) at an indentation in m.
-#[derive(Clone, Copy)]
-struct Event {
-    indentation: f64,
-    springs: f64,
-}
-
 /// Evaluates an expression with the runs of a leg, the patches over ranges of indentations in which
 /// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
 macro_rules! along_runs {
@@ -124,6 +117,7 @@ macro_rules! along_runs {
 }
 
 pub(crate) mod forces;
+pub(crate) mod jumps;
 
 impl Leg {
     /// Adds the computing work for this leg to the counts in `work`: the pass over the contact tree
@@ -326,55 +320,6 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations in m at which the force jumps, in ascending order. Only
-    /// indentations above `low` and up to `high` (m) are returned. Jumps smaller than about `least`
-    /// (N) are left out.
-    pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
-        let Patches::Runs(_, runs) = &self.patches else {
-            return Vec::new();
-        };
-        let mut events = Vec::new();
-        for run in runs.iter() {
-            let begins = Event {
-                indentation: run.from,
-                springs: springs_between(run.bottom),
-            };
-            let ends = Event {
-                indentation: run.to,
-                springs: -springs_between(run.top),
-            };
-            for event in [begins, ends] {
-                if low < event.indentation && event.indentation <= high {
-                    events.push(event);
-                }
-            }
-        }
-        events.sort_unstable_by(|event, other| {
-            let by_indentation = event.indentation.total_cmp(&other.indentation);
-            by_indentation.then(event.springs.total_cmp(&other.springs))
-        });
-        let mut jumps = Vec::new();
-        for together in events.chunk_by(|event, next| event.indentation == next.indentation) {
-            if self.jump_of(together) >= least {
-                jumps.push(together[0].indentation);
-            }
-        }
-        jumps
-    }
-
-    /// Estimates the jump of the force in N for events that happen at one indentation.
-    fn jump_of(&self, events: &[Event]) -> f64 {
-        let mut most: f64 = 0.0;
-        for event in events {
-            most = most.max(event.springs.abs());
-        }
-        let change: f64 = events.iter().map(|event| event.springs).sum();
-        // The stretch of the springs that attach or detach is about Δl_max of the largest patch
-        // concerned.
-        let stretch = self.rule().largest_stretch(most);
-        self.contact.foundation.spring_stiffness() * stretch * change.abs()
-    }
-
     /// Returns one indentation in m for each spring of the profile: the smallest indentation at
     /// which the spring is in contact. It is −∞ for a spring that is always in contact, and +∞ for
     /// a spring that is never in contact.
@@ -492,10 +437,4 @@ impl Leg {
         };
         Runs { ground, runs }
     }
-}
-
-/// Returns the number of springs from the first to the last index of `ends`.
-fn springs_between(ends: [u32; 2]) -> f64 {
-    let [first, last] = ends;
-    f64::from(last - first + 1)
 }

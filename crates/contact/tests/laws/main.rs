@@ -11,6 +11,7 @@ mod equilibrium;
 mod exhaustive;
 mod front;
 mod instrument;
+mod jumps;
 mod large_lines;
 mod levels;
 mod memory;

@@ -395,7 +395,7 @@ impl Sampling {
             let share = (index as f64 / (self.points - 1) as f64).powi(power);
             indentations.push((low + (high - low) * share).min(high));
         }
-        for jump in leg.jumps(low, high, self.least_jump) {
+        for jump in leg.force_jumps(low, high, self.least_jump) {
             indentations.push(jump.next_down());
             indentations.push(jump);
         }

@@ -1,0 +1,243 @@
+//! The events of a loading: the jumps of all stages and the marked points of the force curve, in
+//! the order of the motion.
+
+use super::error::ContactError;
+use super::figures::{Mark, MarkedPoint};
+use super::history::{Direction, LegRecord};
+use super::leg::Leg;
+use super::leg::jumps::Jump;
+use std::cmp::Ordering;
+
+/// A mark shares the event of a jump that follows it within this share of the range of
+/// indentations.
+const NEAR: f64 = 1e-3;
+
+/// Collects the jumps of a loading, stage after stage, while the loading is computed.
+///
+/// ```
+/// use asperity_contact::motion::{JumpCollector, JumpKind};
+/// use asperity_contact::{Contact, LoadOptions, Mark, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
+/// let mut jumps = JumpCollector::default();
+/// let options = LoadOptions::default().jumps(&mut jumps);
+/// let cycle = contact.load_with(&[Move::ToForce(1.0e-4), Move::ToSeparation], options)?;
+/// // A sphere jumps into contact and out of it. Between the two jumps its edges slide.
+/// let events = jumps.events(cycle.stages(), 0.01, 4096)?;
+/// let marks: Vec<Option<Mark>> = events.list.iter().map(|event| event.mark).collect();
+/// use Mark::{JumpIn, JumpOut, Preload, PullOff};
+/// assert_eq!(marks, [Some(JumpIn), Some(Preload), Some(PullOff), Some(JumpOut)]);
+/// assert_eq!(events.list[0].jump.unwrap().kind, JumpKind::Touches);
+/// assert_eq!((events.list[0].forces[0], events.list[3].forces[1]), (0.0, 0.0));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct JumpCollector {
+    stages: Vec<JumpsOfStage>,
+}
+
+/// All jumps of one stage in the order of the motion, and the motion itself.
+#[derive(Clone, Debug)]
+struct JumpsOfStage {
+    leg: Leg,
+    jumps: Vec<Jump>,
+}
+
+/// The events of a loading, as [`JumpCollector::events`] chooses them.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Events {
+    /// The chosen jumps and all marks, in the order of the motion.
+    pub list: Vec<Event>,
+    /// Number of all jumps of the loading.
+    pub jumps: usize,
+    /// Number of the jumps in `list`.
+    pub listed_jumps: usize,
+    /// Elastic energy in J that springs gain in all jumps of the loading.
+    pub gained: f64,
+    /// Elastic energy in J that springs release in all jumps of the loading, a positive number.
+    pub released: f64,
+}
+
+/// Event of a loading: a jump of the contact, a marked point of the force curve, or both, or the
+/// jumps of the instrument in a stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Event {
+    /// Index of the loading stage, from 0.
+    pub stage: usize,
+    /// Indentation in m.
+    pub indentation: f64,
+    /// Force of the whole contact in N before and after the event. Both are equal unless the
+    /// contact jumps.
+    pub forces: [f64; 2],
+    /// Mark of the force curve at this point, or just before the jump.
+    pub mark: Option<Mark>,
+    /// Jump of the contact.
+    pub jump: Option<Jump>,
+    /// Energy in J that a compliant instrument and the body lose in all jumps of the instrument in
+    /// this stage ([`LegRecord::jump_energy`]). Such an event is at the end of the stage, and has
+    /// neither mark nor jump.
+    pub instrument_loss: Option<f64>,
+}
+
+impl Event {
+    fn new(stage: usize, indentation: f64, forces: [f64; 2]) -> Self {
+        Event {
+            stage,
+            indentation,
+            forces,
+            mark: None,
+            jump: None,
+            instrument_loss: None,
+        }
+    }
+}
+
+impl JumpCollector {
+    /// Adds the jumps of a stage that has just been computed.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::Stepwise`] if the stage was computed by the [stepwise
+    /// solver](crate::motion::Stepwise).
+    pub fn observe(&mut self, record: &LegRecord, leg: &Leg) -> Result<(), ContactError> {
+        let [low, high] = record.passed();
+        let jumps = leg.jumps(low, high)?;
+        self.stages.push(JumpsOfStage {
+            leg: leg.clone(),
+            jumps,
+        });
+        Ok(())
+    }
+
+    /// Returns all jumps of a stage in the order of the motion. `stage` is the index of the stage,
+    /// from 0.
+    pub fn jumps(&self, stage: usize) -> &[Jump] {
+        self.stages.get(stage).map_or(&[], |stage| &stage.jumps)
+    }
+
+    /// Returns the largest energy in J that springs gain or release in a jump; 0 if there is none.
+    pub fn largest_energy(&self) -> f64 {
+        let jumps = self.stages.iter().flat_map(|stage| &stage.jumps);
+        jumps.fold(0.0, |largest, jump| jump.energy.abs().max(largest))
+    }
+
+    /// Returns the events of the loading. Of the jumps, only those are listed whose energy is at
+    /// least `least_share` of the largest one, and at most the `most` largest of them. `legs` are
+    /// the records of the stages.
+    ///
+    /// The forces of all patches are added up at each listed jump, which takes longer than to find
+    /// the jumps.
+    pub fn events(
+        &self,
+        legs: &[LegRecord],
+        least_share: f64,
+        most: usize,
+    ) -> Result<Events, ContactError> {
+        let mut events = Events::default();
+        for jump in self.stages.iter().flat_map(|stage| &stage.jumps) {
+            events.jumps += 1;
+            events.gained += jump.energy.max(0.0);
+            events.released -= jump.energy.min(0.0);
+        }
+        let least = self.least_energy(least_share, most);
+        let marks = Mark::in_stages(legs);
+        let range = NEAR * range_of(legs);
+        for (stage, record) in legs.iter().enumerate() {
+            let mut of_stage = self.listed_jumps(stage, least)?;
+            if of_stage.len() + events.listed_jumps > most {
+                // Several jumps have just the least energy.
+                of_stage.truncate(most - events.listed_jumps);
+            }
+            events.listed_jumps += of_stage.len();
+            for marked in marks.iter().filter(|marked| marked.stage == stage) {
+                add_mark(&mut of_stage, marked, record.direction, range);
+            }
+            if record.jump_energy != 0.0 {
+                let force = record.curve.last().map_or(0.0, |point| point.force);
+                of_stage.push(Event {
+                    instrument_loss: Some(record.jump_energy),
+                    ..Event::new(stage, record.end(), [force; 2])
+                });
+            }
+            events.list.extend(of_stage);
+        }
+        Ok(events)
+    }
+
+    /// Returns the energy in J that a jump needs at least to be listed.
+    fn least_energy(&self, least_share: f64, most: usize) -> f64 {
+        let mut energies: Vec<f64> = self
+            .stages
+            .iter()
+            .flat_map(|stage| &stage.jumps)
+            .map(|jump| jump.energy.abs())
+            .collect();
+        let mut least = least_share * self.largest_energy();
+        if (1..energies.len()).contains(&most) {
+            let (_, at_most, _) =
+                energies.select_nth_unstable_by(most - 1, |energy, other| other.total_cmp(energy));
+            least = least.max(*at_most);
+        }
+        least
+    }
+
+    /// Returns the jumps of a stage with at least the energy `least` in J.
+    fn listed_jumps(&self, stage: usize, least: f64) -> Result<Vec<Event>, ContactError> {
+        let Some(JumpsOfStage { leg, jumps }) = self.stages.get(stage) else {
+            return Ok(Vec::new());
+        };
+        let mut listed = jumps.clone();
+        listed.retain(|jump| jump.energy.abs() >= least);
+        let mut events = Vec::with_capacity(listed.len());
+        for (jump, forces) in listed.iter().zip(leg.forces_at_jumps(&listed)?) {
+            events.push(Event {
+                jump: Some(*jump),
+                ..Event::new(stage, jump.indentation, forces)
+            });
+        }
+        Ok(events)
+    }
+}
+
+/// Returns the difference in m between the largest and the smallest indentation of a loading.
+fn range_of(legs: &[LegRecord]) -> f64 {
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    for record in legs {
+        low = low.min(record.start()).min(record.end());
+        high = high.max(record.start()).max(record.end());
+    }
+    (high - low).max(0.0)
+}
+
+/// Adds a mark to the events of its stage, which are in the order of the motion. The mark is added
+/// to a jump that follows it within the indentation `near` in m; otherwise it becomes an event of
+/// its own.
+fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, direction: Direction, near: f64) {
+    let point = marked.point;
+    let is_before = |event: &Event| {
+        let order = event.indentation.total_cmp(&point.indentation);
+        match direction {
+            Direction::Loading => order == Ordering::Less,
+            Direction::Unloading => order == Ordering::Greater,
+        }
+    };
+    let place = events.partition_point(is_before);
+    if let Some(next) = events.get_mut(place)
+        && next.mark.is_none()
+        && (next.indentation - point.indentation).abs() <= near
+    {
+        next.mark = Some(marked.mark);
+        return;
+    }
+    let event = Event {
+        mark: Some(marked.mark),
+        ..Event::new(marked.stage, point.indentation, [point.force; 2])
+    };
+    events.insert(place, event);
+}
