@@ -33,7 +33,8 @@ pub struct Prompt {
 #[derive(Clone, Debug)]
 pub enum Purpose {
     Value,
-    Force,
+    /// Target of the next move of the body.
+    Move,
     /// Target of an inverse question: a quantity and the value that it is to have.
     Target,
     /// Relative error that is to be reached by the choice of the number of springs.

@@ -1,51 +1,27 @@
 //! Requests from the explorer to the solver.
 
+use super::manual_path::ManualPath;
 use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a snapshot: the state of the contact in a scene, after manual moves. If the solver
-/// has not solved the scene yet, it solves the scene first.
+/// Request for a snapshot: the state of the contact in a scene. If the solver has not solved the
+/// scene yet, it solves the scene first. A request needs nothing from earlier requests, so of all
+/// waiting requests only the newest is answered.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
     pub scene: Arc<CheckedScene>,
-    /// Manual moves since the previous request.
-    pub moves: Vec<ManualMove>,
+    /// Path along which the user has moved the body; `None` without manual loading.
+    pub path: Option<Arc<ManualPath>>,
     pub snapshot: SnapshotRequest,
-}
-
-impl Request {
-    /// Combines this request with an earlier request that the solver has not answered. If both
-    /// requests are for the same scene, the manual moves of the earlier request come first.
-    pub fn after(mut self, mut earlier: Request) -> Request {
-        if earlier.generation == self.generation {
-            earlier.moves.append(&mut self.moves);
-            self.moves = earlier.moves;
-        }
-        self
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ManualMove {
-    /// Begins manual loading with the state at this position of a loading stage.
-    Take {
-        leg: usize,
-        at: At,
-    },
-    To(f64),
-    /// Moves the body by this distance in m. A positive distance presses the body further.
-    By(f64),
-    ToForce(f64),
-    Separate,
 }
 
 /// Part of a request that describes the snapshot. The snapshot has as many columns as the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Position of the animation within its loading stage. Manual loading does not use it.
+    /// Position of the animation within its loading stage. The end of a path does not use it.
     pub at: At,
     /// Width of the profile pane in columns of dots.
     pub profile_columns: usize,
@@ -107,9 +83,13 @@ impl Focus {
     }
 }
 
+/// What moves the body to the state that is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
     /// Loading stage of the scene, given by its index.
     Leg(usize),
+    /// Manual loading: the body is at the end of its path.
     Manual,
+    /// The animation plays the path of manual loading, and is in the stage with this index.
+    Path(usize),
 }
