@@ -9,11 +9,11 @@ use super::map_state::Live;
 use super::map_state::MapState;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
-use super::player::Player;
-use super::player::indentations;
+use super::manual_path::ManualPath;
+use super::player::{At, Player, indentations};
 use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, ManualState, Preview, SolvedScene};
+use super::snapshot::{ContactSnapshot, FollowedPath, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
@@ -75,15 +75,22 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
-/// Identification of the state of the contact for which the screen waits. It consists of the
-/// generation of the scene, the requested snapshot, and the number of manual moves.
-pub(super) type Awaited = (u64, SnapshotRequest, usize);
+/// State of the contact for which the screen waits.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Awaited {
+    pub generation: u64,
+    pub snapshot: SnapshotRequest,
+    pub path: Option<Arc<ManualPath>>,
+}
 
 #[derive(Clone, Debug)]
 pub struct App {
     pub edit: Editor,
+    /// Position of the animation of the scene's loading.
     pub play: Player,
-    pub manual: Option<ManualState>,
+    /// Position of the animation of the path of manual loading; `None` at the end of the path,
+    /// where the body is.
+    pub play_of_path: Option<Player>,
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
     pub snapshot: Option<Arc<ContactSnapshot>>,
@@ -118,7 +125,7 @@ impl App {
         App {
             edit: Editor::new(document),
             play: Player::START,
-            manual: None,
+            play_of_path: None,
             view: View {
                 pane: Pane::Force,
                 large: None,
@@ -439,13 +446,20 @@ impl App {
             return prompt.context();
         }
         match self.view.pane.keys() {
-            Context::Crosshair if self.view.crosshair.is_none() => Context::Explore,
+            Context::Crosshair if self.view.crosshair.is_some() => Context::Crosshair,
+            Context::Crosshair if self.moves_by_arrows() => Context::Manual,
+            Context::Crosshair => Context::Explore,
             context => context,
         }
     }
 
-    /// Returns the part of the profile that the selected pane shows; `None` if the pane shows no
-    /// part.
+    /// Returns true if the arrow keys move the body: under manual loading, if the force curve is
+    /// selected.
+    fn moves_by_arrows(&self) -> bool {
+        self.view.pane == Pane::Force && self.edit.path.is_some()
+    }
+
+    /// The part of the profile that the selected pane shows.
     pub fn section(&self) -> Option<&Section> {
         let snapshot = self.snapshot.as_ref()?;
         match self.view.pane {
@@ -456,15 +470,69 @@ impl App {
     }
 
     pub fn drive(&self) -> Drive {
-        if self.manual.is_some() {
-            Drive::Manual
-        } else {
-            Drive::Leg(self.play.leg)
+        match (&self.edit.path, self.play_of_path) {
+            (None, _) => Drive::Leg(self.play.leg),
+            (Some(_), None) => Drive::Manual,
+            (Some(_), Some(player)) => Drive::Path(player.leg),
         }
     }
 
-    /// Returns the newest snapshot of the contact if it shows the present scene and the present
-    /// kind of loading, which is the animation or manual loading. Otherwise `None`.
+    /// Returns the path of manual loading as the body has followed it before; `None` without manual
+    /// loading. It may lack the newest moves, and may belong to an earlier version of the scene.
+    pub fn former_path(&self) -> Option<&FollowedPath> {
+        self.edit.path.as_ref()?;
+        self.snapshot.as_ref()?.followed.as_deref()
+    }
+
+    /// Returns the path of manual loading as the body has followed it in the present scene, with
+    /// all moves; `None` until it is computed.
+    pub fn followed(&self) -> Option<&Arc<FollowedPath>> {
+        let snapshot = self.snapshot.as_ref()?;
+        let followed = snapshot.followed.as_ref()?;
+        let is_present = snapshot.generation == self.edit.generation
+            && Some(&followed.path) == self.edit.path.as_ref();
+        if is_present { Some(followed) } else { None }
+    }
+
+    /// Returns the loading stages over which the animation moves: those of the path of manual
+    /// loading, otherwise those of the scene.
+    pub fn played_legs(&self) -> &[LegRecord] {
+        match self.former_path() {
+            Some(followed) => &followed.legs,
+            None => self.legs(),
+        }
+    }
+
+    /// Returns the position of the animation over [`Self::played_legs`].
+    pub fn playhead(&self) -> Player {
+        match (&self.edit.path, self.play_of_path) {
+            (None, _) => self.play,
+            (Some(_), Some(player)) => player,
+            (Some(_), None) => Player {
+                leg: self.played_legs().len().saturating_sub(1),
+                at: At::End,
+                playing: false,
+            },
+        }
+    }
+
+    pub fn set_playhead(&mut self, player: Player) {
+        if self.edit.path.is_none() {
+            self.play = player;
+            return;
+        }
+        let last = self.played_legs().len().saturating_sub(1);
+        let is_at_end = player.leg == last && player.at == At::End;
+        self.play_of_path = if is_at_end { None } else { Some(player) };
+    }
+
+    /// Returns true while the animation moves.
+    pub fn is_playing(&self) -> bool {
+        self.playhead().playing && self.is_current()
+    }
+
+    /// Returns the newest snapshot, if it shows the present scene and the present kind of loading
+    /// (animation or manual); otherwise `None`.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
         let is_present =
@@ -562,8 +630,9 @@ impl App {
         indentations(self.legs())
     }
 
+    /// Returns the indentation in m that the animation shows.
     pub fn indentation(&self) -> f64 {
-        self.play.indentation(self.legs())
+        self.playhead().indentation(self.played_legs())
     }
 }
 

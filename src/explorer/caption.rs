@@ -9,17 +9,31 @@ use asperity_report::event;
 /// Returns the event at the shown state, in words that fit into the title of a pane 34 columns
 /// wide. Returns `None` before the first result is computed, and in a stage that does not move the
 /// body.
-pub fn caption(app: &App) -> Option<&'static str> {
+pub fn caption(app: &App) -> Option<String> {
     let snapshot = app.present()?;
-    let Drive::Leg(index) = snapshot.drive else {
-        return Some("manual loading");
+    let (legs, index) = match snapshot.drive {
+        Drive::Leg(index) => (app.legs(), index),
+        Drive::Path(index) => (app.played_legs(), index),
+        Drive::Manual => return Some(caption_of_path(app)),
     };
-    let branches = Branch::all(app.legs());
+    let branches = Branch::all(legs);
     let mut branches = branches.iter();
     let branch = branches.find(|branch| branch.stages.contains(&index))?;
-    let has_motion = app.legs()[index].curve.len() != 1;
+    let has_motion = legs.get(index)?.curve.len() != 1;
     if !has_motion {
         return None;
     }
-    event(app.legs(), branch, snapshot.point)
+    event(legs, branch, snapshot.point).map(str::to_owned)
+}
+
+/// Returns the words for the end of the path of manual loading. If the contact cannot follow all
+/// moves, they state how many it follows.
+fn caption_of_path(app: &App) -> String {
+    match app.followed() {
+        Some(followed) if followed.stopped.is_some() => {
+            let moves = followed.path.moves.len();
+            format!("manual loading, {} of {moves} moves", followed.count())
+        }
+        _ => "manual loading".to_owned(),
+    }
 }

@@ -1,8 +1,10 @@
 //! The edited scene: its parameters, the history of its edits, and whether it is saved.
 
 use super::curve_options;
+use super::manual_path::{ManualPath, change_in_words};
 use super::measured::Measured;
 use super::parameters::{Parameter, parameters};
+use asperity_contact::Direction;
 use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
 use std::collections::BTreeMap;
@@ -13,11 +15,12 @@ use std::sync::Arc;
 
 const UNDO_DEPTH: usize = 1000;
 
-/// Scene and measured curve at one place in the history, before or after an edit.
+/// Scene, measured curve and path of manual loading, as they were before or after an edit.
 #[derive(Clone, Debug)]
 pub struct Edited {
     pub document: Document,
     pub measured: Option<Measured>,
+    pub path: Option<Arc<ManualPath>>,
 }
 
 /// Returns true if a row of the list of parameters has this path. A loading stage with a number is
@@ -27,8 +30,13 @@ fn is_at(parameter: &Parameter, path: &str) -> bool {
 }
 
 impl Edited {
-    /// Returns true if the scenes, or the sources of the curves, differ.
+    /// Returns true if the scenes, the sources of the curves, or the paths differ.
     fn differs(&self, other: &Edited) -> bool {
+        self.has_other_scene(other) || self.path != other.path
+    }
+
+    /// Returns true if the scenes, or the sources of the curves, differ.
+    fn has_other_scene(&self, other: &Edited) -> bool {
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
             || self.curve_source() != other.curve_source()
@@ -41,12 +49,28 @@ impl Edited {
     }
 }
 
-/// The edited scene, the history of its edits, and the list of its parameters.
+/// A move of which the explorer does not know yet whether the contact can follow it.
+#[derive(Clone, Debug)]
+struct TriedMove {
+    /// Target as the user has typed it.
+    typed: String,
+    /// Edits that could be redone before the move.
+    future: Vec<Edited>,
+}
+
+/// The edited scene, its history, and its list of parameters.
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
     /// The measured curve that is compared with the scene.
     pub measured: Option<Measured>,
+    /// Path along which the user moves the body; `None` without manual loading.
+    pub path: Option<Arc<ManualPath>>,
+    /// Direction of the last move, as long as further moves in this direction continue it. `None`
+    /// if the next move is an edit of its own.
+    series: Option<Direction>,
+    /// The last move, as long as the solver may still refuse it and nothing has followed it.
+    tried: Option<TriedMove>,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.
     pub scene: Arc<CheckedScene>,
@@ -70,6 +94,9 @@ impl Editor {
         let mut editor = Editor {
             parameters: parameters(&document, None),
             measured: None,
+            path: None,
+            series: None,
+            tried: None,
             scene: scene_of(&document),
             document,
             past: Vec::new(),
@@ -126,39 +153,108 @@ impl Editor {
     }
 
     /// Makes the scene in a document the explored scene. Undo returns to the previous document. If
-    /// the two documents are the same, nothing is added to the history.
+    /// the two documents are the same, nothing is added to the history. The path of manual loading
+    /// belongs to the scene, so another scene has none.
     pub fn adopt(&mut self, document: Document) {
-        self.adopt_all(Edited {
+        let is_same_scene = document.name() == self.document.name();
+        let mut edited = Edited {
             document,
-            measured: self.measured.clone(),
-        });
+            ..self.edited()
+        };
+        if !is_same_scene {
+            edited.path = None;
+        }
+        self.adopt_all(edited);
     }
 
-    /// Makes a document the explored scene and a curve the measured curve, in one edit.
+    /// Adopts a scene, a measured curve and a path of manual loading, in one edit.
     pub fn adopt_all(&mut self, edited: Edited) {
         let before = self.exchange(edited);
         if before.differs(&self.edited()) {
-            self.past.push(before);
-        }
-        if self.past.len() > UNDO_DEPTH {
-            self.past.remove(0);
+            self.remember(before);
         }
         self.future.clear();
         self.renew();
     }
 
-    fn edited(&self) -> Edited {
-        Edited {
-            document: self.document.clone(),
-            measured: self.measured.clone(),
+    /// Adds an entry to the history. The oldest entry may be removed.
+    fn remember(&mut self, before: Edited) {
+        self.past.push(before);
+        if self.past.len() > UNDO_DEPTH {
+            self.past.remove(0);
         }
     }
 
-    /// Replaces the present document and the present curve, and returns the previous ones.
-    fn exchange(&mut self, Edited { document, measured }: Edited) -> Edited {
+    /// Begins, changes or ends the path of manual loading, in one edit. The scene stays the same.
+    pub fn adopt_path(&mut self, path: Option<ManualPath>) {
+        let before = self.edited();
+        self.remember(before);
+        self.future.clear();
+        self.series = None;
+        self.tried = None;
+        self.path = path.map(Arc::new);
+    }
+
+    /// Moves the body on to an indentation in m. `path` is the path with this move at its end. If
+    /// the move before had the same direction and ended at an indentation too, the path contains
+    /// only the new one of the two moves, and both are one edit. The state at the end is the same,
+    /// because the contact depends only on the indentation while the direction stays the same.
+    pub fn adopt_step(&mut self, mut path: ManualPath, direction: Direction) {
+        let is_next = self.path.as_ref().is_some_and(|before| {
+            before.start == path.start && before.moves.len() + 1 == path.moves.len()
+        });
+        if is_next && self.series == Some(direction) {
+            let last = path.moves.len() - 1;
+            path.moves.swap_remove(last - 1);
+            self.path = Some(Arc::new(path));
+            self.future.clear();
+        } else {
+            self.adopt_path(Some(path));
+        }
+        self.series = Some(direction);
+    }
+
+    /// Adopts a path with a new move at its end, which the contact may be unable to follow. `typed`
+    /// is the text that the user has typed for this move.
+    pub fn try_move(&mut self, path: ManualPath, typed: &str) {
+        let future = std::mem::take(&mut self.future);
+        self.adopt_path(Some(path));
+        self.tried = Some(TriedMove {
+            typed: typed.to_owned(),
+            future,
+        });
+    }
+
+    /// Marks the last move as followed by the contact.
+    pub fn accept_move(&mut self) {
+        self.tried = None;
+    }
+
+    /// Takes the last move back if nothing has followed it, as if the user had never typed it.
+    /// Returns the text that the user has typed.
+    pub fn take_back_move(&mut self) -> Option<String> {
+        let TriedMove { typed, future } = self.tried.take()?;
+        self.path = self.past.pop()?.path;
+        self.future = future;
+        Some(typed)
+    }
+
+    pub fn edited(&self) -> Edited {
         Edited {
-            document: replace(&mut self.document, document),
-            measured: replace(&mut self.measured, measured),
+            document: self.document.clone(),
+            measured: self.measured.clone(),
+            path: self.path.clone(),
+        }
+    }
+
+    /// Replaces the present scene, curve and path, and returns the previous ones.
+    fn exchange(&mut self, edited: Edited) -> Edited {
+        self.series = None;
+        self.tried = None;
+        Edited {
+            document: replace(&mut self.document, edited.document),
+            measured: replace(&mut self.measured, edited.measured),
+            path: replace(&mut self.path, edited.path),
         }
     }
 
@@ -166,11 +262,13 @@ impl Editor {
     pub fn replace(&mut self, document: Document) {
         self.document = document;
         self.future.clear();
+        self.series = None;
+        self.tried = None;
         self.renew();
     }
 
-    /// Undoes the last edit if `back` is true. Otherwise redoes the edit that was undone last.
-    /// Returns a text that states what has changed; `None` if there is no edit to undo or redo.
+    /// Undoes the last edit or move if `back` is true; otherwise redoes the one that was undone
+    /// last. Returns the changes as text; `None` if there is nothing to undo or redo.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let next = if back {
             self.past.pop()?
@@ -183,11 +281,16 @@ impl Editor {
         } else {
             self.past.push(before.clone());
         }
+        let is_other_scene = before.has_other_scene(&self.edited());
         let mut changes = Vec::new();
         if before.document.name() == self.document.name() {
             for change in before.document.changes_to(&self.document) {
                 changes.push(change.to_string());
             }
+            changes.extend(change_in_words(
+                before.path.as_deref(),
+                self.path.as_deref(),
+            ));
         } else {
             changes.push(self.document.name().to_owned());
             self.leave(before.document);
@@ -196,7 +299,10 @@ impl Editor {
             before.measured.as_ref(),
             self.measured.as_ref(),
         ));
-        self.renew();
+        // Moves of the body change no scene, and the solver needs not compute it again.
+        if is_other_scene {
+            self.renew();
+        }
         Some(changes.join(", "))
     }
 

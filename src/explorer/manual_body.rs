@@ -1,163 +1,152 @@
-//! The body under manual loading, in which the user moves the body step by step, and the force
-//! curve since manual loading began.
+//! The body under manual loading. It follows the stages of a path one after the other, each in one
+//! exact motion, just as a scene with these stages as its loading does.
 
-use super::request::ManualMove;
-use super::snapshot::ManualPath;
-use asperity_contact::motion::{Body, Leg, Motion, MovingBody};
-use asperity_contact::{CurvePoint, Direction, Move};
-use asperity_data::round_to;
+use asperity_contact::motion::{Body, Leg, MovingBody};
+use asperity_contact::{Contact, ContactError, CurvePoint, LegRecord, Move};
+use asperity_data::format_quantity;
 use asperity_scene::stages::Reach;
 
-/// Number of points that a move adds to the force curve.
-const POINTS: u32 = 16;
-/// Largest number of points that a move to separation adds to the force curve.
-const MOST_POINTS: u32 = 512;
-
-/// State of the contact at which manual loading begins.
-pub struct ManualBegin {
-    /// Indentation in m at which manual loading begins.
-    pub indentation: f64,
-    /// True if the contact is already separated.
-    pub is_separated: bool,
-    /// Distance in m between neighbouring points of the force curve when the body is pulled off.
-    pub step: f64,
-    /// Loading stages after which manual loading begins.
-    pub loading: Vec<Move>,
-    /// Direction of the last stage in [`ManualBegin::loading`]; `None` if there are no stages.
-    pub direction: Option<Direction>,
-}
+/// Largest memory in bytes for the bodies after earlier stages. If they need more, the oldest ones
+/// are dropped, and computed again when they are needed.
+const BYTES_KEPT: usize = 1 << 28;
 
 pub struct ManualBody {
-    body: Body,
-    travel: ManualPath,
-    /// Distance in m between the points of the curve when the body is pulled off. It is a small
-    /// part of the range of indentations.
-    step: f64,
+    start: Body,
     reach: Reach,
-    /// Direction of the last stage of the loading so far.
-    direction: Option<Direction>,
+    records: Vec<LegRecord>,
+    /// Bodies after some of the stages, in the order of the stages. If there are any stages, the
+    /// last body is the present one.
+    kept: Vec<KeptBody>,
+}
+
+/// The body after a number of stages.
+#[derive(Clone)]
+struct KeptBody {
+    stages: usize,
+    body: Body,
 }
 
 impl ManualBody {
-    /// Begins manual loading of a body that has moved along `leg`, a motion in one direction.
-    /// Returns `None` if there is not enough memory.
-    pub fn take(leg: &Leg, begin: ManualBegin) -> Option<Self> {
-        let mut body = Body::at(leg, begin.indentation).ok()?;
-        if begin.is_separated {
-            body.move_to(Move::ToSeparation).ok()?;
+    /// Creates a separated body. The force curve of each stage is computed at `samples` points.
+    pub fn new(contact: &Contact, samples: usize) -> Self {
+        ManualBody {
+            start: Body::new(contact, samples),
+            reach: Reach::of(contact),
+            records: Vec::new(),
+            kept: Vec::new(),
         }
-        Some(ManualBody {
-            body,
-            travel: ManualPath {
-                loading: begin.loading,
-                ..ManualPath::default()
-            },
-            step: begin.step,
-            reach: Reach::of(leg.contact()),
-            direction: begin.direction,
-        })
+    }
+
+    pub fn records(&self) -> &[LegRecord] {
+        &self.records
     }
 
     pub fn point(&self) -> CurvePoint {
-        self.body.point()
+        self.present().point()
     }
 
     pub fn leg(&self) -> Leg {
-        self.body.leg()
+        self.present().leg()
     }
 
-    /// Returns the path along which the body has moved since this function was last called.
-    pub fn travel(&mut self) -> ManualPath {
-        let further = ManualPath {
-            released_energy: self.travel.released_energy,
-            loading: self.travel.loading.clone(),
-            ..ManualPath::default()
-        };
-        std::mem::replace(&mut self.travel, further)
+    fn present(&self) -> &Body {
+        self.kept.last().map_or(&self.start, |kept| &kept.body)
     }
 
-    /// Moves the body by a manual move. If the move is refused, the body stays where it is.
-    pub fn follow(&mut self, order: ManualMove) {
-        let from = self.body.point();
-        let target = match order {
-            ManualMove::Take { .. } => return,
-            // The target has few digits, because the path may become the loading of the scene.
-            ManualMove::To(indentation) => Move::ToIndentation(round_to(indentation, 10)),
-            ManualMove::By(distance) => {
-                Move::ToIndentation(round_to(from.indentation + distance, 10))
+    /// Moves the body along these stages, beginning at separation. Stages that the body has followed
+    /// already are not computed again. Returns the reason if the contact cannot follow a stage; the
+    /// body then stays at the end of the stage before.
+    ///
+    /// # Errors
+    /// Returns an error if `stop` returns true between two stages.
+    pub fn follow(
+        &mut self,
+        stages: &[Move],
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<String>, ContactError> {
+        let followed = self.records.iter().zip(stages);
+        let same = followed
+            .take_while(|(record, stage)| record.target == **stage)
+            .count();
+        if let Err(why) = self.go_back(same) {
+            // There is not enough memory to follow the earlier stages again.
+            self.records.clear();
+            self.kept.clear();
+            return Ok(Some(why.to_string()));
+        }
+        for &stage in &stages[same..] {
+            if stop() {
+                return Err(ContactError::Interrupted);
             }
-            ManualMove::ToForce(force) => Move::ToForce(force),
-            ManualMove::Separate => Move::ToSeparation,
-        };
-        self.travel.refused = self.go(from, target).err();
+            if let Err(why) = self.advance(stage) {
+                return Ok(Some(why));
+            }
+        }
+        Ok(None)
     }
 
-    /// Moves the body to a target, or returns the reason why the move is refused.
-    fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
-        if let Some(why) = self.reach.refusal(target) {
-            return Err(why);
+    /// Moves the body to the target of one stage, or returns the reason why it cannot get there.
+    fn advance(&mut self, target: Move) -> Result<(), String> {
+        if let Some(beyond) = self.reach.beyond(target) {
+            let found = format_quantity(beyond.found, beyond.unit);
+            let full_contact = format_quantity(beyond.full_contact, beyond.unit);
+            return Err(format!("{found} is far beyond full contact at {full_contact}"));
         }
-        let moved = self.body.move_to(target);
-        let moved = moved.map_err(|error| error.in_words(target))?;
-        let Some(Motion { leg, low, high, .. }) = moved else {
-            return Ok(());
-        };
-        let to = self.body.point();
-        let distance = to.indentation - from.indentation;
-        let mut path = self.points_between(&leg, from, distance, target)?;
-        path.push(to);
-        // If the direction has not changed, this motion and the last one are one stage, which ends
-        // at the new target.
-        let direction = Some(leg.direction());
-        if self.direction == direction {
-            self.travel.loading.pop();
-        }
-        self.direction = direction;
-        let stage = self.travel.loading.len();
-        self.travel.loading.push(target);
-        for point in path {
-            self.travel.path.push((stage, point));
-        }
-        self.travel.changed += to.springs.abs_diff(from.springs);
-        // If the motion begins or ends without contact, all springs attach or detach. The range of
-        // indentations then has no lower end, so that no spring is left out of the sum.
-        let passes_separation = from.springs == 0 || to.springs == 0;
-        let below = if passes_separation {
-            f64::NEG_INFINITY
-        } else {
-            low
-        };
-        self.travel.released_energy += leg.released_energy(below, high);
+        let mut body = self.present().clone();
+        let record = body.advance(target);
+        let record = record.map_err(|error| error.in_words(target))?;
+        self.records.push(record);
+        self.keep(body);
         Ok(())
     }
 
-    /// Returns the points of the force curve of a motion, without its two ends. `distance` is the
-    /// change of the indentation in m. If the target is separation, the points are `self.step`
-    /// apart.
-    fn points_between(
-        &self,
-        leg: &Leg,
-        from: CurvePoint,
-        distance: f64,
-        target: Move,
-    ) -> Result<Vec<CurvePoint>, String> {
-        let (count, step) = if target == Move::ToSeparation {
-            let count = ((-distance / self.step) as u32).min(MOST_POINTS);
-            (count, -self.step)
-        } else {
-            (POINTS - 1, distance / f64::from(POINTS))
+    /// Keeps the body after the last stage.
+    fn keep(&mut self, body: Body) {
+        self.kept.push(KeptBody {
+            stages: self.records.len(),
+            body,
+        });
+        let bytes = self.kept.iter().map(|kept| kept.body.leg().bytes());
+        let mut bytes: usize = bytes.sum();
+        // The last stage is often replaced by a longer one. Therefore the body before it is always
+        // kept.
+        while bytes > BYTES_KEPT && self.kept.len() > 2 {
+            let oldest = self.kept.remove(0);
+            bytes -= oldest.body.leg().bytes();
+        }
+    }
+
+    /// Moves the body back to its state after the first `count` stages.
+    fn go_back(&mut self, count: usize) -> Result<(), ContactError> {
+        if count == self.records.len() {
+            return Ok(());
+        }
+        let body = self.body_after(count)?;
+        self.records.truncate(count);
+        self.kept.retain(|kept| kept.stages < count);
+        if count > 0 {
+            self.keep(body);
+        }
+        Ok(())
+    }
+
+    /// Returns the leg of the stage with this index, counted from 0.
+    pub fn leg_of(&self, stage: usize) -> Result<Leg, ContactError> {
+        Ok(self.body_after(stage + 1)?.leg())
+    }
+
+    /// Returns the body after the first `count` stages. If it is not kept, it is moved there again
+    /// from the last kept state before.
+    fn body_after(&self, count: usize) -> Result<Body, ContactError> {
+        let mut earlier = self.kept.iter().rev();
+        let kept = earlier.find(|kept| kept.stages <= count);
+        let (mut body, from) = match kept {
+            Some(kept) => (kept.body.clone(), kept.stages),
+            None => (self.start.clone(), 0),
         };
-        let mut indentations = Vec::new();
-        for number in 1..=count {
-            indentations.push(from.indentation + step * f64::from(number));
+        for record in self.records.iter().take(count).skip(from) {
+            body.advance(record.target)?;
         }
-        indentations.sort_by(f64::total_cmp);
-        let mut points = leg
-            .curve(&indentations)
-            .map_err(|error| error.to_string())?;
-        if distance < 0.0 {
-            points.reverse();
-        }
-        Ok(points)
+        Ok(body)
     }
 }

@@ -26,6 +26,7 @@ mod input;
 pub mod keys;
 pub mod layout;
 mod manual_body;
+pub mod manual_path;
 pub mod map_state;
 pub mod measured;
 mod mouse;

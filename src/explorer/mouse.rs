@@ -3,12 +3,11 @@
 
 use super::action::{Gesture, Mouse};
 use super::app::App;
-use super::commands::{crosshair, dialogue, edit, map, movement, view};
+use super::commands::{crosshair, dialogue, edit, manual, map, view};
 use super::pane::Pane;
 use super::panel::Under;
 use super::panes::force::indentation_at;
 use super::panes::under;
-use super::request::ManualMove;
 use ratatui::layout::Position;
 
 pub fn act(app: &mut App, mouse: Mouse) {
@@ -28,7 +27,7 @@ pub fn act(app: &mut App, mouse: Mouse) {
         Gesture::Drag if pane != app.view.pane => {}
         gesture => {
             app.view.pane = pane;
-            point(app, here, under, gesture == Gesture::Press)
+            point(app, under, gesture == Gesture::Press)
         }
     }
 }
@@ -53,7 +52,7 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
 
 /// Acts on what is under the mouse in the selected pane. `is_press` is true if the user has pressed
 /// the button, and false if the mouse moves with the button pressed.
-fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
+fn point(app: &mut App, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {
             app.map.moving &= !is_press;
@@ -65,25 +64,15 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
         }
         (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
         // A click only selects the pane. A drag begins manual loading.
-        (Pane::Force, Under::Data(x, _)) if !is_press || app.manual.is_some() => drag(app, here, x),
+        (Pane::Force, Under::Data(x, _)) if !is_press || app.edit.path.is_some() => drag(app, x),
         _ => {}
     }
 }
 
 /// Moves the body to the indentation under the mouse. `x` is the number on the horizontal axis
 /// under the mouse.
-fn drag(app: &mut App, here: Position, x: f64) {
-    if indentation_at(app, x).is_none() {
-        return;
-    }
-    // The start of manual loading can change the range of the axis. Therefore it comes first, and
-    // the number under the mouse is read afterwards.
-    if app.manual.is_none() {
-        movement::take(app, None);
-    }
-    if let Some((_, Under::Data(x, _))) = under(app, here)
-        && let Some(indentation) = indentation_at(app, x)
-    {
-        movement::take(app, Some(ManualMove::To(indentation)));
+fn drag(app: &mut App, x: f64) {
+    if let Some(indentation) = indentation_at(app, x) {
+        manual::move_to_indentation(app, indentation);
     }
 }

@@ -33,8 +33,9 @@ pub struct Prompt {
 #[derive(Clone, Debug)]
 pub enum Purpose {
     Value,
-    Force,
-    /// Target of an inverse question: a quantity and the value that the quantity should have.
+    /// Target of the next move of the body.
+    Move,
+    /// Target of an inverse question: a quantity and the value that it is to have.
     Target,
     /// Relative error of the result. The explorer then chooses the number of springs so that the
     /// error is at most this large.

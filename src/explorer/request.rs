@@ -1,54 +1,27 @@
 //! Requests from the explorer to the solver for a state of the contact.
 
+use super::manual_path::ManualPath;
 use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a snapshot, which is the state of the contact in a scene after manual moves. If the
-/// solver has not computed the scene yet, it computes the scene first.
+/// Request for a snapshot: the state of the contact in a scene. If the solver has not solved the
+/// scene yet, it solves the scene first. A request needs nothing from earlier requests, so of all
+/// waiting requests only the newest is answered.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
     pub scene: Arc<CheckedScene>,
-    /// Manual moves since the previous request.
-    pub moves: Vec<ManualMove>,
+    /// Path along which the user has moved the body; `None` without manual loading.
+    pub path: Option<Arc<ManualPath>>,
     pub snapshot: SnapshotRequest,
 }
 
-impl Request {
-    /// Combines this request with an earlier request that the solver has not answered. The combined
-    /// request is for the scene of this request. If both requests are for the same scene, the
-    /// manual moves of the earlier request come first.
-    pub fn after(mut self, mut earlier: Request) -> Request {
-        if earlier.generation == self.generation {
-            earlier.moves.append(&mut self.moves);
-            self.moves = earlier.moves;
-        }
-        self
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ManualMove {
-    /// Begins manual loading. The body starts with the state of the contact at this position of a
-    /// loading stage.
-    Take {
-        leg: usize,
-        at: At,
-    },
-    To(f64),
-    /// Moves the body by this distance in m. A positive distance presses the body further.
-    By(f64),
-    ToForce(f64),
-    Separate,
-}
-
-/// Part of a request that states what the snapshot shows. The snapshot has as many columns as the
-/// panes.
+/// Part of a request that describes the snapshot. The snapshot has as many columns as the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Position of the animation within its loading stage. It has no meaning during manual loading.
+    /// Position of the animation within its loading stage. The end of a path does not use it.
     pub at: At,
     /// Width of the profile pane in columns of dots, of which several may be in one character cell.
     pub profile_columns: usize,
@@ -110,9 +83,13 @@ impl Focus {
     }
 }
 
+/// What moves the body to the state that is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
     /// Loading stage of the scene, given by its index.
     Leg(usize),
+    /// Manual loading: the body is at the end of its path.
     Manual,
+    /// The animation plays the path of manual loading, and is in the stage with this index.
+    Path(usize),
 }

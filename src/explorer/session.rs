@@ -296,7 +296,7 @@ impl Session<'_> {
                     self.due = Instant::now() + self.frame_time;
                 }
             }
-            let playing = self.is_playing();
+            let playing = self.runtime.app.is_playing();
             if !playing {
                 self.moved = Instant::now();
             }
@@ -345,10 +345,6 @@ impl Session<'_> {
         }
     }
 
-    fn is_playing(&self) -> bool {
-        let app = &self.runtime.app;
-        app.play.playing && app.is_current() && app.manual.is_none()
-    }
 
     /// Waits for input or a result, and returns it. Returns `None` if before that a step of the
     /// animation, a frame or a copy of unsaved changes is due.

@@ -2,9 +2,10 @@
 //! its scene (a number that increases whenever the scene changes), and contains only as many
 //! columns as the panes show.
 
-use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
+use super::manual_path::ManualPath;
+use super::request::{Drive, Focus, LineView, SnapshotRequest};
 use asperity_contact::motion::PatchState;
-use asperity_contact::{CurvePoint, Move, Patch};
+use asperity_contact::{CurvePoint, LegRecord, Move, Patch};
 use asperity_report::{LineColumns, Part, Section, SectionContact};
 use asperity_scene::stages::{LineFacts, Reach};
 use asperity_scene::{CheckedScene, Outcome};
@@ -36,9 +37,8 @@ pub struct ContactSnapshot {
     pub close_up: CloseUp,
     /// Values at the crosshair on the profile; `None` if there is no crosshair.
     pub probe: Option<Probe>,
-    /// Path of manual loading up to the state that the snapshot shows; `None` if there is no manual
-    /// loading.
-    pub manual: Option<ManualPath>,
+    /// Path of manual loading; `None` without manual loading.
+    pub followed: Option<Arc<FollowedPath>>,
 }
 
 /// Springs and contact patches of a snapshot. The snapshot does not own the springs, so they are
@@ -118,37 +118,34 @@ pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     }
 }
 
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ManualPath {
-    /// Points added to the force curve since the previous snapshot, each with the index of its
-    /// loading stage.
-    pub path: Vec<(usize, CurvePoint)>,
-    /// Loading from separation to this state. First come the stages of the scene, then the targets
-    /// at which manual loading changed its direction.
-    pub loading: Vec<Move>,
-    /// Number of springs that have attached or detached since the previous snapshot.
-    pub changed: u64,
-    /// Elastic energy in J that has been released since manual loading began.
-    pub released_energy: f64,
-    /// Reason why the last move was refused; `None` if the move was carried out.
-    pub refused: Option<String>,
+/// Path of manual loading, as the body has followed it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowedPath {
+    pub path: Arc<ManualPath>,
+    /// Records of the stages from separation to the present state: first the stages that lead to
+    /// the start of the path, then one stage for each move.
+    pub legs: Vec<LegRecord>,
+    /// Number of stages that lead to the start of the path.
+    pub before: usize,
+    /// Reason why the contact cannot follow the next move; `None` if it has followed all moves.
+    pub stopped: Option<String>,
 }
 
-/// State of manual loading, with its path from the beginning to the present state.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ManualState {
-    /// Points of the force curve under manual loading, the newest last.
-    pub path: Vec<CurvePoint>,
-    /// For each point of `path`, the index of its loading stage.
-    pub stages: Vec<usize>,
-    pub loading: Vec<Move>,
-    /// Number of springs that attached or detached in the last move.
-    pub changed: u64,
-    /// Elastic energy in J that has been released since manual loading began.
-    pub released_energy: f64,
-    pub moves: Vec<ManualMove>,
-    /// Text of the force that the user typed last. The solver may still refuse this force.
-    pub typed: String,
+impl FollowedPath {
+    /// Returns the loading history from separation to the present state.
+    pub fn loading(&self) -> Vec<Move> {
+        self.legs.iter().map(|leg| leg.target).collect()
+    }
+
+    /// Returns the number of moves that the body has followed.
+    pub fn count(&self) -> usize {
+        self.legs.len().saturating_sub(self.before)
+    }
+
+    /// Returns the records of the moves that the body has followed.
+    pub fn moves(&self) -> &[LegRecord] {
+        self.legs.get(self.before..).unwrap_or_default()
+    }
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]

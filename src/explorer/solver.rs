@@ -3,19 +3,20 @@
 //! solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
-use super::manual_body::{ManualBegin, ManualBody};
-use super::player::{At, Player, indentations};
-use super::request::{Drive, ManualMove, Request, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part};
+use super::manual_body::ManualBody;
+use super::manual_path::ManualPath;
+use super::player::{At, Player};
+use super::request::{Drive, Request, SnapshotRequest};
+use super::snapshot::{
+    ContactSnapshot, FollowedPath, Probe, Reply, SolvedScene, SpringsInContact, profile_part,
+};
 use crate::explorer::advice;
 use asperity_contact::motion::Leg;
-use asperity_contact::{ContactError, CurvePoint, Direction, LegRecord, Move};
+use asperity_contact::{ContactError, CurvePoint, LegRecord};
 use asperity_data::Remedied;
 use asperity_report::{LineColumns, SectionContact};
 use asperity_scene::stages::{AfterLeg, Reach};
-use asperity_scene::{
-    CheckedScene, Observer, Outcome, RunError, Simulation, Solver as SceneSolver,
-};
+use asperity_scene::{CheckedScene, Observer, Outcome, RunError, Simulation};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -25,10 +26,6 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 /// Largest memory in bytes for the legs of a scene. Legs beyond this limit are computed again when
 /// the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
-
-/// Number of points on the force curve between the highest and the lowest indentation, if the user
-/// pulls the body off manually.
-const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// Function that computes a scene, as [`Simulation::run`] does.
 pub type Solve = fn(
@@ -55,11 +52,17 @@ struct Newest {
     solved: Option<Arc<SolvedScene>>,
     /// Legs of the loading; `None` for each leg that did not fit into memory.
     legs: Vec<Option<Leg>>,
-    body: Option<ManualBody>,
+    manual: Option<Manual>,
     /// Lowest and highest point of the profile in each column. They are stored, because the next
     /// snapshot usually needs them again.
     profile: LineColumns,
     close_up: LineColumns,
+}
+
+/// Manual loading of the newest scene: the body, and the path that it has followed.
+struct Manual {
+    body: ManualBody,
+    followed: Arc<FollowedPath>,
 }
 
 /// Legs of a loading. Only as many legs are stored as the memory limit allows.
@@ -133,7 +136,7 @@ impl Solver {
         let Request {
             generation,
             scene,
-            moves,
+            path,
             snapshot,
         } = request;
         let is_new = generation != self.newest.generation;
@@ -152,8 +155,17 @@ impl Solver {
                 }),
             }
         }
-        for order in moves {
-            self.follow(order);
+        let followed = match path {
+            Some(path) => self.follow(path),
+            None => {
+                self.newest.manual = None;
+                Ok(())
+            }
+        };
+        if followed.is_err() {
+            // A newer scene is awaited.
+            self.newest.generation = 0;
+            return;
         }
         let shown = self.snapshot(&snapshot).map(Arc::new);
         if is_new && let Some(solved) = self.newest.solved.clone() {
@@ -206,51 +218,56 @@ impl Solver {
         Ok(())
     }
 
-    fn follow(&mut self, order: ManualMove) {
-        match order {
-            ManualMove::Take { leg, at } => self.newest.body = self.take(leg, at),
-            order => {
-                if let Some(body) = &mut self.newest.body {
-                    body.follow(order);
-                }
+    /// Moves the body along a path of manual loading, from separation or, if it has followed the
+    /// beginning of the path already, from there.
+    ///
+    /// # Errors
+    /// Returns an error if the explorer waits for a newer scene.
+    fn follow(&mut self, path: Arc<ManualPath>) -> Result<(), ContactError> {
+        let manual = self.newest.manual.take();
+        let Some(solved) = self.newest.solved.clone() else {
+            return Ok(());
+        };
+        if let Some(manual) = manual {
+            if manual.followed.path == path {
+                self.newest.manual = Some(manual);
+                return Ok(());
             }
+            return self.continue_path(manual.body, &solved, path);
         }
+        let Some(leg) = self.newest.legs.iter().flatten().next() else {
+            return Ok(());
+        };
+        let samples = solved.scene.numerics.samples as usize;
+        let body = ManualBody::new(leg.contact(), samples);
+        self.continue_path(body, &solved, path)
     }
 
-    /// Begins manual loading at a position of a loading stage. Returns `None` if there is no such
-    /// stage, or not enough memory.
-    fn take(&mut self, number: usize, at: At) -> Option<ManualBody> {
-        self.newest.body = None;
-        let solved = self.newest.solved.clone()?;
-        let leg = self.exact_leg(&solved, number)?;
-        let legs = &solved.outcome.history.legs;
-        let player = Player {
-            leg: number,
-            at,
-            playing: false,
+    /// Moves a body on to the end of a path.
+    fn continue_path(
+        &mut self,
+        mut body: ManualBody,
+        solved: &SolvedScene,
+        path: Arc<ManualPath>,
+    ) -> Result<(), ContactError> {
+        let mut stages = path
+            .start
+            .stages(&solved.scene.loading, &solved.outcome.history.legs);
+        let before = stages.len();
+        stages.extend(&path.moves);
+        let stop = || self.awaited.load(Ordering::Relaxed) != solved.generation;
+        let stopped = body.follow(&stages, &stop)?;
+        let followed = FollowedPath {
+            path,
+            legs: body.records().to_vec(),
+            before,
+            stopped,
         };
-        let (low, high) = indentations(legs).unwrap_or_default();
-        let begin = ManualBegin {
-            indentation: player.indentation(legs),
-            is_separated: at == At::End && is_separated(legs.get(number)),
-            step: (high - low) / STEPS_OF_A_PULL,
-            loading: stages_until(&solved, number, at),
-            direction: direction_at(&solved, number, at),
-        };
-        ManualBody::take(&leg, begin)
-    }
-
-    /// Returns a leg of the loading, computed by the exact solver. Manual loading needs such a leg,
-    /// because only the legs of the exact solver can be continued beyond the end of their stage.
-    fn exact_leg(&mut self, solved: &SolvedScene, number: usize) -> Option<Leg> {
-        if solved.scene.numerics.solver == SceneSolver::Exact {
-            return self.leg(number);
-        }
-        let exact = solved
-            .scene
-            .with(|scene| scene.numerics.solver = SceneSolver::Exact)
-            .ok()?;
-        self.leg_of(&exact, number)
+        self.newest.manual = Some(Manual {
+            body,
+            followed: Arc::new(followed),
+        });
+        Ok(())
     }
 
     /// Makes the requested snapshot. Returns `None` if there is no such stage, or if manual loading
@@ -258,14 +275,8 @@ impl Solver {
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let state = match request.drive {
             Drive::Leg(number) => self.state_of_loading(number, request.at)?,
-            Drive::Manual => {
-                let body = self.newest.body.as_ref()?;
-                ShownState {
-                    drive: Drive::Manual,
-                    leg: body.leg(),
-                    point: body.point(),
-                }
-            }
+            Drive::Manual => self.state_at_end_of_path()?,
+            Drive::Path(number) => self.state_on_path(number, request.at)?,
         };
         let ShownState { drive, leg, point } = state;
         let newest = &mut self.newest;
@@ -297,7 +308,10 @@ impl Solver {
             profile: contact.section(part, &mut newest.profile),
             close_up,
             probe,
-            manual: newest.body.as_mut().map(ManualBody::travel),
+            followed: newest
+                .manual
+                .as_ref()
+                .map(|manual| Arc::clone(&manual.followed)),
             springs: SpringsInContact {
                 gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
                 patches,
@@ -305,36 +319,42 @@ impl Solver {
         })
     }
 
-    /// Returns the state of the contact at a position of the animation, and ends manual loading. If
-    /// there is no stage with this number, the nearest stage is used.
+    /// Returns the state of the contact at a position of the animation. If there is no stage with
+    /// this number, the nearest stage is used.
     fn state_of_loading(&mut self, number: usize, at: At) -> Option<ShownState> {
-        self.newest.body = None;
-        let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
-        let player = Player {
-            leg: number,
-            at,
-            playing: false,
-        }
-        .within(legs);
-        let indentation = player.indentation(legs);
-        let record = legs.get(player.leg);
-        // After a separation nothing is in contact, although the animation still shows the
-        // indentation of the last contact. Therefore the end of the curve, and not the indentation,
-        // gives the point.
-        let end = if player.at == At::End && is_separated(record) {
-            record.and_then(|record| record.curve.last().copied())
-        } else {
-            None
-        };
+        let solved = self.newest.solved.clone()?;
+        let legs = &solved.outcome.history.legs;
+        let player = position(legs, number, at);
         let leg = self.leg(player.leg)?;
-        let point = match end {
-            Some(end) => end,
-            None => leg.point(indentation).ok()?,
-        };
         Some(ShownState {
             drive: Drive::Leg(player.leg),
+            point: point_at(&player, legs, &leg)?,
             leg,
-            point,
+        })
+    }
+
+    fn state_at_end_of_path(&self) -> Option<ShownState> {
+        let body = &self.newest.manual.as_ref()?.body;
+        Some(ShownState {
+            drive: Drive::Manual,
+            leg: body.leg(),
+            point: body.point(),
+        })
+    }
+
+    /// Returns the state of the contact at a position of the animation along the path of manual
+    /// loading.
+    fn state_on_path(&self, number: usize, at: At) -> Option<ShownState> {
+        let Manual { body, followed } = self.newest.manual.as_ref()?;
+        if followed.legs.is_empty() {
+            return self.state_at_end_of_path();
+        }
+        let player = position(&followed.legs, number, at);
+        let leg = body.leg_of(player.leg).ok()?;
+        Some(ShownState {
+            drive: Drive::Path(player.leg),
+            point: point_at(&player, &followed.legs, &leg)?,
+            leg,
         })
     }
 
@@ -386,42 +406,26 @@ fn is_separated(leg: Option<&LegRecord>) -> bool {
     }
 }
 
-/// Returns true if the animation has not moved the contact in this stage yet: the animation is at
-/// the start of the stage or, in the first stage, still above first touch.
-fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
-    match at {
-        At::Start => true,
-        At::Indentation(indentation) => number == 0 && indentation <= leg.start(),
-        At::PullOff | At::End => false,
-    }
-}
-
-/// Returns the loading history up to a position of the animation in a loading stage.
-fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
-    let loading = &solved.scene.loading;
-    let mut stages: Vec<Move> = loading.iter().take(number).copied().collect();
-    let Some(leg) = solved.outcome.history.legs.get(number) else {
-        return stages;
+/// Returns the position of an animation over these stages that is nearest to the given position.
+fn position(legs: &[LegRecord], number: usize, at: At) -> Player {
+    let player = Player {
+        leg: number,
+        at,
+        playing: false,
     };
-    if !has_not_begun(leg, number, at) {
-        stages.push(match at {
-            At::Indentation(indentation) => Move::ToIndentation(indentation),
-            At::Start | At::PullOff | At::End => leg.target,
-        });
-    }
-    stages
+    player.within(legs)
 }
 
-/// Returns the direction of the last motion before a position of the animation in a loading stage;
-/// `None` if the first stage has not begun.
-fn direction_at(solved: &SolvedScene, number: usize, at: At) -> Option<Direction> {
-    let legs = &solved.outcome.history.legs;
-    let leg = legs.get(number)?;
-    if has_not_begun(leg, number, at) {
-        let before = legs.get(number.checked_sub(1)?)?;
-        return Some(before.direction);
+/// Returns the point of the force curve at a position of an animation. `leg` is the motion in the
+/// stage of this position.
+fn point_at(player: &Player, legs: &[LegRecord], leg: &Leg) -> Option<CurvePoint> {
+    let record = legs.get(player.leg);
+    // After a separation nothing is in contact, although the animation still shows the indentation
+    // of the last contact. Therefore the end of the curve, and not the indentation, gives the point.
+    if player.at == At::End && is_separated(record) {
+        return record.and_then(|record| record.curve.last().copied());
     }
-    Some(leg.direction)
+    leg.point(player.indentation(legs)).ok()
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {
@@ -467,13 +471,10 @@ impl SolverThread {
     }
 }
 
-/// Answers requests until the explorer ends. If several requests are waiting, they are combined to
-/// one.
+/// Answers requests until the explorer ends. Of all waiting requests, only the newest is answered.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
-        let newest = requests
-            .try_iter()
-            .fold(first, |earlier, later| later.after(earlier));
+        let newest = requests.try_iter().last().unwrap_or(first);
         solver.serve(newest, report);
     }
 }

@@ -5,6 +5,7 @@ use crate::explorer::app::App;
 use crate::explorer::curve_options::OPTIONS;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
+use asperity_contact::Move;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::fields::target_field;
 use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
@@ -73,7 +74,7 @@ pub fn understood(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();
     let quantity = match prompt.purpose {
-        Purpose::Force => typed_force(app, typed)?,
+        Purpose::Move => typed_move(app, typed)?,
         Purpose::Value => typed_value(app, typed)?,
         _ => return None,
     };
@@ -90,11 +91,25 @@ struct Quantity {
     in_words: String,
 }
 
-fn typed_force(app: &App, typed: &str) -> Option<Quantity> {
-    let force = parse_quantity(&in_unit(typed, &unit_of_force(app)), "N").ok()?;
+/// Reads the typed target of a move of the body. A number without a unit is a force, in units of
+/// F_a,max if the force curve shows these. `None` if the text is no target.
+pub fn target(app: &App, typed: &str) -> Option<Move> {
+    let typed = typed.trim();
+    if app.is_normalised()
+        && let Some(ideal) = app.ideal_adhesion_force()
+        && let Ok(share) = parse_quantity(typed, "1")
+    {
+        return Some(Move::ToForce(share * ideal));
+    }
+    read_stage(&in_unit(typed, &unit_of_force(app)), None).ok()
+}
+
+fn typed_move(app: &App, typed: &str) -> Option<Quantity> {
+    let target = target(app, typed)?;
+    let (field, _) = target_field(target)?;
     Some(Quantity {
-        unit: "N",
-        in_words: format_quantity(force, "N"),
+        unit: field.unit,
+        in_words: loading_text(&[target], format_quantity),
     })
 }
 

@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// state of the contact, a request to the solver is one of these tasks.
 pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
-    if app.asked.is_some_and(|asked| asked != awaited(app)) {
+    if app.asked.is_some() && app.asked != Some(awaited(app)) {
         app.effects.push(Task::Ask);
     }
     std::mem::take(&mut app.effects)
@@ -108,29 +108,25 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// Returns the request to the solver for the state of the contact for which the screen waits. The
-/// request takes over the manual moves that the solver has not received yet.
+/// Returns the request for the state for which the screen waits.
 pub fn request(app: &mut App) -> Request {
-    let moves = match &mut app.manual {
-        Some(manual) => std::mem::take(&mut manual.moves),
-        None => Vec::new(),
-    };
-    // `moves` are part of this request, so they no longer wait. If the user adds another move
-    // before the answer, the awaited state differs again, and another request follows.
-    app.asked = Some(awaited(app));
+    let wanted = awaited(app);
+    app.asked = Some(wanted.clone());
     Request {
-        generation: app.edit.generation,
+        generation: wanted.generation,
         scene: Arc::clone(&app.edit.scene),
-        moves,
-        snapshot: snapshot_request(app),
+        path: wanted.path,
+        snapshot: wanted.snapshot,
     }
 }
 
-/// Returns the state for which the screen waits: the generation of the scene, the requested
-/// snapshot, and the number of manual moves that wait for the solver.
+/// Returns the state for which the screen waits.
 fn awaited(app: &App) -> Awaited {
-    let moves = app.manual.as_ref().map_or(0, |manual| manual.moves.len());
-    (app.edit.generation, snapshot_request(app), moves)
+    Awaited {
+        generation: app.edit.generation,
+        snapshot: snapshot_request(app),
+        path: app.edit.path.clone(),
+    }
 }
 
 /// Number of columns of dots in a cell.
@@ -140,7 +136,7 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
     SnapshotRequest {
         drive: app.drive(),
-        at: app.play.at,
+        at: app.playhead().at,
         profile_columns: DOTS * layout.profile_cells(),
         profile: app.view.profile,
         close_up_columns: DOTS * layout.close_up_cells(),

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
-use super::commands::stages::with_path;
+use super::commands::manual::with_path;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::{Exported, OPEN_COMMAND};

@@ -9,6 +9,7 @@ mod common {
     pub mod script;
     pub mod study;
 }
+mod path;
 mod random;
 mod screen;
 mod solver;

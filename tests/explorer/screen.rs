@@ -87,7 +87,7 @@ fn pressed(keys: &str) -> Driver {
 
 /// Explorers in every mode and pane.
 fn everywhere() -> Vec<Driver> {
-    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;F;E;o;/ h u;: m a p;d { ];c L a v;N;A;A z;\
+    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;d 1;E;o;/ h u;: m a p;d Shift+Left Right;c L a v;N;A;A z;\
                 Q;Q z;% 1;y;m;m z;i;*;* Tab Right;* v Right;i z";
     let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));

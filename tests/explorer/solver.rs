@@ -3,9 +3,10 @@
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
-use asperity::contact::{ContactError, CurvePoint, Patch};
+use asperity::contact::{ContactError, CurvePoint, Move, Patch};
 use asperity::explorer::player::At;
-use asperity::explorer::request::{Drive, Focus, LineView, ManualMove, Request, SnapshotRequest};
+use asperity::explorer::manual_path::{ManualPath, PathStart};
+use asperity::explorer::request::{Drive, Focus, LineView, Request, SnapshotRequest};
 use asperity::explorer::snapshot::{ContactSnapshot, Reply, SolvedScene};
 use asperity::explorer::solver::{Solve, Solver, SolverThread, serve};
 use asperity::scene::Simulation;
@@ -78,17 +79,13 @@ impl Served {
         indentation: f64,
         snapshot: SnapshotRequest,
     ) -> Arc<ContactSnapshot> {
-        let moves = vec![ManualMove::Take {
-            leg,
-            at: At::Indentation(indentation),
-        }];
         let snapshot = SnapshotRequest {
-            drive: Drive::Manual,
+            drive: Drive::Leg(leg),
+            at: At::Indentation(indentation),
             ..snapshot
         };
         self.thread.ask(Request {
             snapshot,
-            moves,
             ..self.last.borrow().clone()
         });
         match self.answer() {
@@ -115,7 +112,7 @@ fn compute(generation: u64, document: &Document) -> Request {
     Request {
         generation,
         scene,
-        moves: Vec::new(),
+        path: None,
         snapshot: SNAPSHOT,
     }
 }
@@ -194,19 +191,33 @@ fn of_all_that_wait_only_the_newest_is_done() {
             serve_all(6, requests).is_empty(),
             "a newer scene is awaited"
         );
-        // No manual move is lost, but those of another scene.
-        let moved = |generation, by| Request {
-            moves: vec![ManualMove::By(by)],
-            ..compute(generation, &rough())
+        // A request has the whole path, so no move is lost with the requests that are left out.
+        let moved = |count: usize| {
+            let start = PathStart {
+                leg: 0,
+                at: At::End,
+            };
+            let moves = [Move::ToForce(1.0e-5), Move::ToForce(1.5e-5)];
+            let path = ManualPath {
+                start,
+                moves: moves[..count].to_vec(),
+            };
+            Request {
+                path: Some(Arc::new(path)),
+                snapshot: SnapshotRequest {
+                    drive: Drive::Manual,
+                    ..SNAPSHOT
+                },
+                ..compute(1, &rough())
+            }
         };
-        assert_eq!(
-            moved(1, 2.0).after(moved(1, 1.0)).moves,
-            [ManualMove::By(1.0), ManualMove::By(2.0)]
-        );
-        assert_eq!(
-            moved(2, 2.0).after(moved(1, 1.0)).moves,
-            [ManualMove::By(2.0)]
-        );
+        let reports = serve_all(1, vec![moved(0), moved(1), moved(2)]);
+        let Some(Reply::Solved(_, Some(shown))) = reports.last() else {
+            panic!("not computed: {reports:?}")
+        };
+        let followed = shown.followed.as_ref().unwrap();
+        assert_eq!((followed.before, followed.count()), (1, 2));
+        assert_eq!(followed.stopped, None);
     });
 }
 

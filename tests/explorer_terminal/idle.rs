@@ -55,11 +55,9 @@ fn nothing_happens_while_nothing_happens() {
     terminal.send("?");
     terminal.wait_without("What you see");
     // With manual loading.
-    terminal.send("}}}");
+    terminal.send("dLL");
     terminal.wait_for("manual loading");
     assert_idle(&mut terminal);
-    terminal.send("d");
-    terminal.wait_without("manual loading");
     // While a scene is chosen, with its curve beside.
     terminal.send("o");
     terminal.wait_for("built-in");
@@ -70,11 +68,13 @@ fn nothing_happens_while_nothing_happens() {
     terminal.send("\x1b");
     terminal.wait_without("Search:");
     // While a text is typed.
-    terminal.send("F1");
+    terminal.send("1");
     terminal.wait_for("): 1");
     assert_idle(&mut terminal);
     terminal.send("\x1b");
-    terminal.wait_without("Go to the force");
+    terminal.wait_without("Press or pull to");
+    terminal.send("\x1b");
+    terminal.wait_without("manual loading");
     // Played to its end the animation stops by itself: to the last leg, near its end, and on.
     terminal.send(">");
     terminal.settle();

@@ -76,9 +76,10 @@ fn a_held_key_does_not_flood_a_slow_line() {
     let mut terminal = remote();
     let (start, first) = (terminal.written().len(), terminal.frames().len());
     let begun = Instant::now();
+    terminal.send("d");
     // As from a keyboard that repeats a held key: thirty in a second, for three seconds.
     for key in 1..=90 {
-        terminal.send("]");
+        terminal.send("l");
         terminal.take_until(begun + Duration::from_secs(key) / 30);
     }
     let frames = terminal.frames().len() - first;

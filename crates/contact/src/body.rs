@@ -31,6 +31,7 @@ use std::time::{Duration, Instant};
 /// assert!((body.point().force / 1.0e-5 - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
+#[derive(Clone)]
 pub struct Body {
     leg: Leg,
     state: ContactState,

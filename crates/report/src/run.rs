@@ -6,8 +6,8 @@ use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
 use crate::summary::Summary;
 use crate::warnings::warning_texts;
-use asperity_contact::{CurvePoint, Move, Patch, Work};
-use asperity_data::{Table, TableOf, Warning, Wording};
+use asperity_contact::{CurvePoint, LegRecord, Move, Patch, Work};
+use asperity_data::{Table, Warning, Wording};
 use asperity_plot::Figure;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::instrument::displacements;
@@ -73,31 +73,10 @@ impl Report for RunReport<'_> {
         Some(Box::new(RunJson::new(self)))
     }
 
-    /// Returns the force curve as a table. If the scene has an instrument, the table also has the
-    /// displacement of the instrument.
     fn table(&self) -> Option<Table<'_>> {
-        let stiffness = self
-            .outcome
-            .instrument
-            .map(|instrument| instrument.stiffness);
-        let legs = || self.outcome.history.legs.iter().zip(0_u64..);
-        let table = curve(move || {
-            legs().flat_map(move |(leg, stage)| {
-                let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
-                leg.curve
-                    .iter()
-                    .zip(displacements)
-                    .map(move |(point, displacement)| CurveRow {
-                        stage,
-                        point,
-                        displacement,
-                    })
-            })
-        });
-        if stiffness.is_none() {
-            return Some(table.done());
-        }
-        Some(table.real("displacement", |row| row.displacement).done())
+        let instrument = self.outcome.instrument;
+        let stiffness = instrument.map(|instrument| instrument.stiffness);
+        Some(table_of_curve(&self.outcome.history.legs, stiffness))
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -261,47 +240,35 @@ impl<'a> HistogramJson<'a> {
 /// Report on a force curve along which the user moved the body by hand in the explorer.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Scene of the body. [`Self::loading`] takes the place of the loading in this scene.
+    /// Scene of the body. The stages of the path take the place of the loading in this scene.
     pub scene: &'a Scene,
-    /// Stages of the manual loading, beginning at separation.
-    pub loading: &'a [Move],
-    /// Points of the force curve along the stages of [`Self::loading`].
-    pub path: &'a [CurvePoint],
-    /// For each point of [`Self::path`], the index in [`Self::loading`] of the stage on which the
-    /// point lies.
-    pub stages: &'a [usize],
+    /// Records of the stages of the path, beginning at separation.
+    pub legs: &'a [LegRecord],
 }
 
 #[derive(Serialize)]
 struct PathJson<'a> {
     scene: Scene,
-    loading: &'a [Move],
+    loading: Vec<Move>,
     curve: Option<Table<'a>>,
 }
 
 impl Report for PathReport<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let loading: Vec<Move> = self.legs.iter().map(|leg| leg.target).collect();
         let scene = Scene {
-            loading: self.loading.to_vec(),
+            loading: loading.clone(),
             ..self.scene.clone()
         };
         Some(Box::new(PathJson {
             scene,
-            loading: self.loading,
+            loading,
             curve: self.table(),
         }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let table = curve(|| {
-            let points = self.stages.iter().zip(self.path);
-            points.map(|(stage, point)| CurveRow {
-                stage: *stage as u64,
-                point,
-                displacement: point.indentation,
-            })
-        });
-        Some(table.done())
+        Some(table_of_curve(self.legs, self.scene.loading_stiffness))
     }
 }
 
@@ -314,18 +281,32 @@ struct CurveRow<'a> {
     displacement: f64,
 }
 
-/// Begins the table of a force curve in SI units. Each row has a point of the curve and the index
-/// of its loading stage.
-fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
-    rows: impl Fn() -> I + 'a,
-) -> TableOf<'a, CurveRow<'a>> {
-    Table::of(rows)
+/// Returns the table of a force curve in SI units. Each row has a point of the curve and the index
+/// of its loading stage. `stiffness` is the stiffness of the instrument in N/m. If it is not `None`,
+/// the table also has the displacement of the instrument.
+fn table_of_curve(legs: &[LegRecord], stiffness: Option<f64>) -> Table<'_> {
+    let table = Table::of(move || curve_rows(legs, stiffness.unwrap_or(f64::INFINITY)))
         .whole("leg", |row| row.stage)
         .real("indentation", |row| row.point.indentation)
         .real("force", |row| row.point.force)
         .real("contact_length", |row| row.point.contact_length)
         .whole("fragments", |row| row.point.fragments)
-        .real("stored_energy", |row| row.point.stored_energy)
+        .real("stored_energy", |row| row.point.stored_energy);
+    if stiffness.is_none() {
+        return table.done();
+    }
+    table.real("displacement", |row| row.displacement).done()
+}
+
+fn curve_rows(legs: &[LegRecord], stiffness: f64) -> impl Iterator<Item = CurveRow<'_>> {
+    legs.iter().zip(0_u64..).flat_map(move |(leg, stage)| {
+        let points = leg.curve.iter().zip(displacements(leg, stiffness));
+        points.map(move |(point, displacement)| CurveRow {
+            stage,
+            point,
+            displacement,
+        })
+    })
 }
 
 /// Report on a profile. Its table has a row for each spring, with the position x and the height z

@@ -1,6 +1,6 @@
 //! Commands of prompts, which open, edit, accept and cancel a prompt.
 
-use super::{accuracy, edit, files, measured, movement, target};
+use super::{accuracy, edit, files, manual, measured, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -154,7 +154,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Value if measured::is_option(app) => measured::accept_option(app, typed),
         Purpose::Value => edit::accept_value(app, typed),
         Purpose::Target => target::accept(app, typed),
-        Purpose::Force => movement::accept_force(app, typed),
+        Purpose::Move => manual::accept_target(app, typed),
         Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
         Purpose::Fit => measured::accept_fit(app, typed),
         Purpose::Save { then_quit } => files::save(app, typed_path(typed), *then_quit),

@@ -47,7 +47,13 @@ pub fn open(app: &mut App, document: Document) {
     app.view.profile = LineView::WHOLE;
     // From now on the live map of the scene is shown. The map of a study stays loaded.
     app.map.of_study = false;
-    adopt(app, document);
+    let opened = Edited {
+        document,
+        measured: app.edit.measured.clone(),
+        path: None,
+    };
+    adopt_all(app, opened);
+    app.play_of_path = None;
     app.edit.set_saved();
 }
 
@@ -520,14 +526,19 @@ pub fn replace(app: &mut App, document: Document) {
     after_edit(app);
 }
 
-/// Undoes the last edit if `back` is true; otherwise redoes the edit that was undone last. A
+/// Undoes the last edit or move if `back` is true; otherwise redoes the one that was undone last. A
 /// message states what has changed.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
+    let before = app.edit.generation;
     let Some(what) = app.edit.undo(back) else {
         return app.set_done(format!("nothing to {name}"));
     };
-    after_edit(app);
+    app.play_of_path = None;
+    let is_other_scene = app.edit.generation != before;
+    if is_other_scene {
+        after_edit(app);
+    }
     if !matches!(app.message, Some(Message::Done(_))) {
         app.set_done(format!("{name}: {what}"));
     }
@@ -543,8 +554,4 @@ fn after_edit(app: &mut App) {
     let profiles = ensemble_key(&app.edit.scene);
     let preview = app.edit.document.text();
     app.studies.keep(&[&live_map, preview, &profiles]);
-    // Manual loading ends, because it belongs to the profile and the contact before the edit.
-    if app.manual.take().is_some() {
-        app.set_done("the body is back on the scene's loading");
-    }
 }

@@ -6,6 +6,7 @@ pub mod crosshair;
 pub mod dialogue;
 pub mod edit;
 pub mod files;
+pub mod manual;
 pub mod map;
 pub mod measured;
 pub mod movement;

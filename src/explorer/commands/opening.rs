@@ -118,6 +118,7 @@ fn show_measured(
         Edited {
             document,
             measured: Some(measured),
+            ..app.edit.edited()
         },
     );
     match wrong {

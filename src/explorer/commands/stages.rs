@@ -1,10 +1,8 @@
-//! Edits of the loading. They change single stages, or make the manual loading the loading of the
-//! scene.
+//! Edits of the loading of the scene.
 
 use super::{edit, measured};
 use crate::explorer::app::App;
 use crate::explorer::parameters::Setting;
-use crate::explorer::player::{At, Player};
 
 use asperity_contact::Move;
 use asperity_data::round_to;
@@ -221,34 +219,7 @@ fn replaced(document: &Document, loading: &[Move]) -> Stages {
     stages
 }
 
-/// Returns a copy of the scene in which the manual loading is the loading; `None` if there is no
-/// manual loading.
-pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
-    let document = &app.edit.document;
-    let stages = replaced(document, &app.manual.as_ref()?.loading);
-    Some(document.with_stages(&stages))
-}
-
-/// Makes the manual loading the loading of the scene. The body stays where it is.
-pub fn keep_path(app: &mut App) {
-    let document = match with_path(app) {
-        None => return app.set_error("no manual loading; d begins it"),
-        Some(Err(errors)) => return app.set_error(edit::reasons(&errors)),
-        Some(Ok(document)) => document,
-    };
-    let count = document.scene().loading.len();
-    edit::adopt(app, document);
-    app.play = Player {
-        leg: count - 1,
-        at: At::End,
-        playing: false,
-    };
-    let stages = if count == 1 {
-        "1 stage".to_owned()
-    } else {
-        format!("{count} stages")
-    };
-    app.set_done(format!(
-        "the path is the loading of the scene, {stages}; u undoes"
-    ));
+/// Returns the scene with another loading.
+pub fn with_loading(document: &Document, loading: &[Move]) -> Result<Document, SceneErrors> {
+    document.with_stages(&replaced(document, loading))
 }

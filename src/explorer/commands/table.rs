@@ -2,7 +2,7 @@
 //! the list of commands, the configuration, the demo and docs/keys.md all follow from this table.
 
 use super::{
-    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
+    accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages, target,
     view,
 };
 use crate::explorer::action::Task;
@@ -11,7 +11,6 @@ use crate::explorer::keys::bindings::{ANY, Bindings, Context, EXPLORE, KeyComman
 use crate::explorer::keys::key;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::Parameter;
-use crate::explorer::prompt::Purpose;
 use crate::explorer::request::Focus;
 use Run::{Do, Key};
 use crossterm::event::KeyEvent;
@@ -65,22 +64,23 @@ pub fn bindings() -> Bindings {
 /// Returns the keys and rows that the footer shows, the most important first. Neighbouring rows
 /// with the same label are joined.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
-    let is_manual = app.manual.is_some();
+    let is_manual = app.edit.path.is_some();
     app.config.bindings.footer(app.keys(), is_manual, |row| {
         entry_of(row).is_some_and(|entry| !(entry.is_shown)(app))
     })
 }
 
 /// Contexts in which all arrow keys act on the list of parameters. In the other panes, the arrow
-/// keys move the mark on the map, or the crosshair.
+/// keys move the mark on the map, the crosshair, or the body.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
+/// Contexts in which keys other than those for values act on the list of parameters.
+const LISTED: &[Context] = &[Context::Explore, Context::Manual, Context::Parameters];
+const BY_HAND: &[Context] = &[Context::Manual];
 /// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
 /// instead.
-const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
-/// All contexts of panes except that of the list of parameters, because there the characters of
-/// these keys begin a value.
+const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Manual, Context::Parameters];
+/// All contexts of panes except those in which the characters of these keys begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
-const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];
 const MAP_PANE: &[Context] = &[Context::Map];
 const CROSSHAIR: &[Context] = &[Context::Crosshair];
@@ -163,7 +163,7 @@ fn always(_: &App) -> bool {
 }
 
 fn is_manual(app: &App) -> bool {
-    app.manual.is_some()
+    app.edit.path.is_some()
 }
 
 fn is_stage(app: &App) -> bool {
@@ -188,19 +188,16 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
-    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading, or end it", MANUAL).words("minor loop hand by hand"),
-    row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
-    row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
-    row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
-    row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
-    row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).words("minor loop target load").shown_if(is_manual),
-    row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
-    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the manual loading as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
+    row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand from here; again: the path becomes the loading of the scene", MANUAL).words("minor loop manual history keep path"),
+    row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
+    row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
+    row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).shown_if(is_manual),
+    row("Esc", BY_HAND, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
-    row("Home End g G", LIST, "parameter-at-end", Key(edit::go_to_end), "", "select the first or the last parameter", PARAMETERS).unlisted(),
-    row("PageDown PageUp", LIST, "page-parameters", Key(dialogue::page), "", "go down or up a page", PARAMETERS).unlisted(),
+    row("Home End g G", LISTED, "parameter-at-end", Key(edit::go_to_end), "", "select the first or the last parameter", PARAMETERS).unlisted(),
+    row("PageDown PageUp", LISTED, "page-parameters", Key(dialogue::page), "", "go down or up a page", PARAMETERS).unlisted(),
     row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
@@ -209,18 +206,18 @@ static TABLE: &[Entry] = &[
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),
-    row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
-    row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch form, roughness, adhesion or unloading on or off", PARAMETERS).words("effect"),
+    row("f", LISTED, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
+    row("t", LISTED, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch form, roughness, adhesion or unloading on or off", PARAMETERS).words("effect"),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance of F_a, such as 0.1 %, from which the number of springs follows", PARAMETERS).words("accuracy precision error convergence springs"),
     row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
     row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
 
-    row("Insert P", LIST, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
-    row("Delete Backspace", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
-    row("Shift+↑ K", LIST, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
-    row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
-    row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the kind of the stage", STAGES).rank(1).shown_if(is_stage),
+    row("Insert P", LISTED, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
+    row("Delete Backspace", LISTED, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↑ K", LISTED, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↓ J", LISTED, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
+    row("V", LISTED, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the kind of the stage", STAGES).rank(1).shown_if(is_stage),
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).words("ghost overlay keep").rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the scene of the newest ghost", COMPARE),

@@ -108,7 +108,7 @@ impl Demo {
 
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
-        if seconds > 0.0 && self.explorer.app.manual.is_none() {
+        if seconds > 0.0 {
             self.explorer
                 .act(Action::Elapse(Duration::from_secs_f64(seconds)));
         }

@@ -38,9 +38,9 @@ pub const TOUR: &[Cue] = &[
     Do("previous-stage"),
     Wait(0.5),
     Do("toggle-manual"),
-    Repeat(12, 0.25, "pull-coarse"),
-    Repeat(8, 0.25, "press-coarse"),
-    Repeat(8, 0.25, "pull-coarse"),
+    Repeat(12, 0.25, "push Shift+←"),
+    Repeat(8, 0.25, "push Shift+→"),
+    Repeat(8, 0.25, "push Shift+←"),
     Wait(1.0),
     Do("separate"),
     Wait(2.0),
@@ -77,12 +77,11 @@ mod tests {
             Wait(_) | Open(_) | Select(_) | Enter(_) => None,
         });
         let names: Vec<&str> = names.collect();
-        assert!(
-            names.len() > 15
-                && names
-                    .iter()
-                    .all(|name| bindings.named(name, Context::Explore).is_some()),
-            "{names:?}"
-        );
+        let is_known = |name: &&str| {
+            let contexts = [Context::Explore, Context::Manual];
+            let mut commands = contexts.map(|context| bindings.named(name, context)).into_iter();
+            commands.any(|command| command.is_some())
+        };
+        assert!(names.len() > 15 && names.iter().all(is_known), "{names:?}");
     }
 }

@@ -16,7 +16,9 @@ pub enum Context {
     Map,
     /// No prompt is open, and the selected pane shows a crosshair.
     Crosshair,
-    /// No prompt is open, and the list of parameters is selected.
+    /// No prompt, manual loading, and the force curve is selected.
+    Manual,
+    /// No prompt, and the list of parameters is selected.
     Parameters,
     /// A prompt is open that has a line which the user types, but no list.
     Line,
@@ -68,10 +70,11 @@ pub const EXPLORE: &[Context] = &[
     Context::Explore,
     Context::Map,
     Context::Crosshair,
+    Context::Manual,
     Context::Parameters,
 ];
 pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
-pub const MANUAL: &str = "Manual loading";
+pub const MANUAL: &str = "Manual loading, by hand";
 
 impl Row {
     /// Returns true if the configuration may replace the keys of the row. It may not replace keys
@@ -85,11 +88,12 @@ impl Row {
     }
 
     /// Returns true if the list of commands contains the row. Functions that work only in a prompt,
-    /// or only with a crosshair, are not in the list.
+    /// or only with a crosshair or under manual loading, are not in the list.
     fn is_listed(&self) -> bool {
+        const ONLY_THERE: [Context; 2] = [Context::Crosshair, Context::Manual];
         let mut contexts = self.contexts.iter();
         let works_without_prompt =
-            contexts.any(|context| EXPLORE.contains(context) && *context != Context::Crosshair);
+            contexts.any(|context| EXPLORE.contains(context) && !ONLY_THERE.contains(context));
         self.is_listed && works_without_prompt
     }
 

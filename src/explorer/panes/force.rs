@@ -9,10 +9,10 @@ use crate::explorer::command_line::curve_arguments;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
-use crate::explorer::snapshot::ManualState;
+use crate::explorer::snapshot::FollowedPath;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
-use asperity_contact::{CurvePoint, Direction, Mark};
+use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded, grouped, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{
@@ -31,15 +31,15 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| match fit_report(app) {
         Some(report) => report.figure(),
-        None if app.manual.is_none() && !app.ghosts.is_empty() => compared(app),
+        None if app.edit.path.is_none() && !app.ghosts.is_empty() => compared(app),
         None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     },
     report: |app| fit(app).or_else(|| outcome(app)),
     help: &[(
         "Curve",
         "force F over the indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ \
-         present state. Curves with letters are ghosts; dashes show manual loading; dots are a measured curve, with \
-         its residuals below",
+         present state. Curves with letters are ghosts. Under manual loading the path is drawn so, and the loading of \
+         the scene in a weaker colour. Dots are a measured curve, with its residuals below",
     )],
     ..PaneRow::EMPTY
 };
@@ -133,7 +133,7 @@ fn panel(app: &App, size: Size) -> Panel {
 fn names_of_marks(app: &App) -> Vec<Name> {
     const BY_IMPORTANCE: [Mark; 3] = [Mark::PullOff, Mark::Preload, Mark::JumpIn];
     let units = units(app);
-    let mut marks = Mark::all(app.legs());
+    let mut marks = Mark::all(marked_legs(app));
     marks.retain(|(mark, _)| units.shows(*mark));
     marks.sort_by_key(|(mark, _)| {
         let place = BY_IMPORTANCE.iter().position(|listed| listed == mark);
@@ -150,6 +150,15 @@ fn names_of_marks(app: &App) -> Vec<Name> {
         });
     }
     names
+}
+
+/// Returns the loading stages whose marked points are shown: those of the scene or, under manual
+/// loading, the moves of the body.
+fn marked_legs(app: &App) -> &[LegRecord] {
+    match app.former_path() {
+        Some(followed) => followed.moves(),
+        None => app.legs(),
+    }
 }
 
 /// Returns the letters of the ghosts, which are written beside the curves, the newest first.
@@ -207,7 +216,8 @@ fn edge(app: &App) -> Vec<Part> {
 }
 
 /// Returns the shown state as texts, the most important first: indentation d, force F and contact.
-/// Under manual loading, the change by the last move is shown instead of the share of springs in
+/// Under manual loading, the springs that changed in the last move and the energy that the moves
+/// released are shown instead of the share of springs in
 /// contact. E* l is the stiffness of the contact with fixed edges (Popov and Filippov 2012, eq.
 /// (1)). p_m is the mean pressure: the force divided by the area of a circle with the contact
 /// radius.
@@ -221,10 +231,13 @@ fn state(app: &App) -> Vec<String> {
         format!("d {}", format_rounded(point.indentation, 3, "m")),
         format!("F {}", units(app).force_in_words(force)),
     ];
-    match &app.manual {
-        Some(manual) => {
-            let released = format_rounded(manual.released_energy, 2, "J");
-            parts.push(format!("{} changed", counted(manual.changed, "spring")));
+    match app.former_path().map(FollowedPath::moves) {
+        Some(moves) => {
+            let last = moves.last();
+            let changed = last.map_or(0, |last| last.attached + last.detached);
+            let released: f64 = moves.iter().map(|leg| leg.released_energy).sum();
+            let released = format_rounded(released + 0.0, 2, "J");
+            parts.push(format!("{} changed", counted(changed, "spring")));
             parts.push(format!("released {released}"));
         }
         None => {
@@ -397,7 +410,7 @@ fn shown_chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// Returns the chart with the loop, the curves for comparison, the manual force curve, and the
+/// Returns the chart with the loop, the curves for comparison, the path of manual loading, and the
 /// marks. Each curve is drawn over the curves before it.
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
@@ -412,7 +425,7 @@ fn chart(app: &App) -> Option<Chart> {
     }
     loops.extend(app.tried_outcome().map(preview_loop));
     loops.push(present_loop(app, app.outcome()?, measured.is_some()));
-    loops.extend(app.manual.as_ref().map(manual_loop));
+    loops.extend(app.former_path().map(|followed| path_loop(app, followed)));
     let mut chart = loop_chart(&loops, units);
     for layer in &mut chart.layers {
         if layer.name.to_string() == MEASURED {
@@ -523,7 +536,8 @@ fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
 }
 
 /// Returns the loop of the computed scene. If the scene has changed since, its former loop is drawn
-/// in a weaker colour until the new one is computed. A loop over measured points gets a solid line,
+/// in a weaker colour until the new one is computed. Under manual loading it is a reference for the
+/// path of the body. A loop over measured points gets a solid line,
 /// because a line with gaps could not be seen there.
 fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> ForceLoop<'a> {
     let stroke = if is_over_points {
@@ -531,7 +545,14 @@ fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> Fo
     } else {
         None
     };
-    if app.is_current() {
+    if app.edit.path.is_some() {
+        ForceLoop {
+            name: Some("loading of the scene".into()),
+            ink: Some(Ink::Quiet),
+            stroke: Some(Stroke::Sparse),
+            ..unmarked_loop(outcome)
+        }
+    } else if app.is_current() {
         ForceLoop {
             stroke,
             ..ForceLoop::of_outcome(outcome)
@@ -545,12 +566,20 @@ fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> Fo
     }
 }
 
-fn manual_loop(manual: &ManualState) -> ForceLoop<'_> {
-    ForceLoop {
-        name: Some("manual".into()),
-        ink: Some(Ink::Manual),
-        stroke: Some(Stroke::Dashed),
-        ..curve_alone(&manual.path)
+/// Returns the curve of the moves of the body under manual loading. If the scene has changed since,
+/// the former curve is drawn in a weaker colour until the new one is computed.
+fn path_loop<'a>(app: &App, followed: &'a FollowedPath) -> ForceLoop<'a> {
+    let path = ForceLoop::new(followed.moves());
+    let stiffness = stiffness(app).filter(|stiffness| stiffness.is_finite());
+    if app.is_current() {
+        ForceLoop { stiffness, ..path }
+    } else {
+        ForceLoop {
+            stiffness,
+            ink: Some(Ink::Quiet),
+            marks: Vec::new(),
+            ..path
+        }
     }
 }
 

@@ -59,12 +59,10 @@ pub const OPEN_COMMAND: &str = "asperity";
 /// outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let scene = app.edit.document.scene();
-    if let Some(manual) = &app.manual {
+    if app.edit.path.is_some() {
         let report = PathReport {
             scene,
-            loading: &manual.loading,
-            path: &manual.path,
-            stages: &manual.stages,
+            legs: &app.followed()?.legs,
         };
         return Some((OPEN_COMMAND.into(), Box::new(report)));
     }

@@ -123,7 +123,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
             "{pane:?} {places:?}"
         );
         assert_eq!(
-            (driver.app.view.pane, driver.app.manual.is_none()),
+            (driver.app.view.pane, driver.app.edit.path.is_none()),
             (pane, true)
         );
     }

@@ -22,9 +22,8 @@ fn the_tour_shows_what_it_is_to_show() {
             scenes.push(name);
         }
         let shown = [
-            app.manual
-                .as_ref()
-                .is_some_and(|manual| manual.path.len() > 100),
+            app.followed()
+                .is_some_and(|followed| followed.moves().len() == 4),
             !app.ghosts.is_empty(),
             app.view.curve.loss,
             app.is_typing_value(),

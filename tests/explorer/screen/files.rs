@@ -173,7 +173,7 @@ fn profile_and_close_up_come_from_the_springs_at_any_size_of_the_window() {
 #[test]
 fn the_text_is_the_screen_without_the_prompt() {
     for marker in [Marker::Braille, Marker::Ascii] {
-        let mut driver = pressed("c L d { j");
+        let mut driver = pressed("c L d Shift+Left j");
         driver.app.view.appearance.marker = marker;
         driver.perform(vec![Task::Ask]);
         let seen = asperity_plot::screen_text(&driver.screen());
@@ -283,7 +283,7 @@ fn every_pane_is_exported_as_a_figure() {
         driver.app.view.pane = pane;
         is_exported_as_json(&mut driver);
     }
-    is_exported_as_json(&mut pressed("d {"));
+    is_exported_as_json(&mut pressed("d Shift+Left"));
     let mut driver = pressed("");
     driver.app.view.pane = Pane::Spectrum;
     export(&mut driver, Path::new("a.svg"));

@@ -61,7 +61,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         driver.resize(size);
         let area = driver.area(Pane::Force);
         driver.mouse(area.x + 21, area.y + 5, Gesture::Press);
-        assert!(driver.app.manual.is_none(), "a click alone moves nothing");
+        assert!(driver.app.edit.path.is_none(), "a click alone moves nothing");
         for (number, column) in [21, 25, 18, 23].into_iter().enumerate() {
             let (column, row) = (area.x + column, area.y + 5);
             driver.mouse(
@@ -77,7 +77,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
                 indentation_at(&driver.app, axis_number(&driver, column, row)).unwrap()
             });
             let found = driver.point().indentation;
-            assert!(driver.app.manual.is_some());
+            assert!(driver.app.edit.path.is_some());
             // The view may change a little as the path of manual loading grows.
             assert!(
                 (found - wanted).abs() <= next - wanted,
@@ -90,7 +90,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
     let area = driver.area(Pane::Force);
     driver.mouse(area.x + 20, area.y + 5, Gesture::Press);
     driver.mouse(area.x + 21, area.y + 5, Gesture::Drag);
-    assert!(driver.app.manual.is_none() && driver.app.view.pane == Pane::Force);
+    assert!(driver.app.edit.path.is_none() && driver.app.view.pane == Pane::Force);
 }
 
 #[test]

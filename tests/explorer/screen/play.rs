@@ -58,14 +58,14 @@ fn a_key_goes_to_the_pull_off_of_the_loading() {
     {
         let mut driver = Driver::start(document);
         driver.resize(size);
-        driver.press("d ] !");
+        driver.press("d Right Esc !");
         let expected = -driver.outcome().figures.adhesion_force.unwrap();
         let point = driver.point();
         assert!(
             expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9,
             "{point:?}, {expected} N"
         );
-        assert!(driver.app.manual.is_none() && !driver.app.play.playing);
+        assert!(driver.app.edit.path.is_none() && !driver.app.play.playing);
     }
 }
 

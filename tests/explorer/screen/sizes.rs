@@ -81,7 +81,7 @@ fn a_key_changes_the_colours_and_says_so() {
 
 #[test]
 fn no_number_of_the_status_is_cut() {
-    let mut driver = pressed("d {");
+    let mut driver = pressed("d Shift+Left");
     driver.resize((200, 40));
     let whole = driver.status();
     for columns in 12..200 {

@@ -194,10 +194,12 @@ fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
     driver.press("`2e-5, separation` Enter");
     assert_eq!(driver.document().scene().loading, rough().scene().loading);
     // A force of manual loading has the prefix of the loading.
-    driver.press("d F 1 0");
+    driver.press("d 1 0");
     assert!(
-        driver.status().starts_with("Go to the force (µN): 10")
-            && driver.status().contains("→ 10 µN")
+        driver.status().starts_with("Press or pull to (µN, nm): 10")
+            && driver.status().contains("→ 10 µN"),
+        "{}",
+        driver.status()
     );
     driver.press("Enter");
     assert!(

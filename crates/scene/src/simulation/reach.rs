@@ -57,7 +57,8 @@ impl Reach {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
 
-    fn beyond(&self, stage: Move) -> Option<BeyondFullContact> {
+    /// Returns the error of a loading stage that ends beyond the deepest state; otherwise `None`.
+    pub fn beyond(&self, stage: Move) -> Option<BeyondFullContact> {
         let (field, found) = target_field(stage)?;
         let (force, indentation) = self.full_contact;
         let (full_contact, most) = match stage {
