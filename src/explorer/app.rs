@@ -190,7 +190,7 @@ impl App {
     /// Returns the style, such as a colour, that the theme of the user has for a text or a line
     /// with this meaning.
     pub fn style(&self, meaning: Meaning) -> Style {
-        self.view.appearance.theme.style(meaning)
+        self.view.appearance.style(meaning)
     }
 
     pub fn is_typing_value(&self) -> bool {

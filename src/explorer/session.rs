@@ -15,6 +15,7 @@ use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::{autosave, input, terminal};
+use asperity_plot::Colours;
 use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -49,14 +50,16 @@ const MOST_WAITING: usize = 64;
 const DRAINING: Duration = Duration::from_millis(100);
 
 pub struct Options {
-    /// Colours; `None` if the environment determines them.
+    /// Background for which the colours are chosen; `None` if the environment determines it.
     pub theme: Option<Theme>,
+    /// Colours that the terminal can show; `None` if the environment determines them.
+    pub colours: Option<Colours>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
     /// Unsaved changes of another session, with which this session continues. The opened scene is
     /// the first scene in them.
     pub restored: Option<Kept>,
-    /// Configuration. The fields `theme` and `marker` have precedence over it.
+    /// Configuration. The fields `theme`, `colours` and `marker` have precedence over it.
     pub config: Config,
     pub warning: Option<String>,
     /// Folder for copies of unsaved changes; `None` to make no copies.
@@ -68,6 +71,7 @@ impl Options {
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
+            colours: None,
             marker: None,
             restored: None,
             config,
@@ -224,6 +228,10 @@ fn chosen_appearance(options: &Options) -> Appearance {
     let config = &options.config;
     Appearance {
         theme: options.theme.or(config.theme).unwrap_or(environment.theme),
+        colours: options
+            .colours
+            .or(config.colours)
+            .unwrap_or(environment.colours),
         marker: options
             .marker
             .or(config.markers)

@@ -584,7 +584,7 @@ impl Report for FitsReport<'_> {
         let mut layers = Vec::new();
         if !histogram.described.is_empty() {
             let boxes = Shape::Boxes(histogram.described);
-            layers.push(Layer::new("described".into(), Ink::Contact, boxes));
+            layers.push(Layer::new("described".into(), Ink::Series(0), boxes));
         }
         if !histogram.others.is_empty() {
             let boxes = Shape::Boxes(histogram.others);

@@ -8,7 +8,7 @@ use crate::explorer::caption::caption;
 use crate::explorer::command_line::curve_arguments;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
-use crate::explorer::panel::{Body, Panel, meaning};
+use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::ManualState;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
@@ -161,7 +161,7 @@ fn letters_of_ghosts(app: &App) -> Vec<Name> {
         names.push(Name {
             at: places.iter().map(|point| units.place(point)).collect(),
             texts: vec![letter(number)],
-            ink: Ink::Compared(number),
+            ink: Ink::Compared,
         });
     }
     names
@@ -178,11 +178,7 @@ fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
     for (number, ghost) in app.ghosts.iter().enumerate().rev().take(most) {
         let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
-        let style = app
-            .view
-            .appearance
-            .theme
-            .style(meaning(Ink::Compared(number)));
+        let style = app.view.appearance.palette().ink(Ink::Compared);
         lines.push(Line::styled(line, style));
     }
     lines
@@ -194,7 +190,7 @@ fn edge(app: &App) -> Vec<Part> {
     if let Some(share) = app.adhesion_share_in_words() {
         parts.push(vec![Text::raw(share)]);
     }
-    let cursor = app.view.appearance.theme.style(Meaning::Cursor);
+    let cursor = app.view.appearance.style(Meaning::Cursor);
     for (number, text) in state(app).into_iter().enumerate() {
         let mut part = Vec::new();
         if number == 0 {
@@ -390,7 +386,7 @@ fn shown_chart(app: &App) -> Option<Chart> {
         chart.layers.push(Layer::unnamed(Ink::Cursor, mark));
     }
     for layer in &mut chart.layers {
-        if matches!(layer.ink, Ink::Text | Ink::Compared(_)) {
+        if matches!(layer.ink, Ink::Text | Ink::Compared) {
             layer.name = Label::default();
         }
     }
@@ -507,8 +503,8 @@ fn ghost_loop<'a>(app: &App, number: usize, ghost: &'a Ghost) -> ForceLoop<'a> {
     let name = format!("{}: {}", letter(number), differences(app, ghost));
     ForceLoop {
         name: Some(Label::plain(&name)),
-        ink: Some(Ink::Compared(number)),
-        stroke: Some(Stroke::Sparse),
+        ink: Some(Ink::Compared),
+        stroke: Some(Stroke::Dashed),
         ..unmarked_loop(&ghost.outcome)
     }
 }
@@ -517,7 +513,7 @@ fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
     ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
-        stroke: Some(Stroke::Dashed),
+        stroke: Some(Stroke::DashDotted),
         ..unmarked_loop(outcome)
     }
 }
@@ -545,12 +541,29 @@ fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> Fo
     }
 }
 
+/// Returns the path of manual loading. Each of its stages has the colour of its direction.
 fn manual_loop(manual: &ManualState) -> ForceLoop<'_> {
+    let mut curves = Vec::new();
+    let mut first = 0;
+    for stage in manual.stages.chunk_by(|stage, next| stage == next) {
+        let end = first + stage.len();
+        // A stage begins where the stage before it has ended.
+        let points = &manual.path[first.saturating_sub(1)..end];
+        first = end;
+        if let [from, .., to] = points {
+            let direction = if to.indentation > from.indentation {
+                Direction::Loading
+            } else {
+                Direction::Unloading
+            };
+            curves.push((direction, points));
+        }
+    }
     ForceLoop {
         name: Some("manual".into()),
-        ink: Some(Ink::Manual),
         stroke: Some(Stroke::Dashed),
-        ..curve_alone(&manual.path)
+        curves,
+        ..ForceLoop::new(&[])
     }
 }
 
