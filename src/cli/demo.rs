@@ -8,9 +8,9 @@ use crate::explorer::demo::Demo;
 use crate::explorer::demo::script::{ONE_SCENE, TOUR};
 use crate::explorer::demo::watch::play;
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::writing::{picture_of, screenshot};
+use crate::explorer::writing::{screenshot, text_of};
 use asperity_data::write_new;
-use asperity_plot::screen_text;
+use asperity_plot::Colours;
 use asperity_scene::library::open_argument;
 use asperity_scene::presets;
 use clap::Args;
@@ -48,11 +48,16 @@ pub struct DemoArguments {
     /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
-    /// Colours
+    /// Background for which colours are chosen
     ///
-    /// Default: dark for a picture, else chosen from NO_COLOR and COLORFGBG.
+    /// Default: dark for a picture, else chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
+    /// Colours that the terminal can show
+    ///
+    /// Default: truecolor for a picture, else chosen from NO_COLOR, COLORTERM and TERM.
+    #[arg(long, value_enum)]
+    pub colours: Option<Colours>,
     /// Print only the frame at this time
     #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
@@ -109,6 +114,11 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         } else {
             environment.theme
         }),
+        colours: arguments.colours.unwrap_or(if arguments.output.is_some() {
+            Colours::TrueColour
+        } else {
+            environment.colours
+        }),
         marker: arguments.marker.unwrap_or(environment.marker),
     };
     let of_terminal = if watched {
@@ -127,7 +137,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
             Some(file) => Ok(write_new(file, arguments.force, |out| {
                 out.write_all(screenshot(app).as_bytes())
             })?),
-            None => Ok(stdout_.write_all(screen_text(&picture_of(app)).as_bytes())?),
+            None => Ok(stdout_.write_all(text_of(app).as_bytes())?),
         };
     }
     if watched {
@@ -135,7 +145,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;
-        stdout_.write_all(screen_text(&picture_of(demo.app())).as_bytes())?;
+        stdout_.write_all(text_of(demo.app()).as_bytes())?;
     }
     Ok(())
 }

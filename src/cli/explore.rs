@@ -16,6 +16,7 @@ use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::view;
 use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
+use asperity_plot::Colours;
 use asperity_report::brief_summary;
 use asperity_scene::Simulation;
 use asperity_scene::text::{nearest, quoted};
@@ -60,11 +61,16 @@ pub struct ExploreArguments {
 /// Colours and markers of the explorer, and its configuration.
 #[derive(Args, Debug)]
 pub struct LookArguments {
-    /// Colours
+    /// Background for which colours are chosen
     ///
-    /// Default: chosen from NO_COLOR and COLORFGBG.
+    /// Default: chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
+    /// Colours that the terminal can show
+    ///
+    /// Default: chosen from NO_COLOR, COLORTERM and TERM.
+    #[arg(long, value_enum)]
+    pub colours: Option<Colours>,
     /// Marker of plots
     ///
     /// Default: braille.
@@ -101,6 +107,7 @@ impl LookArguments {
         };
         Ok(Options {
             theme: self.theme,
+            colours: self.colours,
             marker: self.marker,
             warning,
             ..Options::new(config)

@@ -2,8 +2,9 @@
 
 use super::error::CliError;
 use super::typed::TYPED;
+use crate::explorer::theme::Appearance;
 use asperity_data::{check_writable, parse_quantity, path_name, write_new};
-use asperity_plot::{Colours, Figure, figure_text};
+use asperity_plot::{Figure, Palette, figure_text};
 use asperity_report::{
     Format, Report, alternatives, check_extension, entries, files_provenance, parameter_lines,
     scene_provenance, scenes_provenance,
@@ -350,24 +351,10 @@ fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
     let columns = size.map_or(COLUMNS, |(columns, _)| usize::from(columns));
-    figure_text(
-        figure,
-        columns,
-        if terminal { colours() } else { Colours::None },
-    )
-}
-
-fn variable(name: &str) -> String {
-    std::env::var(name).unwrap_or_default()
-}
-
-/// Returns the colours of the terminal, which environment variables state.
-fn colours() -> Colours {
-    if !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb" {
-        Colours::None
-    } else if ["truecolor", "24bit"].contains(&variable("COLORTERM").as_str()) {
-        Colours::All
+    let palette = if terminal {
+        Appearance::of_environment().palette()
     } else {
-        Colours::Palette
-    }
+        Palette::PLAIN
+    };
+    figure_text(figure, columns, palette)
 }

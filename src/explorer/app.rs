@@ -5,11 +5,11 @@ use super::config::Config;
 use super::editor::Editor;
 use super::ghost::Ghost;
 use super::keys::bindings::{Context, KeyCommand};
+use super::manual_path::ManualPath;
 use super::map_state::Live;
 use super::map_state::MapState;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
-use super::manual_path::ManualPath;
 use super::player::{At, Player, indentations};
 use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
@@ -200,7 +200,7 @@ impl App {
     /// Returns the style, such as a colour, of a text or a line with this meaning. The style
     /// follows from the theme that the user has chosen.
     pub fn style(&self, meaning: Meaning) -> Style {
-        self.view.appearance.theme.style(meaning)
+        self.view.appearance.style(meaning)
     }
 
     pub fn is_typing_value(&self) -> bool {

@@ -4,6 +4,7 @@
 use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
 use asperity_data::read_regular_text;
+use asperity_plot::Colours;
 use asperity_scene::library::DEFAULT;
 use asperity_scene::text::{Text, explain, line_column, read_ron};
 use etcetera::{BaseStrategy, choose_base_strategy};
@@ -19,6 +20,7 @@ const LONGEST: usize = 1 << 20;
 pub struct Config {
     version: u32,
     pub theme: Option<Theme>,
+    pub colours: Option<Colours>,
     pub markers: Option<Marker>,
     pub frame_rate: u32,
     /// Speed of the animation. At a speed of 1, a loading stage takes six seconds.
@@ -49,6 +51,7 @@ impl Default for Config {
         Config {
             version: 1,
             theme: None,
+            colours: None,
             markers: None,
             frame_rate: 30,
             speed: 1.0,
@@ -184,6 +187,7 @@ mod tests {
 (
     version: 1,
     theme: Dark,
+    colours: Ansi256,
     markers: Braille,
     frame_rate: 30,
     speed: 1.0,
@@ -197,8 +201,12 @@ mod tests {
     fn what_is_wrong_has_its_line_and_column() {
         let config = parse(FULL).unwrap();
         assert_eq!(
-            (config.theme, config.markers),
-            (Some(Theme::Dark), Some(Marker::Braille))
+            (config.theme, config.colours, config.markers),
+            (
+                Some(Theme::Dark),
+                Some(Colours::Ansi256),
+                Some(Marker::Braille)
+            )
         );
         for (from, to, said) in [
             (
@@ -209,49 +217,54 @@ mod tests {
             (
                 "theme: Dark",
                 "theme: Drak",
-                "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light,",
+                "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light",
+            ),
+            (
+                "colours: Ansi256",
+                "colours: None",
+                "config.ron:5:14: colours = None: allowed: Plain, Ansi16, Ansi256, TrueColour",
             ),
             (
                 "markers: Braille",
                 "marker: Braille",
-                "config.ron:5:5: marker: ",
+                "config.ron:6:5: marker: ",
             ),
             (
                 "frame_rate: 30",
                 "frame_rate: 61",
-                "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60",
+                "config.ron:7:17: frame_rate = 61: allowed: from 1 to 60",
             ),
             (
                 "speed: 1.0",
                 "speed: 0.0",
-                "config.ron:7:12: speed = 0: allowed: from 0.1 to 10",
+                "config.ron:8:12: speed = 0: allowed: from 0.1 to 10",
             ),
             (
                 "speed: 1.0",
                 "speed: NaN",
-                "config.ron:7:12: speed = NaN: allowed",
+                "config.ron:8:12: speed = NaN: allowed",
             ),
             (
                 "toggle-play",
                 "togle-play",
-                "config.ron:10:21: togle-play: there is no such action; did you",
+                "config.ron:11:21: togle-play: there is no such action; did you",
             ),
             (
                 "\"F5\"",
                 "\"Pp\"",
-                "config.ron:10:42: Pp: there is no such key; allowed: one character, Ctrl+c, Shift+Left",
+                "config.ron:11:42: Pp: there is no such key; allowed: one character, Ctrl+c, Shift+Left",
             ),
             (
                 "\"F5\"",
                 "\"r\"",
-                "config.ron:10:42: r: bound to toggle-play and to restart",
+                "config.ron:11:42: r: bound to toggle-play and to restart",
             ),
             (
                 "repeat: false",
                 "repeat: false, repeat: true",
-                "config.ron:8:",
+                "config.ron:9:",
             ),
-            ("    keys", "  ] keys", "config.ron:10:"),
+            ("    keys", "  ] keys", "config.ron:11:"),
         ] {
             let text = FULL.replace(from, to);
             assert_ne!(text, FULL, "{from}");

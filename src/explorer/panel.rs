@@ -5,7 +5,7 @@ use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
 use asperity_data::{format_range, format_rounded};
-use asperity_plot::{CellStyle, Chart, Colours, Ink, Layer, PaneChart, Shape, key, legend};
+use asperity_plot::{Chart, Ink, Layer, PaneChart, Shape, key, legend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -87,7 +87,7 @@ impl Panel {
         if let Some(below) = &mut plot.below {
             below.layers.insert(0, upright(x));
         }
-        let style = look.theme.style(Meaning::Cursor);
+        let style = look.style(Meaning::Cursor);
         let readings = texts
             .into_iter()
             .map(|text| vec![Span::styled(text, style)])
@@ -185,52 +185,25 @@ fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f6
 
 /// Returns the entries of the legend of a chart.
 pub fn entries(chart: &Chart, look: Appearance) -> Vec<Part> {
-    in_theme(look, |style| legend(std::slice::from_ref(chart), style))
+    legend(std::slice::from_ref(chart), look.palette())
 }
 
 /// Returns the label of the vertical axis of a map, and the colour scale of the map with its
 /// numbers. The colour scale is at most `width` columns wide.
 pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
-    let style = look.theme.style(Meaning::Title);
+    let style = look.style(Meaning::Title);
     let label = Span::styled(format!("↑ {}", chart.y.label_with_unit()), style);
     let mut parts = vec![vec![label]];
     if let Some(map) = chart.map() {
         let name = Span::styled(format!("{} ", map.key.label_with_unit()), style);
         let room = width.saturating_sub(name.width());
         let mut scale = vec![name];
-        for (text, _) in key(map, room, Colours::None) {
-            scale.push(Span::raw(text));
+        for (text, style) in key(map, room, look.palette()) {
+            scale.push(Span::styled(text, style));
         }
         parts.push(scale);
     }
     parts
-}
-
-/// Calls `draw` with the styles in which charts are drawn in this appearance.
-pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
-    draw(&CellStyle {
-        ink: &|ink| look.theme.style(meaning(ink)),
-        colours: Colours::None,
-    })
-}
-
-pub fn meaning(ink: Ink) -> Meaning {
-    use Meaning::{Approach, Ghost, Manual, Quiet, Retraction, Surface, Text};
-    match ink {
-        Ink::Text => Meaning::Title,
-        Ink::Quiet => Quiet,
-        Ink::Profile => Meaning::Line,
-        Ink::Surface => Surface,
-        Ink::Contact => Meaning::Contact,
-        Ink::Loading => Approach,
-        Ink::Unloading => Retraction,
-        Ink::Manual => Manual,
-        Ink::Kept => Ghost,
-        // These are colours that the present curve does not use.
-        Ink::Compared(number) => [Surface, Manual, Text, Ghost][number % 4],
-        Ink::Cursor => Meaning::Cursor,
-        Ink::Series(number) => [Retraction, Surface, Manual, Approach, Quiet, Text][number % 6],
-    }
 }
 
 struct Places {
@@ -280,7 +253,7 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
     draw_lines(&panel.foot, foot, buffer);
     match &panel.body {
         Body::Text(text) => {
-            let text = Line::styled(text.clone(), look.theme.style(Meaning::Quiet));
+            let text = Line::styled(text.clone(), look.style(Meaning::Quiet));
             draw_lines(&wrapped(&text, body.width), body, buffer);
         }
         Body::Rows { rows, selected } => {
@@ -296,7 +269,7 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
                 draw_scrollbar(first, hidden, column, look, buffer);
             }
         }
-        Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
+        Body::Chart(plot) => drop(plot.draw(body, look.palette(), buffer)),
     }
     if has_title(area) {
         // The last column of a pane stays blank if another pane is on its right.
@@ -316,7 +289,7 @@ fn draw_scrollbar(
     buffer: &mut Buffer,
 ) {
     let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight)
-        .style(look.theme.style(Meaning::Quiet))
+        .style(look.style(Meaning::Quiet))
         .begin_symbol(None)
         .end_symbol(None)
         .track_symbol(Some("│"))
@@ -352,9 +325,7 @@ fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     // may need an entry in the legend. Therefore the division of the pane is repeated.
     for _ in 0..MOST_ROUNDS {
         let body = Places::within(panel, heading.legend.len(), inner).body;
-        let left_out = in_theme(look, |style| {
-            plot.draw(body, style, &mut Buffer::empty(body))
-        });
+        let left_out = plot.draw(body, look.palette(), &mut Buffer::empty(body));
         let before = entries.len();
         let known = entries.clone();
         entries.extend(left_out.into_iter().filter(|entry| !known.contains(entry)));
@@ -391,9 +362,9 @@ fn title_line(
     is_selected: bool,
     look: Appearance,
 ) -> Line<'static> {
-    let quiet = look.theme.style(Meaning::Quiet);
+    let quiet = look.style(Meaning::Quiet);
     let (mark, style) = if is_selected {
-        ("▸", look.theme.style(Meaning::Title))
+        ("▸", look.style(Meaning::Title))
     } else {
         ("─", quiet)
     };
@@ -492,7 +463,7 @@ mod tests {
     use super::*;
     use crate::explorer::theme::{Marker, Theme};
     use asperity_data::AxisScale;
-    use asperity_plot::{ChartAxis, Span as Range, Stroke};
+    use asperity_plot::{ChartAxis, Colours, Span as Range, Stroke};
 
     #[test]
     fn the_crosshair_reads_curves_and_both_ends_of_bands() {
@@ -525,7 +496,8 @@ mod tests {
         panel.read_at(
             0.25,
             Appearance {
-                theme: Theme::Plain,
+                theme: Theme::Neutral,
+                colours: Colours::Plain,
                 marker: Marker::Braille,
             },
             80,

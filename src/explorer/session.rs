@@ -15,6 +15,7 @@ use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::{autosave, input, terminal};
+use asperity_plot::Colours;
 use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -49,15 +50,16 @@ const MOST_WAITING: usize = 64;
 const DRAINING: Duration = Duration::from_millis(100);
 
 pub struct Options {
-    /// Colours; `None` if the environment determines them.
+    /// Background for which the colours are chosen; `None` if the environment determines it.
     pub theme: Option<Theme>,
+    /// Colours that the terminal can show; `None` if the environment determines them.
+    pub colours: Option<Colours>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
     /// Unsaved changes of another session, with which this session continues. Their first scene is
     /// the scene that is opened.
     pub restored: Option<Kept>,
-    /// Configuration of the explorer. The fields `theme` and `marker` replace the corresponding
-    /// settings.
+    /// Configuration. The fields `theme`, `colours` and `marker` have precedence over it.
     pub config: Config,
     pub warning: Option<String>,
     /// Folder for copies of unsaved changes. If it is `None`, no copies are made.
@@ -69,6 +71,7 @@ impl Options {
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
+            colours: None,
             marker: None,
             restored: None,
             config,
@@ -225,6 +228,10 @@ fn chosen_appearance(options: &Options) -> Appearance {
     let config = &options.config;
     Appearance {
         theme: options.theme.or(config.theme).unwrap_or(environment.theme),
+        colours: options
+            .colours
+            .or(config.colours)
+            .unwrap_or(environment.colours),
         marker: options
             .marker
             .or(config.markers)
@@ -344,7 +351,6 @@ impl Session<'_> {
             _ => self.due,
         }
     }
-
 
     /// Waits for input or a result, and returns it. Returns `None` if before that a step of the
     /// animation, a frame or a copy of unsaved changes is due.

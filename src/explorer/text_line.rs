@@ -1,6 +1,6 @@
 //! A line of text that the user is typing.
 
-use super::theme::{Meaning, Theme};
+use super::theme::{Appearance, Meaning};
 use asperity_data::is_control;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
@@ -116,9 +116,9 @@ impl TextLine {
         format!("{start}…{end}")
     }
 
-    /// Returns the part of the line around the cursor that fits into `columns` columns.
-    pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
-        let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
+    /// Returns the part of the line around the cursor that fits into this number of columns.
+    pub fn spans(&self, columns: usize, look: Appearance) -> Vec<Span<'static>> {
+        let reversed = look.style(Meaning::Text).add_modifier(Modifier::REVERSED);
         if self.selected && !self.text().is_empty() {
             return vec![Span::styled(self.shortened(columns), reversed)];
         }

@@ -1,14 +1,15 @@
-//! Colours and text styles for each kind of content, such as the curve of loading. Different
-//! characters distinguish the kinds too, so that colours are not necessary.
+//! Colours and text styles of the explorer. Characters and bold text distinguish the same things, so
+//! that colours are not necessary. The colours themselves are in the table of [`asperity_plot`].
 
+use asperity_plot::{Background, Colours, Ink, Palette, Role};
 use clap::ValueEnum;
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::{Modifier, Style};
 use serde::{Deserialize, Serialize};
-use std::ffi::OsString;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
     pub theme: Theme,
+    pub colours: Colours,
     pub marker: Marker,
 }
 
@@ -20,8 +21,6 @@ pub enum Theme {
     Dark,
     /// Dark colours for a light background
     Light,
-    /// No colours, only bold, dim and reverse
-    Plain,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -32,15 +31,9 @@ pub enum Marker {
     Ascii,
 }
 
+/// Meaning of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
-    Line,
-    Surface,
-    Contact,
-    Approach,
-    Retraction,
-    Manual,
-    Ghost,
     Cursor,
     /// Frames, axes and less important text.
     Quiet,
@@ -52,22 +45,24 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// Returns the appearance that suits the environment. `NO_COLOR` and `COLORFGBG` determine the
-    /// colours. Plots are drawn in ASCII on the Linux console (`TERM=linux`) and in a locale
-    /// without Unicode (`C`, `POSIX`), because these cannot show Braille characters.
+    /// Returns the appearance that suits the environment. `COLORFGBG` determines the theme, and
+    /// the terminal which colours it has. Plots are drawn in ASCII on the Linux console
+    /// (`TERM=linux`) and in a locale without Unicode (`C`, `POSIX`), because these cannot show
+    /// Braille characters. The Linux console is dark.
     pub fn of_environment() -> Self {
+        let is_console = variable("TERM").is_some_and(|term| term == "linux");
         let theme = match variable("COLORFGBG") {
-            _ if variable("NO_COLOR").is_some() => Theme::Plain,
-            Some(colours) => Theme::on_background(&colours.to_string_lossy()),
+            Some(colours) => Theme::on_background(&colours),
+            None if is_console => Theme::Dark,
             None => Theme::Neutral,
         };
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
             .into_iter()
             .find_map(variable);
         let is_ascii = locale.is_some_and(|locale| locale == "C" || locale == "POSIX");
-        let is_console = variable("TERM").is_some_and(|term| term == "linux");
         Appearance {
             theme,
+            colours: Colours::of_environment(variable),
             marker: if is_ascii || is_console {
                 Marker::Ascii
             } else {
@@ -75,15 +70,50 @@ impl Appearance {
             },
         }
     }
+
+    pub fn palette(self) -> Palette {
+        Palette {
+            colours: self.colours,
+            background: self.theme.background(),
+        }
+    }
+
+    pub fn style(self, meaning: Meaning) -> Style {
+        let palette = self.palette();
+        match meaning {
+            Meaning::Text => palette.style(Role::Text),
+            Meaning::Title => palette.style(Role::Text).add_modifier(Modifier::BOLD),
+            Meaning::Cursor => palette.ink(Ink::Cursor),
+            Meaning::Quiet => palette.style(Role::Quiet),
+            Meaning::Error => palette.style(Role::Error),
+            Meaning::Key => palette.style(Role::Key),
+            Meaning::Selected => match palette.ground(Role::SelectionGround) {
+                Some(ground) => Style::new().bg(ground),
+                None => Style::new().add_modifier(Modifier::REVERSED),
+            },
+        }
+    }
 }
 
 /// Returns the value of an environment variable; `None` if it is missing or empty.
-fn variable(name: &str) -> Option<OsString> {
+pub fn variable(name: &str) -> Option<String> {
     let value = std::env::var_os(name)?;
-    if value.is_empty() { None } else { Some(value) }
+    if value.is_empty() {
+        return None;
+    }
+    Some(value.to_string_lossy().into_owned())
 }
 
 impl Theme {
+    /// Returns the background for which the colours of the theme are chosen.
+    pub fn background(self) -> Background {
+        match self {
+            Theme::Neutral => Background::Unknown,
+            Theme::Dark => Background::Dark,
+            Theme::Light => Background::Light,
+        }
+    }
+
     /// Returns the theme that suits a value of `COLORFGBG`. The last number in this value is the
     /// colour of the background.
     fn on_background(colours: &str) -> Self {
@@ -91,49 +121,6 @@ impl Theme {
             Some(Ok(7 | 9..=15)) => Theme::Light,
             Some(Ok(0..=6 | 8)) => Theme::Dark,
             _ => Theme::Neutral,
-        }
-    }
-
-    pub fn colour(self, meaning: Meaning) -> Color {
-        use Meaning::{
-            Approach, Contact, Cursor, Error, Ghost, Key, Line, Manual, Quiet, Retraction,
-            Selected, Surface, Text, Title,
-        };
-        match (self, meaning) {
-            // In every theme with colours, only the contact is red. Marks and errors have no colour
-            // and are bold instead.
-            (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => {
-                Color::Reset
-            }
-            (Theme::Neutral | Theme::Light, Quiet | Ghost) => Color::DarkGray,
-            (Theme::Dark, Quiet | Ghost) => Color::Gray,
-            (Theme::Neutral | Theme::Light, Surface) => Color::Blue,
-            (Theme::Neutral | Theme::Light, Contact) => Color::Red,
-            (Theme::Neutral | Theme::Light, Approach) => Color::Green,
-            (Theme::Neutral | Theme::Light, Retraction) => Color::Magenta,
-            (Theme::Neutral | Theme::Light, Manual) => Color::Cyan,
-            (Theme::Dark, Surface) => Color::LightBlue,
-            (Theme::Dark, Contact) => Color::LightRed,
-            (Theme::Dark, Approach) => Color::LightGreen,
-            (Theme::Dark, Retraction) => Color::LightMagenta,
-            (Theme::Dark, Manual) => Color::LightYellow,
-        }
-    }
-
-    pub fn style(self, meaning: Meaning) -> Style {
-        let style = Style::new().fg(self.colour(meaning));
-        match meaning {
-            Meaning::Title | Meaning::Key | Meaning::Error | Meaning::Cursor => {
-                style.add_modifier(Modifier::BOLD)
-            }
-            Meaning::Selected => style.add_modifier(Modifier::REVERSED),
-            // Without colours, the surface is dim and the contact bold, so that profile, surface
-            // and contact can be distinguished.
-            Meaning::Quiet | Meaning::Ghost | Meaning::Surface if self == Theme::Plain => {
-                style.add_modifier(Modifier::DIM)
-            }
-            Meaning::Contact if self == Theme::Plain => style.add_modifier(Modifier::BOLD),
-            _ => style,
         }
     }
 }
@@ -166,20 +153,5 @@ mod tests {
         assert_eq!(Theme::on_background("15;0"), Theme::Dark);
         assert_eq!(Theme::on_background("12;default;8"), Theme::Dark);
         assert_eq!(Theme::on_background("default"), Theme::Neutral);
-    }
-
-    #[test]
-    fn every_theme_with_colours_separates_profile_surface_and_contact() {
-        for theme in Theme::value_variants()
-            .iter()
-            .filter(|theme| **theme != Theme::Plain)
-        {
-            let [line, surface, contact] = [Meaning::Line, Meaning::Surface, Meaning::Contact]
-                .map(|meaning| theme.colour(meaning));
-            assert!(
-                line != surface && surface != contact && line != contact,
-                "{theme:?}"
-            );
-        }
     }
 }

@@ -6,11 +6,10 @@ use super::commands::manual::with_path;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::{Exported, OPEN_COMMAND};
-use super::theme::Theme;
 use super::view;
 use crate::explorer::command_line::command_line;
 use asperity_data::{Table, WriteError, write_new_file};
-use asperity_plot::{Figure, Palette, screen_svg, screen_text};
+use asperity_plot::{Colours, Figure, screen_svg, screen_text};
 use asperity_report::{Format, Json, Report, scene_provenance};
 use asperity_scene::Scene;
 use asperity_scene::library::own_folder;
@@ -65,7 +64,7 @@ fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteEr
 fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
     match content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
-        Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
+        Content::Pane(Format::Text) => out.write_all(text_of(app).as_bytes()),
         Content::Pane(format) => write_pane(out, app, path, format),
     }
 }
@@ -151,20 +150,31 @@ fn figure(app: &App) -> Option<Figure> {
 
 /// Returns the screen as an SVG document, with a background that suits the colours.
 pub fn screenshot(app: &App) -> String {
-    let palette = if app.view.appearance.theme == Theme::Light {
-        Palette::LIGHT
-    } else {
-        Palette::DARK
-    };
     let path = Path::new(app.edit.document.name());
     let name = path.file_stem().unwrap_or_default();
     let title = format!("Asperity: {}", name.to_string_lossy());
-    screen_svg(&picture_of(app), &palette, &title)
+    let colours = match app.view.appearance.colours {
+        Colours::Plain => Colours::Plain,
+        // A picture has all colours, whatever the terminal can show.
+        Colours::Ansi16 | Colours::Ansi256 | Colours::TrueColour => Colours::TrueColour,
+    };
+    screen_svg(
+        &picture_of(app, colours),
+        app.view.appearance.palette(),
+        &title,
+    )
 }
 
-/// Returns the screen without prompts and questions. Of the messages, only errors are shown.
-pub fn picture_of(app: &App) -> Buffer {
+/// Returns the screen as text. What colours show on a screen, characters show in the text.
+pub fn text_of(app: &App) -> String {
+    screen_text(&picture_of(app, Colours::Plain))
+}
+
+/// Returns the screen with these colours, without prompts and questions. Of the messages, only
+/// errors are shown.
+fn picture_of(app: &App, colours: Colours) -> Buffer {
     let mut app = app.clone();
+    app.view.appearance.colours = colours;
     app.prompt = None;
     if !matches!(app.message, Some(Message::Error(_))) {
         app.message = None;

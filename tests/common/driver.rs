@@ -13,6 +13,7 @@ use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::scene::Simulation;
 use asperity::scene::stages::Timings;
+use asperity_plot::Colours;
 use asperity_report::SceneSpectra;
 use std::any::Any;
 use std::fs;
@@ -25,6 +26,7 @@ pub const REFUSED: &str = "no such folder/mine.ron";
 /// Appearance of the explorer.
 pub const APPEARANCE: Appearance = Appearance {
     theme: Theme::Neutral,
+    colours: Colours::Ansi16,
     marker: Marker::Braille,
 };
 

@@ -4,8 +4,8 @@
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use asperity::contact::{ContactError, CurvePoint, Move, Patch};
-use asperity::explorer::player::At;
 use asperity::explorer::manual_path::{ManualPath, PathStart};
+use asperity::explorer::player::At;
 use asperity::explorer::request::{Drive, Focus, LineView, Request, SnapshotRequest};
 use asperity::explorer::snapshot::{ContactSnapshot, Reply, SolvedScene};
 use asperity::explorer::solver::{Solve, Solver, SolverThread, serve};

@@ -56,7 +56,7 @@ impl Figure {
     /// let chart = Chart::new(
     ///     axis("indentation", "d", "m"),
     ///     axis("force", "F", "N"),
-    ///     vec![Layer::new("loading".into(), Ink::Loading, line)],
+    ///     vec![Layer::new("loading".into(), Ink::Press, line)],
     /// );
     /// let svg = Figure::of_chart("A straight line", chart).svg();
     /// assert!(svg.starts_with("<svg") && svg.contains("A straight line"));

@@ -1,4 +1,6 @@
-//! Colours of figures and of screens that are saved as pictures.
+//! Meanings of lines and areas, colour scales, and how similar two colours look.
+
+use crate::palette::{Palette, Role};
 
 /// Colour as red, green and blue, each from 0 to 255.
 pub type Rgb = [u8; 3];
@@ -15,42 +17,6 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a figure, or of a screenshot that [`screen_svg`](crate::screen_svg) draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Palette {
-    /// Colour of text and frames.
-    pub foreground: Rgb,
-    /// Colour of the paper or the screen.
-    pub background: Rgb,
-    /// The sixteen ANSI colours of a terminal: black, red, green, yellow, blue, magenta, cyan,
-    /// grey, then the bright variant of each.
-    pub ansi: [Rgb; 16],
-}
-
-impl Palette {
-    /// Light colours on a dark background, which people with red-green colour blindness can
-    /// distinguish.
-    pub const DARK: Palette = Palette {
-        foreground: [0xe1, 0xe6, 0xeb],
-        background: [0x10, 0x15, 0x1b],
-        ansi: rgb([
-            0x10151b, 0xff6b3d, 0x1ab485, 0xf0d655, 0x3b94f5, 0xee97dd, 0x5fd0e6, 0xc4cbd2,
-            0x858f9a, 0xff9370, 0x52d6ac, 0xf7e486, 0x7ab8ff, 0xf5c4ea, 0x96e4f2, 0xffffff,
-        ]),
-    };
-
-    /// Dark colours on a white background, which people with red-green colour blindness can
-    /// distinguish.
-    pub const LIGHT: Palette = Palette {
-        foreground: [0x1b, 0x20, 0x26],
-        background: [0xff, 0xff, 0xff],
-        ansi: rgb([
-            0x1b2026, 0xcc3f00, 0x00805e, 0x7d6300, 0x005cc2, 0x8e2a7c, 0x007088, 0x525c66,
-            0x6a747e, 0xb33800, 0x006b4f, 0x695300, 0x004b9e, 0x751f66, 0x005c70, 0xffffff,
-        ]),
-    };
-}
-
 /// Meaning of a line, an area or a text in a chart. For example, `Loading` marks the curve of a
 /// loading. The meaning determines the colour, which depends on the output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -63,45 +29,52 @@ pub enum Ink {
     Profile,
     /// The surface of the elastic body.
     Surface,
-    /// The springs that are in contact.
+    /// Springs in contact, and patches of them.
     Contact,
-    /// Curves of loading stages.
-    Loading,
-    /// Curves of unloading stages.
-    Unloading,
-    /// Force curve of a motion by hand: in the explorer, the user moves the body along this curve.
-    Manual,
+    /// Loading stages, and springs that are pressed.
+    Press,
+    /// Unloading stages, and springs that are pulled.
+    Pull,
+    /// Area inside a loop: the dissipated energy.
+    Loop,
     /// Earlier curve that stays in the background, so that it can be compared with the present
     /// curve.
     Kept,
-    /// One of several curves that the user keeps for comparison. The value is the index of this
-    /// curve among them, from 0.
-    Compared(usize),
-    /// The state of the contact that the user selected with the cursor.
+    /// Curve that the user keeps for comparison. Letters distinguish several of these curves.
+    Compared,
+    /// State of the contact that the user selected with the cursor.
     Cursor,
     /// One of several curves in a figure. The value is the index of this curve, from 0.
     Series(usize),
 }
 
 impl Ink {
+    /// Returns the role that determines the colour of the ink.
+    pub fn role(self) -> Role {
+        /// Colours of the curves of a figure. Neighbouring colours differ in lightness, so that
+        /// they can be distinguished in a print without colours.
+        const SERIES: [Role; 5] = [
+            Role::Pull,
+            Role::Press,
+            Role::Text,
+            Role::Accent,
+            Role::Quiet,
+        ];
+        match self {
+            Ink::Text | Ink::Cursor => Role::Text,
+            Ink::Quiet | Ink::Profile | Ink::Kept | Ink::Compared => Role::Quiet,
+            Ink::Surface => Role::Zero,
+            Ink::Contact => Role::Accent,
+            Ink::Press => Role::Press,
+            Ink::Pull => Role::Pull,
+            Ink::Loop => Role::LoopGround,
+            Ink::Series(number) => SERIES[number % SERIES.len()],
+        }
+    }
+
     /// Returns the colour of the ink in a figure with a white background.
     pub fn on_paper(self) -> Rgb {
-        let Palette {
-            foreground, ansi, ..
-        } = Palette::LIGHT;
-        match self {
-            Ink::Text | Ink::Profile => foreground,
-            Ink::Quiet | Ink::Kept => ansi[8],
-            Ink::Surface => ansi[4],
-            Ink::Contact | Ink::Cursor => ansi[1],
-            Ink::Loading => ansi[2],
-            Ink::Unloading => ansi[5],
-            Ink::Manual => ansi[6],
-            Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
-            // Blue, red, black, green, magenta. Neighbouring colours differ in lightness, so that
-            // they can be distinguished in a print without colours.
-            Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
-        }
+        Palette::LIGHT.rgb(self.role())
     }
 }
 
@@ -179,6 +152,53 @@ pub(super) fn ink_on(colour: Rgb) -> Rgb {
     } else {
         [255; 3]
     }
+}
+
+/// Returns the share of the light of a channel, from 0 to 1, that a screen emits for its number
+/// (sRGB, IEC 61966-2-1).
+pub(crate) fn light(channel: u8) -> f64 {
+    let share = f64::from(channel) / 255.0;
+    if share <= 0.04045 {
+        share / 12.92
+    } else {
+        ((share + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// Position of a colour in the space L*a*b*, in which distances are perceived differences.
+pub(crate) type Lab = [f64; 3];
+
+pub(crate) fn lab(colour: Rgb) -> Lab {
+    lab_of_light(colour.map(light))
+}
+
+/// Returns the position of a colour whose channels emit these shares of their light.
+pub(crate) fn lab_of_light([red, green, blue]: [f64; 3]) -> Lab {
+    // Colour of a white screen (illuminant D65).
+    const WHITE: [f64; 3] = [0.95047, 1.0, 1.08883];
+    let cube_root = |share: f64| {
+        if share > 0.008856 {
+            share.cbrt()
+        } else {
+            7.787 * share + 16.0 / 116.0
+        }
+    };
+    let x = 0.4124564 * red + 0.3575761 * green + 0.1804375 * blue;
+    let y = 0.2126729 * red + 0.7151522 * green + 0.0721750 * blue;
+    let z = 0.0193339 * red + 0.1191920 * green + 0.9503041 * blue;
+    let x = cube_root(x / WHITE[0]);
+    let y = cube_root(y / WHITE[1]);
+    let z = cube_root(z / WHITE[2]);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+/// Returns the perceived difference ΔE of two colours (CIE 1976).
+pub(crate) fn difference(one: Lab, other: Lab) -> f64 {
+    let squares = one
+        .iter()
+        .zip(other)
+        .map(|(one, other)| (one - other).powi(2));
+    squares.sum::<f64>().sqrt()
 }
 
 /// Returns a colour in web notation, `#rrggbb`.

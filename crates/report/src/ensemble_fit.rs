@@ -379,7 +379,7 @@ impl EnsembleFitReport<'_> {
             points.push((number, curve.work.value));
         }
         let level = Shape::Level(value);
-        layers.push(Layer::new("all curves".into(), Ink::Contact, level));
+        layers.push(Layer::new("all curves".into(), Ink::Series(1), level));
         if !usual.is_empty() {
             let name = "one curve, 95 % interval".into();
             layers.push(Layer::new(name, Ink::Text, Shape::signs(usual, Sign::Dot)));

@@ -142,7 +142,7 @@ impl Report for FitReport<'_> {
         let computed = Shape::line(computed, Stroke::Solid);
         let forces = vec![
             Layer::new("measured".into(), Ink::Kept, measured),
-            Layer::new("model".into(), Ink::Contact, computed),
+            Layer::new("model".into(), Ink::Series(1), computed),
         ];
         let residuals = Shape::signs(residuals, Sign::Dot);
         let residuals = vec![

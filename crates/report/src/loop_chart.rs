@@ -286,7 +286,7 @@ pub struct ForceLoop<'a> {
     /// True if the names of the marked points in the legend are written without the forces.
     pub without_forces: bool,
     /// Meaning of the whole loop, which determines its colour. With `None`, the loading has
-    /// [`Ink::Loading`], and the unloading has [`Ink::Unloading`].
+    /// [`Ink::Press`], and the unloading has [`Ink::Pull`].
     pub ink: Option<Ink>,
     /// Pattern of the lines of loading and unloading. With `None`, the loading is dotted, and the
     /// unloading has the pattern [`Self::unloading`].
@@ -366,8 +366,8 @@ impl<'a> ForceLoop<'a> {
         for direction in [Direction::Loading, Direction::Unloading] {
             let name = self.legend_name(direction);
             let ink = self.ink.unwrap_or(match direction {
-                Direction::Loading => Ink::Loading,
-                Direction::Unloading => Ink::Unloading,
+                Direction::Loading => Ink::Press,
+                Direction::Unloading => Ink::Pull,
             });
             let stroke = self.stroke_of(direction);
             for line in self.lines(units) {

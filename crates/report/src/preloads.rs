@@ -416,7 +416,7 @@ pub fn preload_chart(
         Stroke::Dashed
     };
     let line = Shape::line(staircase.line(), stroke);
-    layers.push(Layer::new("this profile".into(), Ink::Unloading, line));
+    layers.push(Layer::new("this profile".into(), Ink::Series(1), line));
 
     let x = preload_axis(staircase);
     layers.extend(turn_layers(staircase, x.span, has_values));
@@ -447,9 +447,9 @@ fn spread_layers(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<Lay
     let median = Shape::line(median, Stroke::Solid);
     vec![
         Layer::new(name_of_range, Ink::Quiet, Shape::Band(range)),
-        Layer::new("quartiles".into(), Ink::Surface, Shape::Band(quartiles)),
+        Layer::new("quartiles".into(), Ink::Series(0), Shape::Band(quartiles)),
         Layer::new("mean".into(), Ink::Text, mean),
-        Layer::new("median".into(), Ink::Surface, median),
+        Layer::new("median".into(), Ink::Series(0), median),
     ]
 }
 
@@ -506,7 +506,7 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
             force: touch,
             adhesion_force: adhesion_at_touch,
             sign: Sign::HollowDiamond,
-            ink: Ink::Loading,
+            ink: Ink::Text,
         },
         Turn {
             symbol: "F_a(F=0)",
@@ -514,7 +514,7 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
             force: 0.0,
             adhesion_force: staircase.zero_force,
             sign: Sign::Ring,
-            ink: Ink::Manual,
+            ink: Ink::Text,
         },
     ];
     let mut layers = Vec::new();
@@ -598,8 +598,8 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>)
     let smaller = sorted.partition_point(|force| *force < own);
     let place = share(smaller) + 0.5 * share(1);
     let layers = vec![
-        Layer::unnamed(Ink::Surface, Shape::line(steps, Stroke::Solid)),
-        Layer::unnamed(Ink::Unloading, Shape::signs(vec![(place, own)], Sign::Dot)),
+        Layer::unnamed(Ink::Series(0), Shape::line(steps, Stroke::Solid)),
+        Layer::unnamed(Ink::Series(1), Shape::signs(vec![(place, own)], Sign::Dot)),
     ];
 
     let span = Span {

@@ -8,7 +8,7 @@ use crate::sheet::{Sheet, WIDTH};
 use crate::warnings::{counted_texts, sentences_section, warning_texts};
 use crate::words::letter;
 use asperity_data::{format_quantity, format_range};
-use asperity_plot::{Colours, Figure, figure_text};
+use asperity_plot::{Figure, Palette, figure_text};
 use asperity_scene::{Document, Outcome, Regime};
 use asperity_study::{Ensemble, Quantity};
 
@@ -262,7 +262,7 @@ impl Report for ScenesReport<'_> {
         self.add_results(&mut sheet);
         sentences_section(&mut sheet, &self.warnings());
         let text = sheet.into_text();
-        let curves = figure_text(&self.drawn(true), WIDTH, Colours::None);
+        let curves = figure_text(&self.drawn(true), WIDTH, Palette::PLAIN);
         Some(format!("{text}\n{curves}"))
     }
 

@@ -306,8 +306,8 @@ impl Bars {
     fn layers(self) -> Vec<Layer> {
         vec![
             Layer::unnamed(Ink::Quiet, Shape::Upright(0.0)),
-            Layer::unnamed(Ink::Surface, Shape::Boxes(self.of_smaller_numbers)),
-            Layer::unnamed(Ink::Contact, Shape::Boxes(self.of_larger_numbers)),
+            Layer::unnamed(Ink::Series(0), Shape::Boxes(self.of_smaller_numbers)),
+            Layer::unnamed(Ink::Series(1), Shape::Boxes(self.of_larger_numbers)),
             Layer::unnamed(Ink::Kept, Shape::Boxes(self.of_profiles)),
             Layer::unnamed(Ink::Text, Shape::signs(self.beyond_left, Sign::Left)),
             Layer::unnamed(Ink::Text, Shape::signs(self.beyond_right, Sign::Right)),

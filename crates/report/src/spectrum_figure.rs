@@ -84,7 +84,7 @@ fn limits(analysis: &Analysis) -> Vec<Layer> {
     let mut limits = Vec::new();
     if let Some(roll_off) = analysis.power_law.and_then(|fit| fit.roll_off) {
         let limit = Shape::Upright(roll_off.value);
-        limits.push(Layer::new("roll-off".into(), Ink::Surface, limit));
+        limits.push(Layer::new("roll-off".into(), Ink::Series(0), limit));
     }
     if matches!(analysis.end, End::Continues(_)) {
         let limit = Shape::Upright(analysis.isotropic.last_node());
@@ -94,7 +94,7 @@ fn limits(analysis: &Analysis) -> Vec<Layer> {
         let limit = Shape::Upright(TAU / wavelength);
         limits.push(Layer::new(
             "reliability cut-off".into(),
-            Ink::Contact,
+            Ink::Series(1),
             limit,
         ));
     }
@@ -149,12 +149,12 @@ impl Spectra {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {
             let line = Shape::line(self.line.clone(), Stroke::Solid);
-            layers.push(Layer::new("profile".into(), Ink::Loading, line));
+            layers.push(Layer::new("profile".into(), Ink::Series(3), line));
         }
         if !self.heights.is_empty() {
             let signs = Shape::signs(self.heights.clone(), Sign::Cross);
             let name = "heights of the profile".into();
-            layers.push(Layer::new(name, Ink::Manual, signs));
+            layers.push(Layer::new(name, Ink::Series(1), signs));
         }
 
         let mut points = self.measured_points();

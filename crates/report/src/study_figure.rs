@@ -42,13 +42,13 @@ const REGIMES: [RegimeMark; 3] = [
         regime: Regime::PressureInsensitive,
         sign: Sign::Dot,
         letter: 'i',
-        ink: Ink::Surface,
+        ink: Ink::Series(0),
     },
     RegimeMark {
         regime: Regime::PressureSensitive,
         sign: Sign::Up,
         letter: 's',
-        ink: Ink::Manual,
+        ink: Ink::Series(3),
     },
     RegimeMark {
         regime: Regime::NonAdhesive,
@@ -763,12 +763,12 @@ mod tests {
 
     #[test]
     fn figures_as_text_stay_as_they_are() {
-        use asperity_plot::{Colours, figure_text};
+        use asperity_plot::{Palette, figure_text};
         let mut foreign = phase_map();
         foreign.title = "\u{1b}]52;c;eA==\u{7} a\u{202e}b \u{9b}2J".into();
         for study in [phase_map(), sections(), foreign] {
             for columns in [40, 80, 200] {
-                let text = figure_text(&figure(&study), columns, Colours::None);
+                let text = figure_text(&figure(&study), columns, Palette::PLAIN);
                 let widest = text.lines().map(|line| line.chars().count()).max();
                 assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
                 assert!(
@@ -778,10 +778,10 @@ mod tests {
                 );
             }
         }
-        assert!(figure_text(&figure(&phase_map()), 80, Colours::All).contains("\x1b[38;2;"));
+        assert!(figure_text(&figure(&phase_map()), 80, Palette::DARK).contains("\x1b[38;2;"));
         insta::assert_snapshot!(
             "study_map",
-            figure_text(&figure(&phase_map()), 80, Colours::None)
+            figure_text(&figure(&phase_map()), 80, Palette::PLAIN)
         );
     }
 }

@@ -8,7 +8,7 @@ use crate::explorer::caption::caption;
 use crate::explorer::command_line::curve_arguments;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
-use crate::explorer::panel::{Body, Panel, meaning};
+use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::FollowedPath;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
@@ -170,7 +170,7 @@ fn letters_of_ghosts(app: &App) -> Vec<Name> {
         names.push(Name {
             at: places.iter().map(|point| units.place(point)).collect(),
             texts: vec![letter(number)],
-            ink: Ink::Compared(number),
+            ink: Ink::Compared,
         });
     }
     names
@@ -187,11 +187,7 @@ fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
     for (number, ghost) in app.ghosts.iter().enumerate().rev().take(most) {
         let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
-        let style = app
-            .view
-            .appearance
-            .theme
-            .style(meaning(Ink::Compared(number)));
+        let style = app.view.appearance.palette().ink(Ink::Compared);
         lines.push(Line::styled(line, style));
     }
     lines
@@ -203,7 +199,7 @@ fn edge(app: &App) -> Vec<Part> {
     if let Some(share) = app.adhesion_share_in_words() {
         parts.push(vec![Text::raw(share)]);
     }
-    let cursor = app.view.appearance.theme.style(Meaning::Cursor);
+    let cursor = app.view.appearance.style(Meaning::Cursor);
     for (number, text) in state(app).into_iter().enumerate() {
         let mut part = Vec::new();
         if number == 0 {
@@ -403,7 +399,7 @@ fn shown_chart(app: &App) -> Option<Chart> {
         chart.layers.push(Layer::unnamed(Ink::Cursor, mark));
     }
     for layer in &mut chart.layers {
-        if matches!(layer.ink, Ink::Text | Ink::Compared(_)) {
+        if matches!(layer.ink, Ink::Text | Ink::Compared) {
             layer.name = Label::default();
         }
     }
@@ -520,8 +516,8 @@ fn ghost_loop<'a>(app: &App, number: usize, ghost: &'a Ghost) -> ForceLoop<'a> {
     let name = format!("{}: {}", letter(number), differences(app, ghost));
     ForceLoop {
         name: Some(Label::plain(&name)),
-        ink: Some(Ink::Compared(number)),
-        stroke: Some(Stroke::Sparse),
+        ink: Some(Ink::Compared),
+        stroke: Some(Stroke::Dashed),
         ..unmarked_loop(&ghost.outcome)
     }
 }
@@ -530,7 +526,7 @@ fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
     ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
-        stroke: Some(Stroke::Dashed),
+        stroke: Some(Stroke::DashDotted),
         ..unmarked_loop(outcome)
     }
 }

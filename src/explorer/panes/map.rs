@@ -4,7 +4,7 @@
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
 use crate::explorer::map_state::{Live, OpenStudy};
-use crate::explorer::panel::{Panel, entries, in_theme, shades};
+use crate::explorer::panel::{Panel, entries, shades};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
@@ -262,7 +262,7 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     // other.
     let shades_of_regimes = SHADES.iter().rev().step_by(2);
     for (class, shade) in map.class_names.iter().zip(shades_of_regimes) {
-        let style = in_theme(look, |style| (style.ink)(class.ink));
+        let style = look.palette().ink(class.ink);
         let name = Text::raw(format!(" {}", class.name));
         parts.push(vec![Text::styled(*shade, style), name]);
     }

@@ -251,7 +251,7 @@ fn editor(
     };
     let room = width.saturating_sub(label.width() + meaning.width());
     let mut spans = vec![label];
-    spans.extend(line.spans(room, app.view.appearance.theme));
+    spans.extend(line.spans(room, app.view.appearance));
     spans.push(meaning);
     Line::from(spans)
 }

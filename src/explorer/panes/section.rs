@@ -39,7 +39,7 @@ pub fn panel(
     let title = format!("{title} {}", chart.y.symbol_with_unit());
     let mut panel = Panel::of_chart(title, chart);
     if let Some(probe) = snapshot.probe {
-        let style = look.theme.style(Meaning::Cursor);
+        let style = look.style(Meaning::Cursor);
         let mut parts: Vec<Part> = Vec::new();
         for text in at_crosshair(snapshot, probe) {
             parts.push(vec![Text::styled(text, style)]);

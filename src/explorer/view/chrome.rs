@@ -158,7 +158,7 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let meaning = Span::styled(meaning, app.style(Meaning::Title));
     let room = usize::from(width).saturating_sub(label.width() + meaning.width());
     let mut spans = vec![label];
-    spans.extend(prompt.line.spans(room, app.view.appearance.theme));
+    spans.extend(prompt.line.spans(room, app.view.appearance));
     spans.push(meaning);
     Line::from(spans)
 }

@@ -7,7 +7,7 @@ use crate::explorer::panel;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::prompt::{Prompt, Topic};
 use crate::explorer::text::{fitted, on_one_line, wrapped};
-use crate::explorer::theme::{Appearance, Meaning, Theme};
+use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::printable;
 use asperity_scene::library::{Entry, Source};
 use ratatui::buffer::Buffer;
@@ -80,7 +80,7 @@ pub fn draw_topics(
     for (place, topic) in found.enumerate() {
         if topic.section != section && prompt.line.text().is_empty() {
             section = topic.section;
-            let heading = Line::styled(section, look.theme.style(Meaning::Title));
+            let heading = Line::styled(section, look.style(Meaning::Title));
             list.rows.push(heading);
         }
         let is_selected = place == prompt.selected;
@@ -88,21 +88,26 @@ pub fn draw_topics(
             list.selected = list.rows.len();
         }
         list.rows
-            .extend(rows_of_topic(topic, is_selected, width, look.theme));
+            .extend(rows_of_topic(topic, is_selected, width, look));
     }
     panel::draw(&list.panel(prompt), area, false, look, buffer);
 }
 
 /// Returns the rows of a topic, with its name and its text. In a wide window, the text is on the
 /// right of the name, otherwise below the name.
-fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> Vec<Line<'static>> {
+fn rows_of_topic(
+    topic: &Topic,
+    is_selected: bool,
+    width: u16,
+    look: Appearance,
+) -> Vec<Line<'static>> {
     let mut rows = Vec::new();
     let is_wide = width >= BESIDE_FROM;
     let is_beside = is_wide && topic.name.chars().count() + 2 < NAMES;
     let indent = if is_wide { NAMES } else { INDENT };
     let mark = if is_selected { "›" } else { " " };
     let name = format!("{mark} {}", topic.name);
-    let name = fitted(Line::styled(name, theme.style(Meaning::Key)), width);
+    let name = fitted(Line::styled(name, look.style(Meaning::Key)), width);
     // The row that is being filled with lines of the text.
     let mut begun = Line::default();
     if is_beside {
@@ -115,7 +120,7 @@ fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> 
     } else {
         Meaning::Text
     };
-    let text = Line::styled(topic.text.clone(), theme.style(meaning));
+    let text = Line::styled(topic.text.clone(), look.style(meaning));
     for line in wrapped(&text, width.saturating_sub(indent as u16)) {
         let mut row = std::mem::take(&mut begun);
         row.push_span(" ".repeat(indent.saturating_sub(row.width())));
@@ -144,8 +149,8 @@ pub fn draw_openables(
         if let Some(entry) = entries.get(*index) {
             let is_selected = place == prompt.selected;
             let row = match entry {
-                Openable::Scene(entry) => row_of_scene(*index, entry, is_selected, look.theme),
-                Openable::File(file) => row_of_file(file, is_selected, look.theme),
+                Openable::Scene(entry) => row_of_scene(*index, entry, is_selected, look),
+                Openable::File(file) => row_of_file(file, is_selected, look),
             };
             list.rows.push(row);
         }
@@ -164,8 +169,8 @@ pub fn draw_openables(
         ..area
     };
     let head = match entry {
-        Openable::Scene(entry) => words_of_scene(entry, right.width - 2, look.theme),
-        Openable::File(file) => words_of_file(file, right.width - 2, look.theme),
+        Openable::Scene(entry) => words_of_scene(entry, right.width - 2, look),
+        Openable::File(file) => words_of_file(file, right.width - 2, look),
     };
     let selected = Panel {
         head,
@@ -177,7 +182,7 @@ pub fn draw_openables(
 
 /// Returns the row of a scene in the list: the number by which the user can search for a built-in
 /// scene, the name of the scene, and its source.
-fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) -> Line<'static> {
+fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, look: Appearance) -> Line<'static> {
     let mark = if entry.error().is_some() {
         "! "
     } else if is_selected {
@@ -200,43 +205,43 @@ fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) ->
     } else {
         Meaning::Text
     };
-    let quiet = theme.style(Meaning::Quiet);
+    let quiet = look.style(Meaning::Quiet);
     let name = format!("{mark}{}", entry.name);
     Line::from_iter([
         Span::styled(format!("{number:>2} "), quiet),
-        Span::styled(name, theme.style(name_meaning)),
+        Span::styled(name, look.style(name_meaning)),
         Span::styled(format!("  {origin}"), quiet),
     ])
 }
 
 /// Returns the row of a file in the list: its name and its kind.
-fn row_of_file(file: &ListedFile, is_selected: bool, theme: Theme) -> Line<'static> {
+fn row_of_file(file: &ListedFile, is_selected: bool, look: Appearance) -> Line<'static> {
     let (mark, meaning) = if is_selected {
         ("› ", Meaning::Selected)
     } else {
         ("  ", Meaning::Text)
     };
-    let quiet = theme.style(Meaning::Quiet);
+    let quiet = look.style(Meaning::Quiet);
     Line::from_iter([
         Span::styled("   ", quiet),
-        Span::styled(format!("{mark}{}", file.name), theme.style(meaning)),
+        Span::styled(format!("{mark}{}", file.name), look.style(meaning)),
         Span::styled(format!("  {}", file.kind.word()), quiet),
     ])
 }
 
 /// Returns what opening a file does, and the beginning of its text, in lines of this width.
-fn words_of_file(file: &ListedFile, width: u16, theme: Theme) -> Vec<Line<'static>> {
-    let effect = Line::styled(file.kind.effect(), theme.style(Meaning::Text));
+fn words_of_file(file: &ListedFile, width: u16, look: Appearance) -> Vec<Line<'static>> {
+    let effect = Line::styled(file.kind.effect(), look.style(Meaning::Text));
     let mut lines = wrapped(&effect, width);
     for line in file.text.lines() {
         let line = printable(line).into_owned();
-        lines.push(Line::styled(line, theme.style(Meaning::Quiet)));
+        lines.push(Line::styled(line, look.style(Meaning::Quiet)));
     }
     lines
 }
 
 /// Returns the title, the notice, the error and the text of a scene, in lines of this width.
-fn words_of_scene(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {
+fn words_of_scene(entry: &Entry, width: u16, look: Appearance) -> Vec<Line<'static>> {
     let mut texts = vec![
         (entry.title().to_owned(), Meaning::Title),
         (on_one_line(entry.notice()), Meaning::Text),
@@ -246,10 +251,10 @@ fn words_of_scene(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>>
     }
     let mut lines = Vec::new();
     for (text, meaning) in texts {
-        lines.extend(wrapped(&Line::styled(text, theme.style(meaning)), width));
+        lines.extend(wrapped(&Line::styled(text, look.style(meaning)), width));
     }
     for line in entry.text.lines() {
-        lines.push(Line::styled(line.to_owned(), theme.style(Meaning::Quiet)));
+        lines.push(Line::styled(line.to_owned(), look.style(Meaning::Quiet)));
     }
     lines
 }

@@ -57,7 +57,10 @@ fn the_body_is_taken_at_its_place() {
         }
         // Above first touch the body begins at first touch.
         driver.press("< d");
-        assert_eq!((driver.point().indentation, driver.point().springs), (0.0, 0));
+        assert_eq!(
+            (driver.point().indentation, driver.point().springs),
+            (0.0, 0)
+        );
     }
 }
 
@@ -127,7 +130,10 @@ fn every_key_of_manual_loading_is_on_every_keyboard() {
     let by_hand = rows.filter(|binding| binding.row.section.starts_with("Manual"));
     for key in by_hand.flat_map(|binding| &binding.keys) {
         // These characters need AltGr on a German or a French keyboard.
-        let is_hard = key.name.chars().any(|character| r"[]{}\|~@#€`^".contains(character));
+        let is_hard = key
+            .name
+            .chars()
+            .any(|character| r"[]{}\|~@#€`^".contains(character));
         assert!(!is_hard, "{}", key.name);
     }
 }
@@ -227,7 +233,12 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
         ("separation", Move::ToSeparation),
     ] {
         go(&mut driver, typed);
-        assert_eq!(driver.app.prompt.is_none(), true, "{typed}: {}", driver.status());
+        assert_eq!(
+            driver.app.prompt.is_none(),
+            true,
+            "{typed}: {}",
+            driver.status()
+        );
         let Some(&found) = path(&driver).moves.last() else {
             panic!("no move")
         };
@@ -242,7 +253,10 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
     driver.press("N 0 . 2");
     driver.states("F_a,max, nm): 0.2");
     driver.press("Enter");
-    assert_eq!(path(&driver).moves.last(), Some(&Move::ToForce(0.2 * ideal)));
+    assert_eq!(
+        path(&driver).moves.last(),
+        Some(&Move::ToForce(0.2 * ideal))
+    );
     // A minus begins a pulling force.
     driver.press("N - 1 Space n N");
     driver.states("): -1 nN");
@@ -409,7 +423,10 @@ fn the_animation_plays_the_path() {
     assert_eq!(driver.point(), end);
     let lowest = shown.iter().copied().fold(f64::INFINITY, f64::min);
     let turn = followed(&driver).legs[followed(&driver).before].end();
-    assert!(lowest >= turn && lowest < end.indentation, "{lowest} {turn}");
+    assert!(
+        lowest >= turn && lowest < end.indentation,
+        "{lowest} {turn}"
+    );
     // An edit keeps the place of the animation in the path.
     driver.press("<");
     assert!(matches!(driver.app.drive(), Drive::Path(_)));

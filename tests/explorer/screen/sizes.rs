@@ -5,18 +5,26 @@ use super::common::script::rows;
 use super::*;
 use asperity::explorer::layout::has_title;
 use asperity::explorer::theme::{Cycle, Marker, Theme};
+use asperity_plot::Colours;
 use clap::ValueEnum;
+use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
 /// Colours that cannot be read on the background of a theme.
 fn unreadable(theme: Theme) -> &'static [Color] {
-    use Color::{Black, Blue, DarkGray, Gray, LightCyan, LightGreen, LightYellow, White, Yellow};
+    use Color::{Black, Blue, Gray, LightCyan, LightGreen, LightYellow, White, Yellow};
     match theme {
         // Neither white nor black can be read on every background.
-        Theme::Neutral | Theme::Plain => &[White, Black, Gray, Yellow, LightYellow],
-        Theme::Dark => &[Black, DarkGray, Blue],
+        Theme::Neutral => &[White, Black, Gray, Yellow, LightYellow],
+        Theme::Dark => &[Black, Blue],
         Theme::Light => &[White, Gray, Yellow, LightYellow, LightGreen, LightCyan],
     }
+}
+
+/// Colours of all cells of a screen.
+fn colours_of(screen: &Buffer) -> impl Iterator<Item = Color> {
+    let cells = screen.content.iter();
+    cells.flat_map(|cell| [cell.fg, cell.bg, cell.underline_color])
 }
 
 #[test]
@@ -33,17 +41,29 @@ fn every_screen_is_readable_in_all_windows_themes_and_markers() {
                 driver.app.view.appearance.theme = *theme;
                 let screen = driver.screen();
                 assert_eq!(rows(&screen).join("\n"), text, "{theme:?}");
-                for colour in screen
-                    .content
-                    .iter()
-                    .flat_map(|cell| [cell.fg, cell.bg, cell.underline_color])
-                {
+                for colour in colours_of(&screen) {
                     let is_free = matches!(colour, Color::Rgb(..) | Color::Indexed(_));
-                    let is_plain = *theme != Theme::Plain || colour == Color::Reset;
                     assert!(
-                        is_plain && !is_free && !unreadable(*theme).contains(&colour),
+                        !is_free && !unreadable(*theme).contains(&colour),
                         "{theme:?} {colour}"
                     );
+                }
+            }
+            for (theme, colours) in [
+                (Theme::Neutral, Colours::Plain),
+                (Theme::Light, Colours::Ansi256),
+                (Theme::Dark, Colours::TrueColour),
+            ] {
+                driver.app.view.appearance.theme = theme;
+                driver.app.view.appearance.colours = colours;
+                for colour in colours_of(&driver.screen()) {
+                    let is_right = match colour {
+                        Color::Reset => true,
+                        Color::Indexed(_) => colours == Colours::Ansi256,
+                        Color::Rgb(..) => colours == Colours::TrueColour,
+                        _ => false,
+                    };
+                    assert!(is_right, "{colours:?} {colour}");
                 }
             }
             driver.app.view.appearance.marker = Marker::Ascii;
@@ -72,7 +92,7 @@ fn every_screen_is_readable_in_all_windows_themes_and_markers() {
 #[test]
 fn a_key_changes_the_colours_and_says_so() {
     let mut driver = pressed("");
-    for theme in [Theme::Dark, Theme::Light, Theme::Plain, Theme::Neutral] {
+    for theme in [Theme::Dark, Theme::Light, Theme::Neutral] {
         driver.press("T");
         assert_eq!(driver.app.view.appearance.theme, theme);
         driver.states(theme.name());

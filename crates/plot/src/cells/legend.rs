@@ -1,8 +1,9 @@
 //! Legends of charts in terminal cells.
 
-use super::style::{CellStyle, glyph};
+use super::glyph::glyph;
 use crate::chart::{Chart, Entry, Sample, Stroke};
 use crate::label::Label;
+use crate::palette::Palette;
 use ratatui::text::Span as Text;
 
 /// Returns the three characters, from left to right, that show a line in the legend.
@@ -31,9 +32,9 @@ fn text_of(sample: Sample) -> String {
 }
 
 /// Returns the entries of the legend of these charts for a terminal. Each entry is a list of
-/// coloured texts. The first texts show a short piece of the line, or the marker, of each layer
-/// with the same name. The last text is this name.
-pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+/// coloured texts: first a short piece of the line or the marker of each layer, and then the name
+/// that these layers share.
+pub fn legend(charts: &[Chart], palette: Palette) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
         let letter = letter_of_class(charts, &entry.name);
@@ -44,7 +45,7 @@ pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>
                 (sample, _) => text_of(sample),
             };
             if part.last().is_none_or(|last| *last.content != text) {
-                part.push(Text::styled(text, (style.ink)(ink)));
+                part.push(Text::styled(text, palette.ink(ink)));
             }
         }
         part.push(Text::raw(format!(" {}", entry.name)));

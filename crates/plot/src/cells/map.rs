@@ -1,10 +1,10 @@
 //! Heat maps in terminal cells. Colours or characters show the values, letters show the classes of
 //! map cells, and bars show the contour.
 
-use super::style::{CellStyle, Colours};
 use crate::axis::ChartAxis;
 use crate::chart::{Chart, Class, HeatMap};
 use crate::colour::ink_on;
+use crate::palette::Palette;
 use asperity_data::format_rounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -45,7 +45,7 @@ pub(super) fn draw(
     area: Rect,
     chart: &Chart,
     map: &HeatMap,
-    style: &CellStyle<'_>,
+    palette: Palette,
 ) {
     let columns = values_behind(&chart.x, &map.columns, area.width);
     let rows = values_behind(&chart.y, &map.rows, area.height);
@@ -64,8 +64,8 @@ pub(super) fn draw(
                 across == wide.start + wide.len() / 2 && up == high.start + high.len() / 2;
             let letter = class.and_then(|class| class.letter);
             let cell = &mut buffer[(x, y)];
-            cell.set_symbol(shade(map, value, style))
-                .set_style(looks(map, value, class, style));
+            cell.set_symbol(shade(map, value, palette))
+                .set_style(looks(map, value, class, palette));
             if across + 1 < columns.len() && crosses(map, here, index(across + 1, up)) {
                 cell.set_symbol("▕");
             } else if up > 0 && is_end && crosses(map, here, index(across, up - 1)) {
@@ -83,26 +83,26 @@ pub(super) fn draw(
 
 /// Returns the character that shows a value. In a terminal with colours, the background shows the
 /// value, so that the character is a blank.
-fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static str {
+fn shade(map: &HeatMap, value: Option<f64>, palette: Palette) -> &'static str {
     match value {
-        Some(value) if style.colours == Colours::None => SHADES[step(map.key.share(value))],
+        Some(value) if !palette.has_shades() => SHADES[step(map.key.share(value))],
         _ => " ",
     }
 }
 
 /// Returns the style of a screen cell. In a terminal with colours, the style depends on the value,
 /// otherwise on the class.
-fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellStyle<'_>) -> Style {
+fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, palette: Palette) -> Style {
     let Some(value) = value else {
         return Style::new();
     };
-    if style.colours == Colours::None {
-        return class.map_or_else(Style::new, |class| (style.ink)(class.ink));
+    if !palette.has_shades() {
+        return class.map_or_else(Style::new, |class| palette.ink(class.ink));
     }
     let ground = map.colour(value);
     Style::new()
-        .bg(style.colours.colour(ground))
-        .fg(style.colours.colour(ink_on(ground)))
+        .bg(palette.shade(ground))
+        .fg(palette.shade(ink_on(ground)))
 }
 
 fn step(share: f64) -> usize {
@@ -122,11 +122,11 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     (first < contour.level) != (second < contour.level)
 }
 
-/// Returns the colour scale of a heat map as a list of styled texts, which are written one after
-/// the other. The scale has six numbers, with a coloured piece between each two neighbouring
-/// numbers. In a terminal without colours, the pieces consist of the characters [`SHADES`]. If
-/// `columns` columns are not enough, the scale has only the first and the last number.
-pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
+/// Returns the colour scale of a heat map as a list of styled texts, which are to be written one
+/// after the other. The scale has six numbers, with a coloured piece between each two. In a
+/// terminal without colours, the pieces consist of the characters [`SHADES`]. If the scale has no
+/// room in `columns` columns, it has only the first and the last number.
+pub fn key(map: &HeatMap, columns: usize, palette: Palette) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();
     let number = |step: usize| {
@@ -145,9 +145,10 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
         if has_all_numbers || step == 0 {
             parts.push((" ".to_owned(), Style::new()));
         }
-        parts.push(match colours {
-            Colours::None => (character.repeat(3), Style::new()),
-            colours => ("   ".to_owned(), Style::new().bg(colours.colour(colour))),
+        parts.push(if palette.has_shades() {
+            ("   ".to_owned(), Style::new().bg(palette.shade(colour)))
+        } else {
+            (character.repeat(3), Style::new())
         });
         if has_all_numbers || step + 1 == steps {
             parts.push((format!(" {}", number(step + 1)), Style::new()));

@@ -3,9 +3,9 @@
 
 use super::legend::legend;
 use super::plot::{CellPlot, Name, is_blank};
-use super::style::CellStyle;
 use crate::chart::{Chart, Shape};
 use crate::colour::Ink;
+use crate::palette::Palette;
 use asperity_data::format_rounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -102,9 +102,9 @@ struct NamedEntry {
 
 /// Returns the legend entries of a chart, each with the name that is written beside the curve.
 /// Entries without a layer are left out.
-fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<NamedEntry> {
+fn names_of_layers(chart: &Chart, palette: Palette) -> Vec<NamedEntry> {
     let mut named = Vec::new();
-    for entry in legend(std::slice::from_ref(chart), style) {
+    for entry in legend(std::slice::from_ref(chart), palette) {
         let Some(last) = entry.last() else {
             continue;
         };
@@ -189,7 +189,7 @@ impl PaneChart {
     /// Draws the chart [`Self::below`] under the plot of the main chart. The two ends of its
     /// vertical axis have numbers on the left. The name of this axis is written on a blank row of
     /// the plot, if there is one.
-    fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
+    fn draw_below(&self, plot: Rect, area: Rect, palette: Palette, buffer: &mut Buffer) {
         let height = self.rows_below(area);
         let Some(below) = &self.below else {
             return;
@@ -197,7 +197,7 @@ impl PaneChart {
         if height == 0 {
             return;
         }
-        let quiet = (style.ink)(Ink::Quiet);
+        let quiet = palette.ink(Ink::Quiet);
         let place = Rect {
             y: area.bottom() - height,
             height,
@@ -206,7 +206,7 @@ impl PaneChart {
         draw_ends_beside(below, area, place, quiet, buffer);
         let mut cells = CellPlot::within(Rect { height: 1, ..place }, below);
         cells.plot = place;
-        cells.draw(buffer, below, style);
+        cells.draw(buffer, below, palette);
         let name = &below.y.name;
         let width = name.chars().count() as u16 + 1;
         let x = place.right().saturating_sub(width).max(place.x);
@@ -218,38 +218,38 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts of the pane into `area`. Returns the legend entries of those
-    /// curves whose names do not fit beside the curves.
-    pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
+    /// Draws all charts and texts into `area`. Returns the legend entries of the curves whose names
+    /// did not fit beside the curves.
+    pub fn draw(&self, area: Rect, palette: Palette, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;
-        place.draw(buffer, &self.chart, style);
+        place.draw(buffer, &self.chart, palette);
         for name in &self.names {
-            place.draw_name(buffer, &self.chart, style, name);
+            place.draw_name(buffer, &self.chart, palette, name);
         }
         let is_map = self.chart.map().is_some();
         let names = if is_map {
             Vec::new()
         } else {
-            names_of_layers(&self.chart, style)
+            names_of_layers(&self.chart, palette)
         };
         let mut left_out = Vec::new();
         for NamedEntry { name, entry } in names {
-            if !place.draw_name(buffer, &self.chart, style, &name) {
+            if !place.draw_name(buffer, &self.chart, palette, &name) {
                 left_out.push(entry);
             }
         }
-        self.draw_below(plot, area, style, buffer);
+        self.draw_below(plot, area, palette, buffer);
         if let Some(chart) = &self.beside
             && let Some(right) = right
         {
-            self.draw_beside(chart, plot, right, style, buffer);
+            self.draw_beside(chart, plot, right, palette, buffer);
         }
         if is_map {
-            self.point_at_mark(&place, area, style, buffer);
+            self.point_at_mark(&place, area, palette, buffer);
         }
         if self.has_signs(area) {
-            self.contact.draw(plot, style, buffer);
+            self.contact.draw(plot, palette, buffer);
         }
         left_out
     }
@@ -260,11 +260,11 @@ impl PaneChart {
         chart: &Chart,
         plot: Rect,
         right: Rect,
-        style: &CellStyle<'_>,
+        palette: Palette,
         buffer: &mut Buffer,
     ) {
         for y in plot.y..plot.bottom() {
-            buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
+            buffer.set_string(right.x, y, "│", palette.ink(Ink::Quiet));
         }
         let area = Rect {
             x: right.x + 1,
@@ -276,18 +276,12 @@ impl PaneChart {
         let mut beside = self.scaled(area, chart);
         beside.plot.y = plot.y;
         beside.plot.height = plot.height;
-        beside.draw(buffer, chart, style);
+        beside.draw(buffer, chart, palette);
     }
 
     /// Marks the position of the present scene on a map: by pointers on both axes, and by a blank
     /// on each side of the position, so that it is visible even without colours.
-    fn point_at_mark(
-        &self,
-        place: &CellPlot,
-        area: Rect,
-        style: &CellStyle<'_>,
-        buffer: &mut Buffer,
-    ) {
+    fn point_at_mark(&self, place: &CellPlot, area: Rect, palette: Palette, buffer: &mut Buffer) {
         let mut layers = self.chart.layers.iter().rev();
         let Some(mark) = layers.find(|layer| layer.ink == Ink::Cursor) else {
             return;
@@ -302,7 +296,7 @@ impl PaneChart {
             return;
         };
         let plot = place.plot;
-        let style = (style.ink)(Ink::Cursor);
+        let style = palette.ink(Ink::Cursor);
         for beside in [x.wrapping_sub(1), x + 1] {
             if (plot.x..plot.right()).contains(&beside) {
                 buffer[(beside, y)].set_symbol(" ");
@@ -357,10 +351,10 @@ fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer
 
 impl ContactRow {
     /// Draws the contact signs into the row below a plot, and the brackets around the marked part.
-    fn draw(&self, plot: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
+    fn draw(&self, plot: Rect, palette: Palette, buffer: &mut Buffer) {
         let y = plot.bottom();
         let signs = self.signs(usize::from(plot.width));
-        buffer.set_string(plot.x, y, signs, (style.ink)(Ink::Contact));
+        buffer.set_string(plot.x, y, signs, palette.ink(Ink::Contact));
         let Some((from, to)) = self.marked else {
             return;
         };
@@ -370,7 +364,7 @@ impl ContactRow {
         let closing = column(to).max(opening + 1);
         for (bracket, column) in [("[", opening), ("]", closing)] {
             let x = plot.x + column.min(last);
-            buffer.set_string(x, y, bracket, (style.ink)(Ink::Text));
+            buffer.set_string(x, y, bracket, palette.ink(Ink::Text));
         }
     }
 

@@ -1,12 +1,13 @@
 //! A chart in an area of a terminal. The area contains the plot, the numbers on the left of the
 //! plot and the numbers below the plot.
 
+use super::glyph::glyph;
 use super::map;
 use super::shapes::LayerShape;
-use super::style::{CellStyle, glyph};
 use crate::axis::ChartAxis;
 use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
+use crate::palette::Palette;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -163,14 +164,14 @@ impl CellPlot {
     }
 
     /// Draws the data of the chart and the numbers along its axes into the cells of a buffer.
-    pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+    pub fn draw(&self, buffer: &mut Buffer, chart: &Chart, palette: Palette) {
         if self.plot.is_empty() {
             return;
         }
-        self.draw_scales(buffer, chart, style);
+        self.draw_scales(buffer, chart, palette);
         for layer in &chart.layers {
             if let Shape::Map(map) = &layer.shape {
-                map::draw(buffer, self.plot, chart, map, style);
+                map::draw(buffer, self.plot, chart, map, palette);
             }
         }
         if chart.layers.iter().any(is_on_canvas) {
@@ -185,13 +186,13 @@ impl CellPlot {
                             chart,
                             shape: &layer.shape,
                             ink: layer.ink,
-                            colour: (style.ink)(layer.ink).fg.unwrap_or_default(),
+                            colour: palette.ink(layer.ink).fg.unwrap_or_default(),
                         });
                     }
                 })
                 .render(self.plot, buffer);
         }
-        self.draw_signs(buffer, chart, style);
+        self.draw_signs(buffer, chart, palette);
     }
 
     /// Writes the longest text of a name that fits beside one of the points [`Name::at`]. A text
@@ -200,13 +201,13 @@ impl CellPlot {
         &self,
         buffer: &mut Buffer,
         chart: &Chart,
-        style: &CellStyle<'_>,
+        palette: Palette,
         name: &Name,
     ) -> bool {
         for text in &name.texts {
             for point in &name.at {
                 if let Some((x, y)) = self.free_place(buffer, chart, *point, text) {
-                    buffer.set_string(x, y, text, (style.ink)(name.ink));
+                    buffer.set_string(x, y, text, palette.ink(name.ink));
                     return true;
                 }
             }
@@ -268,7 +269,7 @@ impl CellPlot {
         })
     }
 
-    fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
+    fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, palette: Palette) {
         for layer in &chart.layers {
             let Shape::Curve {
                 points,
@@ -291,14 +292,14 @@ impl CellPlot {
                 if let Some((column, row)) = self.cell(chart, *point) {
                     buffer[(column, row)]
                         .set_symbol(glyph(*sign))
-                        .set_style((style.ink)(layer.ink));
+                        .set_style(palette.ink(layer.ink));
                 }
             }
         }
     }
 
-    fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
-        let quiet = (style.ink)(Ink::Quiet);
+    fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, palette: Palette) {
+        let quiet = palette.ink(Ink::Quiet);
         if self.left > 0 {
             self.draw_scale_beside(buffer, chart, quiet);
         }
@@ -481,7 +482,6 @@ fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cells::style::Colours;
     use crate::chart::HeatMap;
     use crate::chart::Stroke;
     use crate::colour::Shades;
@@ -505,14 +505,7 @@ mod tests {
     fn drawn(chart: &Chart, (width, height): (u16, u16)) -> (CellPlot, Buffer) {
         let area = Rect::new(3, 2, width, height);
         let (place, mut buffer) = (CellPlot::within(area, chart), Buffer::empty(area));
-        place.draw(
-            &mut buffer,
-            chart,
-            &CellStyle {
-                ink: &|_| Style::new(),
-                colours: Colours::None,
-            },
-        );
+        place.draw(&mut buffer, chart, Palette::PLAIN);
         (place, buffer)
     }
 
@@ -637,10 +630,6 @@ mod tests {
         for size in SIZES {
             let (place, before) = drawn(&chart, size);
             let mut after = before.clone();
-            let style = CellStyle {
-                ink: &|_| Style::new(),
-                colours: Colours::None,
-            };
             let names = [
                 (points[9], "preload"),
                 (points[30], "pull-off"),
@@ -652,7 +641,7 @@ mod tests {
                     texts: vec![name.to_owned()],
                     ink: Ink::Quiet,
                 };
-                place.draw_name(&mut after, &chart, &style, &name);
+                place.draw_name(&mut after, &chart, Palette::PLAIN, &name);
             }
             let rows = after.content.chunks(usize::from(after.area.width));
             let text: String = rows

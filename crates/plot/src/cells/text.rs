@@ -3,10 +3,9 @@
 use super::legend::legend;
 use super::map;
 use super::plot::{COLUMNS_WITH_LEFT_SCALE, CellPlot};
-use super::style::{CellStyle, Colours};
 use crate::chart::{Chart, Figure, HeatMap};
-use crate::colour::Ink;
 use crate::label::Label;
+use crate::palette::Palette;
 use asperity_data::wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -29,15 +28,10 @@ const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
 /// Returns a figure as text for a terminal or a file, with each chart below the previous one. A
-/// line has at most `columns` characters. If `columns` is below 40, 40 is used; if it is above 160,
-/// 160 is used.
-pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
+/// line has at most `columns` characters. A value of `columns` below 40 counts as 40, and a value
+/// above 160 as 160.
+pub fn figure_text(figure: &Figure, columns: usize, palette: Palette) -> String {
     let columns = columns.clamp(FEWEST_COLUMNS, MOST_COLUMNS);
-    let ink = |ink: Ink| match (ink, colours) {
-        (Ink::Text | Ink::Quiet, _) | (_, Colours::None) => Style::new(),
-        (ink, colours) => Style::new().fg(colours.colour(ink.on_paper())),
-    };
-    let style = CellStyle { ink: &ink, colours };
     let mut text = String::new();
     push_words(&mut text, &Label::plain(&figure.title).to_string(), columns);
     for note in &figure.notes {
@@ -51,8 +45,8 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
             push_words(&mut text, &heading.to_string(), columns);
         }
         push_words(&mut text, &heading(chart).to_string(), columns);
-        push_chart(&mut text, chart, columns as u16, &style);
-        push_legend(&mut text, chart, columns, &style);
+        push_chart(&mut text, chart, columns as u16, palette);
+        push_legend(&mut text, chart, columns, palette);
     }
     text
 }
@@ -64,7 +58,7 @@ fn heading(chart: &Chart) -> Label {
     }
 }
 
-fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
+fn push_chart(text: &mut String, chart: &Chart, columns: u16, palette: Palette) {
     let area = match chart.map() {
         Some(map) => {
             let label = format!("↑ {}", chart.y.label_with_unit());
@@ -75,7 +69,7 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     };
     let mut buffer = Buffer::empty(area);
     let place = CellPlot::within(area, chart);
-    place.draw(&mut buffer, chart, style);
+    place.draw(&mut buffer, chart, palette);
     for row in 0..area.height {
         let cells = (0..area.width).map(|column| &buffer[(column, row)]);
         let runs: Vec<(&str, Style)> = cells.map(|cell| (cell.symbol(), cell.style())).collect();
@@ -83,7 +77,7 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
     if let Some(map) = chart.map() {
         text.push('\n');
-        let parts = map::key(map, usize::from(columns), style.colours);
+        let parts = map::key(map, usize::from(columns), palette);
         push_line(text, &parts);
         for (axis, values, cells) in [
             ("across", &map.columns, place.plot.width),
@@ -121,9 +115,9 @@ fn area_of_map(chart: &Chart, map: &HeatMap, columns: u16) -> Rect {
     area
 }
 
-fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
+fn push_legend(text: &mut String, chart: &Chart, columns: usize, palette: Palette) {
     let mut lines: Vec<Line<'static>> = Vec::new();
-    for part in legend(std::slice::from_ref(chart), style) {
+    for part in legend(std::slice::from_ref(chart), palette) {
         let part = Line::from(part);
         match lines.last_mut() {
             Some(line) if line.width() + 2 + part.width() <= columns => {
@@ -189,13 +183,44 @@ fn code(style: &Style) -> String {
     }
 }
 
+/// The sixteen colours of a terminal in the order of their numbers.
+const ANSI: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
+
 /// Returns the parameters of the escape sequence for a colour. `kind` is 38 for the colour of
 /// letters and 48 for the background.
 fn parameters(kind: u8, colour: Option<Color>) -> Option<String> {
     match colour {
         Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),
         Some(Color::Indexed(index)) => Some(format!("{kind};5;{index}")),
-        _ => None,
+        Some(colour) => {
+            let number = ANSI.iter().position(|ansi| *ansi == colour)? as u8;
+            // The first eight colours begin at 30 (letters) or 40 (ground), the bright ones at 90
+            // or 100.
+            let parameter = if number < 8 {
+                kind - 8 + number
+            } else {
+                kind + 44 + number
+            };
+            Some(parameter.to_string())
+        }
+        None => None,
     }
 }
 
@@ -209,25 +234,31 @@ fn push_words(text: &mut String, words: &str, columns: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::Ink;
+    use crate::palette::{Background, Colours};
 
     #[test]
-    fn colours_are_those_of_the_cube() {
+    fn a_terminal_gets_the_colours_that_it_has() {
         let line = |colours: Colours| {
-            let looks = Style::new()
-                .fg(colours.colour([255; 3]))
-                .bg(colours.colour([0; 3]));
+            let palette = Palette {
+                colours,
+                background: Background::Dark,
+            };
             let mut text = String::new();
+            let pressed = palette.ink(Ink::Press);
+            let inked = pressed.bg(palette.ink(Ink::Pull).fg.unwrap_or_default());
             push_line(
                 &mut text,
-                &[("x", looks), (" ", looks), (" ", Style::new())],
+                &[("x", inked), (" ", inked), (" ", Style::new())],
             );
             text
         };
-        assert_eq!(line(Colours::Palette), "\x1b[38;5;231;48;5;16mx \x1b[0m\n");
         assert_eq!(
-            line(Colours::All),
-            "\x1b[38;2;255;255;255;48;2;0;0;0mx \x1b[0m\n"
+            line(Colours::TrueColour),
+            "\x1b[38;2;245;166;60;48;2;92;168;255mx \x1b[0m\n"
         );
-        assert_eq!(line(Colours::None), "x\n");
+        assert_eq!(line(Colours::Ansi256), "\x1b[38;5;215;48;5;75mx \x1b[0m\n");
+        assert_eq!(line(Colours::Ansi16), "\x1b[93;104mx \x1b[0m\n");
+        assert_eq!(line(Colours::Plain), "x\n");
     }
 }

@@ -5,7 +5,8 @@
 //! join in any font.
 
 use super::{Glyph, dots, glyphs};
-use crate::colour::{Palette, Rgb, hex};
+use crate::colour::{Rgb, hex};
+use crate::palette::{Palette, Role};
 use crate::svg::elements::{Svg, escaped};
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
@@ -38,11 +39,11 @@ enum Kind {
 }
 
 /// Draws a screen of the terminal as an SVG document. Equal screens give documents of equal bytes.
-pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
+pub fn screen_svg(buffer: &Buffer, palette: Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
     let mut svg = Svg::new(f64::from(width), f64::from(height), title);
-    let ground = hex(palette.background);
+    let ground = hex(palette.paper());
     svg.push(format_args!(
         "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>"
     ));
@@ -87,11 +88,11 @@ fn stroke(colour: &str, width: f64, cap: &str) -> String {
 
 /// Returns the path data of backgrounds and of characters that are drawn as shapes. Shapes of the
 /// same kind and colour share a path.
-fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
+fn paths(buffer: &Buffer, palette: Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
         let colours = CellColours::of(&glyph, palette);
-        if colours.ground != palette.background {
+        if colours.ground != palette.paper() {
             let path = boxed(&glyph, u32::from(glyph.width) * WIDTH);
             *paths.entry((Kind::Ground, colours.ground)).or_default() += &path;
         }
@@ -122,7 +123,7 @@ struct Word {
 
 /// Returns the words on the screen. The SVG has one text element for each word, because few viewers
 /// support a list of positions for the letters of one text.
-fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
+fn words(buffer: &Buffer, palette: Palette) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
     for glyph in glyphs(buffer) {
         if glyph.symbol() == " " || shape(&glyph).is_some() {
@@ -163,10 +164,10 @@ struct CellColours {
 }
 
 impl CellColours {
-    fn of(glyph: &Glyph<'_>, palette: &Palette) -> Self {
+    fn of(glyph: &Glyph<'_>, palette: Palette) -> Self {
         let modifier = glyph.cell.modifier;
-        let mut ink = rgb(palette, glyph.cell.fg, palette.foreground);
-        let mut ground = rgb(palette, glyph.cell.bg, palette.background);
+        let mut ink = rgb(glyph.cell.fg, palette.rgb(Role::Text));
+        let mut ground = rgb(glyph.cell.bg, palette.paper());
         if modifier.contains(Modifier::DIM) {
             ink = mixed(ink, ground, DIMMED);
         }
@@ -177,16 +178,13 @@ impl CellColours {
     }
 }
 
-/// Returns the colour in `palette` for a terminal colour, or `reset` for the default colour. Any
-/// colour other than the sixteen ANSI colours also gives `reset`, because the explorer uses no
-/// others.
-fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
-    const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen \
-                        LightYellow LightBlue LightMagenta LightCyan White";
-    let name = colour.to_string();
-    ANSI.split(' ')
-        .position(|ansi| ansi == name)
-        .map_or(reset, |index| palette.ansi[index])
+/// Returns the colour of a cell, or `reset` for the default colour. A picture is drawn from a screen
+/// with 24-bit colours, so that other colours do not occur.
+fn rgb(colour: Color, reset: Rgb) -> Rgb {
+    match colour {
+        Color::Rgb(red, green, blue) => [red, green, blue],
+        _ => reset,
+    }
 }
 
 /// Mixes two colours. `percent` is the share of the first colour in per cent.
@@ -253,11 +251,13 @@ mod tests {
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 
+    const PRESS: Color = Color::Rgb(0xf5, 0xa6, 0x3c);
+
     /// Draws a screen of one row and returns the SVG elements inside the margins.
     fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
-        let svg = screen_svg(&buffer, &Palette::DARK, "");
+        let svg = screen_svg(&buffer, Palette::DARK, "");
         parsed(&svg);
         let inner = svg.split_once("\"preserve\">\n").unwrap().1;
         inner
@@ -271,7 +271,7 @@ mod tests {
     fn the_document_has_a_title_and_the_size_of_the_screen() {
         let svg = screen_svg(
             &Buffer::empty(Rect::new(5, 5, 120, 40)),
-            &Palette::LIGHT,
+            Palette::LIGHT,
             "κ < 6 & \"h\" > 0\u{1}",
         );
         let (elements, text) = parsed(&svg);
@@ -287,7 +287,7 @@ mod tests {
         assert_eq!(elements.len(), 4, "{svg}");
         parsed(&super::screen_svg(
             &Buffer::empty(Rect::ZERO),
-            &Palette::LIGHT,
+            Palette::LIGHT,
             "",
         ));
     }
@@ -300,22 +300,22 @@ mod tests {
                 8 * cells
             )
         };
-        let face = r##""#e1e6eb""##;
+        let face = r##""#dee2e9""##;
         let words = [text(8, 3, face, "a&lt;b"), text(48, 3, face, "漢c")];
         assert_eq!(drawn("a<b  漢c", Style::new()), words);
-        let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
-        assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
+        let bold = text(8, 1, r##""#f5a63c" font-weight="bold""##, "x");
+        assert_eq!(drawn("x", Style::new().bold().fg(PRESS)), [bold]);
         // The colour of dimmed text consists of 60 % foreground colour and 40 % background colour.
         assert_eq!(
             drawn("x", Style::new().dim()),
-            [text(8, 1, r##""#8d9297""##, "x")]
+            [text(8, 1, r##""#8b8f96""##, "x")]
         );
         let ground = |colour: &str| {
             format!(r##"<path fill="{colour}" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##)
         };
-        let reversed = [ground("#e1e6eb"), text(8, 1, r##""#10151b""##, "x")];
+        let reversed = [ground("#dee2e9"), text(8, 1, r##""#10131a""##, "x")];
         assert_eq!(drawn("x", Style::new().reversed()), reversed);
-        assert_eq!(drawn(" ", Style::new().bg(Color::Red)), [ground("#ff6b3d")]);
+        assert_eq!(drawn(" ", Style::new().bg(PRESS)), [ground("#f5a63c")]);
     }
 
     #[test]
@@ -332,32 +332,6 @@ mod tests {
                     .contains(&format!(" d=\"{path}\"/>")),
                 "{text}"
             );
-        }
-    }
-
-    fn contrast(one: Rgb, other: Rgb) -> f64 {
-        let light = |channel: u8| {
-            let share = f64::from(channel) / 255.0;
-            if share <= 0.04045 {
-                share / 12.92
-            } else {
-                ((share + 0.055) / 1.055).powf(2.4)
-            }
-        };
-        let [one, other] = [one, other].map(|[red, green, blue]| {
-            0.2126 * light(red) + 0.7152 * light(green) + 0.0722 * light(blue) + 0.05
-        });
-        one.max(other) / one.min(other)
-    }
-
-    #[test]
-    fn colours_can_be_read() {
-        for palette in [Palette::DARK, Palette::LIGHT] {
-            assert!(contrast(palette.foreground, palette.background) > 12.0);
-            // Black and white are left out, because one of the two may be equal to the background.
-            for colour in &palette.ansi[1..15] {
-                assert!(contrast(*colour, palette.background) > 4.5, "{colour:02x?}");
-            }
         }
     }
 }

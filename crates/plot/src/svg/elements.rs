@@ -1,13 +1,13 @@
 //! Elements of an SVG document. Lengths are rounded to a hundredth of a px.
 
 use crate::chart::Stroke;
-use crate::colour::{Palette, Rgb, hex};
+use crate::colour::{Rgb, hex};
 use crate::label::{Face, Label, SMALL};
+use crate::palette::{Palette, Role};
 use std::fmt::{Arguments, Write};
 
-pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
-pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
-pub(super) const PAPER: Rgb = Palette::LIGHT.background;
+pub(super) const TEXT: Rgb = Palette::LIGHT.rgb(Role::Text);
+pub(super) const PAPER: Rgb = Palette::LIGHT.paper();
 /// Colour of map cells without a value: a grey that does not occur in any colour scale.
 pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 

@@ -1,6 +1,6 @@
 //! Draws the layers of a chart into the frame of the chart.
 
-use super::elements::{EMPTY, PAPER, Pen, Place, QUIET, Svg, TEXT};
+use super::elements::{EMPTY, PAPER, Pen, Place, Svg, TEXT};
 use super::frame::Frame;
 use crate::axis::ChartAxis;
 use crate::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
@@ -94,13 +94,8 @@ fn line(svg: &mut Svg, places: &[Place], pen: Pen) {
 }
 
 pub(super) fn guide(ink: Ink) -> Pen {
-    let colour = if ink == Ink::Quiet {
-        QUIET
-    } else {
-        ink.on_paper()
-    };
     Pen {
-        colour,
+        colour: ink.on_paper(),
         width: 1.0,
         stroke: Stroke::Dashed,
     }

@@ -1,0 +1,674 @@
+//! The colours of the program: one table for terminals, for pictures of screens and for figures.
+//!
+//! Amber means that springs are pressed or that the body moves towards the surface, blue that
+//! springs are pulled or that the body moves away. No other hue has a meaning in a loop or a
+//! profile, so that people with colour blindness can read them.
+
+use crate::colour::{Ink, Lab, Rgb, difference, lab};
+use ratatui::style::{Color, Modifier, Style};
+use std::sync::LazyLock;
+
+/// Colours that a terminal can show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
+pub enum Colours {
+    /// No colours, only bold, dim and reverse
+    Plain,
+    /// The sixteen colours that the terminal itself chooses
+    #[cfg_attr(feature = "clap", value(name = "16"))]
+    Ansi16,
+    /// 256 fixed colours, 8 bits
+    #[cfg_attr(feature = "clap", value(name = "256"))]
+    Ansi256,
+    /// All colours of red, green and blue, 24 bits
+    #[cfg_attr(feature = "clap", value(name = "truecolor"))]
+    TrueColour,
+}
+
+impl Colours {
+    /// Returns the colours that a terminal has according to its environment. `variable` returns the
+    /// value of an environment variable; a variable without a value counts as missing.
+    ///
+    /// A connection by SSH usually passes `TERM` but not `COLORTERM`, so that 256 colours are the
+    /// usual answer there.
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Colours {
+        let value = |name: &str| variable(name).unwrap_or_default();
+        let terminal = value("TERM");
+        if !value("NO_COLOR").is_empty() || terminal == "dumb" {
+            return Colours::Plain;
+        }
+        if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
+            return Colours::TrueColour;
+        }
+        let has_sixteen = terminal == "linux" || terminal == "ansi" || terminal.starts_with("vt");
+        if has_sixteen && !terminal.contains("256color") {
+            Colours::Ansi16
+        } else {
+            Colours::Ansi256
+        }
+    }
+}
+
+/// Background of a terminal or of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Background {
+    Dark,
+    Light,
+    /// The terminal does not say which background it has. The colours read on dark and on light
+    /// backgrounds.
+    Unknown,
+}
+
+/// What a colour is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    Text,
+    /// Axes, frames, the rigid profile and curves in the background.
+    Quiet,
+    /// Loading, and springs that are pressed.
+    Press,
+    /// Unloading, and springs that are pulled.
+    Pull,
+    /// Springs without stress, and the free surface of the elastic body.
+    Zero,
+    /// Headings and symbols.
+    Accent,
+    /// Keys, and numbers to which the reader should pay attention.
+    Key,
+    Error,
+    /// Ground of the area inside a loop.
+    LoopGround,
+    /// Ground of the rigid body.
+    BodyGround,
+    /// Ground of the selected row.
+    SelectionGround,
+    /// Ground between two quartiles.
+    QuartileGround,
+}
+
+/// Colour of a role on one background, for each kind of terminal.
+#[derive(Clone, Copy)]
+struct Swatch {
+    rgb: Rgb,
+    /// Number of the colour among the 256 fixed colours.
+    index: u8,
+    /// Colour among the sixteen colours of the terminal. `Reset` is its own colour of text.
+    name: Color,
+}
+
+/// Colours of a role on a dark, a light and an unknown background. With `None`, a terminal shows
+/// its own colour of text, or no ground.
+struct Swatches {
+    dark: Option<Swatch>,
+    light: Option<Swatch>,
+    unknown: Option<Swatch>,
+}
+
+const fn swatch(rgb: Rgb, index: u8, name: Color) -> Option<Swatch> {
+    Some(Swatch { rgb, index, name })
+}
+
+impl Role {
+    /// Returns the colours of a role: the table of all colours. A test checks that they can be read
+    /// and distinguished.
+    #[rustfmt::skip]
+    const fn swatches(self) -> Swatches {
+        use Color::{Blue, Cyan, DarkGray, LightBlue, LightMagenta, LightRed, LightYellow, Magenta, Red, Reset, White};
+        match self {
+            // A terminal shows text in its own colour, so that only pictures use this row.
+            Role::Text => Swatches {
+                dark: swatch([222, 226, 233], 254, Reset),
+                light: swatch([32, 36, 44], 235, Reset),
+                unknown: None,
+            },
+            Role::Quiet => Swatches {
+                dark: swatch([128, 138, 154], 245, DarkGray),
+                light: swatch([104, 112, 126], 242, DarkGray),
+                unknown: swatch([122, 122, 122], 243, DarkGray),
+            },
+            // The yellow of most terminals cannot be read on a light background.
+            Role::Press => Swatches {
+                dark: swatch([245, 166, 60], 215, LightYellow),
+                light: swatch([166, 84, 0], 130, Red),
+                unknown: swatch([198, 108, 0], 130, LightRed),
+            },
+            Role::Pull => Swatches {
+                dark: swatch([92, 168, 255], 75, LightBlue),
+                light: swatch([0, 92, 196], 26, Blue),
+                unknown: swatch([44, 122, 224], 33, LightBlue),
+            },
+            Role::Zero => Swatches {
+                dark: swatch([206, 210, 216], 252, White),
+                light: swatch([64, 68, 76], 238, Reset),
+                unknown: None,
+            },
+            Role::Accent => Swatches {
+                dark: swatch([92, 200, 180], 80, Cyan),
+                light: swatch([0, 116, 100], 30, Cyan),
+                unknown: swatch([0, 142, 122], 29, Cyan),
+            },
+            Role::Key => Swatches {
+                dark: swatch([240, 214, 110], 221, Reset),
+                light: swatch([128, 96, 0], 94, Reset),
+                unknown: None,
+            },
+            Role::Error => Swatches {
+                dark: swatch([255, 107, 107], 203, LightRed),
+                light: swatch([190, 24, 36], 124, Magenta),
+                unknown: swatch([222, 60, 60], 203, LightMagenta),
+            },
+            Role::LoopGround => Swatches {
+                dark: swatch([38, 48, 72], 236, Reset),
+                light: swatch([226, 233, 246], 254, Reset),
+                unknown: None,
+            },
+            Role::BodyGround => Swatches {
+                dark: swatch([30, 34, 44], 235, Reset),
+                light: swatch([240, 242, 246], 255, Reset),
+                unknown: None,
+            },
+            Role::SelectionGround => Swatches {
+                dark: swatch([44, 54, 76], 237, Reset),
+                light: swatch([214, 224, 244], 254, Reset),
+                unknown: None,
+            },
+            Role::QuartileGround => Swatches {
+                dark: swatch([40, 58, 84], 237, Reset),
+                light: swatch([208, 222, 246], 189, Reset),
+                unknown: None,
+            },
+        }
+    }
+}
+
+/// Number of steps from the colour of zero stress to the colour of the largest stress. A screen
+/// with few steps has longer runs of one colour than a screen with a ramp, and so fewer bytes.
+pub(crate) const STRESS_STEPS: u8 = 4;
+
+/// Numbers among the 256 fixed colours for the first three stress steps; the last step has the
+/// colour of [`Role::Press`] or [`Role::Pull`].
+struct StressIndices {
+    press: [u8; 3],
+    pull: [u8; 3],
+}
+
+/// Share of the largest stress at which the colour of a spring has each share of the full colour is
+/// `share.powf(STRESS_POWER)`: small stresses can be distinguished too.
+const STRESS_POWER: f64 = 0.7;
+
+/// Colours for a terminal or a picture: those that it can show and that read on its background.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Palette {
+    /// Colours that the terminal can show.
+    pub colours: Colours,
+    pub background: Background,
+}
+
+impl Palette {
+    /// Colours of figures on paper, which are also the colours of pictures of light screens.
+    pub const LIGHT: Palette = Palette {
+        colours: Colours::TrueColour,
+        background: Background::Light,
+    };
+    /// Colours of pictures of dark screens.
+    pub const DARK: Palette = Palette {
+        colours: Colours::TrueColour,
+        background: Background::Dark,
+    };
+    /// Palette of a terminal or a file without colours.
+    pub const PLAIN: Palette = Palette {
+        colours: Colours::Plain,
+        background: Background::Unknown,
+    };
+
+    /// Returns the colour of the paper or the screen in a picture.
+    pub(crate) const fn paper(self) -> Rgb {
+        match self.background {
+            Background::Light => [255; 3],
+            Background::Dark | Background::Unknown => [0x10, 0x13, 0x1a],
+        }
+    }
+
+    const fn swatch(self, role: Role) -> Option<Swatch> {
+        let swatches = role.swatches();
+        match self.background {
+            Background::Dark => swatches.dark,
+            Background::Light => swatches.light,
+            Background::Unknown => swatches.unknown,
+        }
+    }
+
+    /// Returns the colour of a role in a picture.
+    pub(crate) const fn rgb(self, role: Role) -> Rgb {
+        match (self.swatch(role), role.swatches().dark) {
+            (Some(swatch), _) | (None, Some(swatch)) => swatch.rgb,
+            (None, None) => self.paper(),
+        }
+    }
+
+    /// Returns the colour in which a terminal shows a role. Text has the colour that the user chose
+    /// for the terminal.
+    pub fn colour(self, role: Role) -> Color {
+        match self.swatch(role) {
+            Some(swatch) if role != Role::Text => self.shown(swatch),
+            _ => Color::Reset,
+        }
+    }
+
+    fn shown(self, swatch: Swatch) -> Color {
+        let [red, green, blue] = swatch.rgb;
+        match self.colours {
+            Colours::Plain => Color::Reset,
+            Colours::Ansi16 => swatch.name,
+            Colours::Ansi256 => Color::Indexed(swatch.index),
+            Colours::TrueColour => Color::Rgb(red, green, blue),
+        }
+    }
+
+    /// Returns the ground of a role; `None` for a terminal that shows no grounds, because it has
+    /// too few colours or an unknown background.
+    pub fn ground(self, role: Role) -> Option<Color> {
+        if matches!(self.colours, Colours::Plain | Colours::Ansi16) {
+            return None;
+        }
+        Some(self.shown(self.swatch(role)?))
+    }
+
+    /// Returns true for a terminal that can show the shades of a heat map.
+    pub fn has_shades(self) -> bool {
+        matches!(self.colours, Colours::Ansi256 | Colours::TrueColour)
+    }
+
+    /// Returns the style in which a terminal shows a role. Bold and dim text distinguish the roles
+    /// even without colours.
+    pub fn style(self, role: Role) -> Style {
+        let style = Style::new().fg(self.colour(role));
+        match role {
+            Role::Key | Role::Error => style.add_modifier(Modifier::BOLD),
+            Role::Quiet | Role::Zero if self.colours == Colours::Plain => {
+                style.add_modifier(Modifier::DIM)
+            }
+            _ => style,
+        }
+    }
+
+    /// Returns the style in which a terminal shows an ink.
+    pub fn ink(self, ink: Ink) -> Style {
+        let style = self.style(ink.role());
+        match ink {
+            Ink::Text | Ink::Cursor => style.add_modifier(Modifier::BOLD),
+            _ => style,
+        }
+    }
+
+    /// Returns the colour of a spring in a terminal. `stress` is positive for a pressed spring, and
+    /// its absolute value is the share of the largest stress, from 0 to 1.
+    pub(crate) fn stress(self, stress: f64) -> Color {
+        let step = stress_step(stress);
+        let role = Role::of_stress(stress);
+        let Some(swatch) = self.swatch(role) else {
+            return Color::Reset;
+        };
+        if step == STRESS_STEPS {
+            return self.shown(swatch);
+        }
+        let indices = self.stress_indices();
+        let indices = if role == Role::Press {
+            indices.press
+        } else {
+            indices.pull
+        };
+        self.shown(Swatch {
+            rgb: self.stress_rgb(role, step),
+            index: indices[usize::from(step) - 1],
+            name: swatch.name,
+        })
+    }
+
+    const fn stress_indices(self) -> StressIndices {
+        match self.background {
+            Background::Dark => StressIndices {
+                press: [187, 180, 179],
+                pull: [153, 110, 75],
+            },
+            Background::Light => StressIndices {
+                press: [239, 137, 94],
+                pull: [24, 25, 25],
+            },
+            Background::Unknown => StressIndices {
+                press: [101, 137, 130],
+                pull: [67, 67, 68],
+            },
+        }
+    }
+
+    /// Returns the colour of a step from 1 to [`STRESS_STEPS`] between zero stress and a role.
+    pub(crate) fn stress_rgb(self, role: Role, step: u8) -> Rgb {
+        let zero = match self.background {
+            // On an unknown background, springs without stress have the grey that reads everywhere.
+            Background::Unknown => self.rgb(Role::Quiet),
+            Background::Dark | Background::Light => self.rgb(Role::Zero),
+        };
+        let full = self.rgb(role);
+        let share = f64::from(step) / f64::from(STRESS_STEPS);
+        std::array::from_fn(|channel| {
+            let from = f64::from(zero[channel]);
+            let to = f64::from(full[channel]);
+            (from + (to - from) * share).round() as u8
+        })
+    }
+
+    /// Returns the colour in which a terminal shows a colour of a scale that
+    /// [`Palette::has_shades`].
+    pub(crate) fn shade(self, colour: Rgb) -> Color {
+        let [red, green, blue] = colour;
+        match self.colours {
+            Colours::Plain | Colours::Ansi16 => Color::Reset,
+            Colours::Ansi256 => Color::Indexed(nearest_index(colour)),
+            Colours::TrueColour => Color::Rgb(red, green, blue),
+        }
+    }
+}
+
+impl Role {
+    /// Returns the role of a spring with this stress.
+    pub(crate) fn of_stress(stress: f64) -> Role {
+        if stress < 0.0 {
+            Role::Pull
+        } else {
+            Role::Press
+        }
+    }
+}
+
+/// Returns the step, from 1 to [`STRESS_STEPS`], of the colour for a stress from -1 to 1.
+pub(crate) fn stress_step(stress: f64) -> u8 {
+    let share = stress.abs().min(1.0).powf(STRESS_POWER);
+    ((share * f64::from(STRESS_STEPS)).ceil() as u8).clamp(1, STRESS_STEPS)
+}
+
+/// Number of the first of the 256 colours that are the same in all terminals. The colours before it
+/// are the sixteen colours that a terminal chooses.
+const FIRST_FIXED: u8 = 16;
+/// Number of the first grey after the cube of colours.
+const FIRST_GREY: u8 = 232;
+
+/// Returns one of the 256 colours: a cube of 6 × 6 × 6 colours, and then 24 greys.
+fn fixed_colour(index: u8) -> Rgb {
+    /// Levels of each channel in the cube.
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    if index >= FIRST_GREY {
+        return [8 + 10 * (index - FIRST_GREY); 3];
+    }
+    let place = index - FIRST_FIXED;
+    [place / 36, place / 6 % 6, place % 6].map(|level| LEVELS[usize::from(level)])
+}
+
+/// Returns the number of the most similar of the 256 colours.
+fn nearest_index(colour: Rgb) -> u8 {
+    /// All fixed colours with their positions in the space of perceived colours.
+    static FIXED: LazyLock<Vec<(u8, Lab)>> = LazyLock::new(|| {
+        (FIRST_FIXED..=u8::MAX)
+            .map(|index| (index, lab(fixed_colour(index))))
+            .collect()
+    });
+    let wanted = lab(colour);
+    let mut nearest = FIRST_FIXED;
+    let mut least = f64::INFINITY;
+    for (index, place) in FIXED.iter() {
+        let distance = difference(*place, wanted);
+        if distance < least {
+            nearest = *index;
+            least = distance;
+        }
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::{lab_of_light, light};
+    use std::collections::BTreeMap;
+
+    const DARK_GROUNDS: [Rgb; 4] = [[0; 3], [0x10, 0x13, 0x1a], [0x1e; 3], [0, 0x2b, 0x36]];
+    const LIGHT_GROUNDS: [Rgb; 2] = [[255; 3], [0xfd, 0xf6, 0xe3]];
+    const INKS: [Role; 8] = [
+        Role::Text,
+        Role::Quiet,
+        Role::Press,
+        Role::Pull,
+        Role::Zero,
+        Role::Accent,
+        Role::Key,
+        Role::Error,
+    ];
+    const GROUNDS: [Role; 4] = [
+        Role::LoopGround,
+        Role::BodyGround,
+        Role::SelectionGround,
+        Role::QuartileGround,
+    ];
+
+    const UNKNOWN: Palette = Palette {
+        colours: Colours::TrueColour,
+        background: Background::Unknown,
+    };
+
+    /// Contrast of two colours, from 1 to 21 (WCAG 2.1).
+    fn contrast(one: Rgb, other: Rgb) -> f64 {
+        let luminance = |colour: Rgb| {
+            let [red, green, blue] = colour.map(light);
+            0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.05
+        };
+        let (one, other) = (luminance(one), luminance(other));
+        one.max(other) / one.min(other)
+    }
+
+    /// Least contrast of a colour on some grounds.
+    fn least_contrast(colour: Rgb, grounds: &[Rgb]) -> f64 {
+        let contrasts = grounds.iter().map(|ground| contrast(colour, *ground));
+        contrasts.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Grounds that a terminal of this palette may have.
+    fn grounds(palette: Palette) -> Vec<Rgb> {
+        match palette.background {
+            Background::Dark => DARK_GROUNDS.to_vec(),
+            Background::Light => LIGHT_GROUNDS.to_vec(),
+            Background::Unknown => [&DARK_GROUNDS[..], &LIGHT_GROUNDS].concat(),
+        }
+    }
+
+    #[test]
+    fn every_role_can_be_read_on_its_grounds() {
+        for (palette, least) in [
+            (Palette::DARK, [11.5, 4.2, 7.4, 6.0, 9.8, 7.4, 10.4, 5.4]),
+            (Palette::LIGHT, [14.4, 4.6, 5.0, 5.8, 9.0, 5.2, 5.4, 5.8]),
+        ] {
+            for (role, least) in INKS.into_iter().zip(least) {
+                let found = least_contrast(palette.rgb(role), &grounds(palette));
+                assert!(found >= least, "{palette:?} {role:?} {found}");
+            }
+        }
+        for role in [
+            Role::Quiet,
+            Role::Press,
+            Role::Pull,
+            Role::Accent,
+            Role::Error,
+        ] {
+            let found = least_contrast(UNKNOWN.rgb(role), &grounds(UNKNOWN));
+            assert!(found >= 3.4, "{role:?} {found}");
+        }
+    }
+
+    #[test]
+    fn texts_and_curves_can_be_read_on_coloured_grounds() {
+        let ground = Palette::DARK.rgb(Role::LoopGround);
+        for (role, least) in [
+            (Role::Text, 10.0),
+            (Role::Press, 6.4),
+            (Role::Pull, 5.2),
+            (Role::Quiet, 3.7),
+        ] {
+            let found = contrast(Palette::DARK.rgb(role), ground);
+            assert!(found >= least, "{role:?} {found}");
+        }
+        let light_grounds = GROUNDS.map(|role| Palette::LIGHT.rgb(role));
+        for role in [Role::Text, Role::Press, Role::Pull] {
+            let found = least_contrast(Palette::LIGHT.rgb(role), &light_grounds);
+            assert!(found >= 3.95, "{role:?} {found}");
+        }
+    }
+
+    /// Colour as people with a kind of complete colour blindness see it.
+    type Vision = [[f64; 3]; 3];
+
+    /// Normal vision, and then the three matrices of complete colour blindness of Machado, Oliveira
+    /// and Fernandes (2009), which apply to the emitted light: protanopia, deuteranopia and
+    /// tritanopia.
+    const VISIONS: [Vision; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ],
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ],
+        [
+            [1.255528, -0.076749, -0.178779],
+            [-0.078411, 0.930809, 0.147602],
+            [0.004733, 0.691367, 0.303900],
+        ],
+    ];
+
+    fn seen(colour: Rgb, vision: Vision) -> Lab {
+        let emitted = colour.map(light);
+        lab_of_light(vision.map(|row| {
+            let channels = row.iter().zip(emitted);
+            let share: f64 = channels.map(|(factor, light)| factor * light).sum();
+            share.clamp(0.0, 1.0)
+        }))
+    }
+
+    #[test]
+    fn pressed_pulled_and_free_differ_for_every_eye() {
+        for (palette, roles, least) in [
+            (
+                Palette::DARK,
+                [Role::Press, Role::Pull],
+                [114.0, 108.0, 117.0, 82.0],
+            ),
+            (
+                Palette::LIGHT,
+                [Role::Press, Role::Pull],
+                [114.0, 104.0, 117.0, 79.0],
+            ),
+            (
+                Palette::DARK,
+                [Role::Press, Role::Zero],
+                [70.0, 67.0, 67.0, 48.0],
+            ),
+            (
+                Palette::DARK,
+                [Role::Pull, Role::Zero],
+                [49.0, 43.0, 52.0, 38.0],
+            ),
+            (
+                Palette::LIGHT,
+                [Role::Press, Role::Zero],
+                [53.8, 53.8, 53.8, 28.8],
+            ),
+            (
+                Palette::LIGHT,
+                [Role::Pull, Role::Zero],
+                [53.8, 53.8, 53.8, 28.8],
+            ),
+        ] {
+            for (vision, least) in VISIONS.into_iter().zip(least) {
+                let [one, other] = roles.map(|role| seen(palette.rgb(role), vision));
+                let found = difference(one, other);
+                assert!(found >= least, "{palette:?} {roles:?} {found} {least}");
+            }
+        }
+    }
+
+    /// Largest difference between a colour and the nearest of the 256 fixed colours.
+    const INK_ERROR: f64 = 13.0;
+    const GROUND_ERROR: f64 = 18.1;
+
+    #[test]
+    fn each_number_is_that_of_the_nearest_fixed_colour() {
+        for palette in [Palette::DARK, Palette::LIGHT, UNKNOWN] {
+            for role in INKS.into_iter().chain(GROUNDS) {
+                let Some(Swatch { rgb, index, .. }) = palette.swatch(role) else {
+                    continue;
+                };
+                assert_eq!(index, nearest_index(rgb), "{palette:?} {role:?}");
+                let error = difference(lab(fixed_colour(index)), lab(rgb));
+                let most = if GROUNDS.contains(&role) {
+                    GROUND_ERROR
+                } else {
+                    INK_ERROR
+                };
+                assert!(error <= most, "{palette:?} {role:?} {error}");
+            }
+            let StressIndices { press, pull } = palette.stress_indices();
+            for (role, indices) in [(Role::Press, press), (Role::Pull, pull)] {
+                for (step, index) in (1..).zip(indices) {
+                    let rgb = palette.stress_rgb(role, step);
+                    assert_eq!(index, nearest_index(rgb), "{palette:?} {role:?} {step}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn stress_has_four_steps_on_each_side() {
+        let steps = [0.0, 0.1, 0.2, 0.4, 0.7, 1.0, 5.0].map(stress_step);
+        assert_eq!(steps, [1, 1, 2, 3, 4, 4, 4]);
+        let palette = Palette::DARK;
+        assert_eq!(palette.stress(1.0), palette.colour(Role::Press));
+        assert_eq!(palette.stress(-1.0), palette.colour(Role::Pull));
+        assert_ne!(palette.stress(0.1), palette.stress(-0.1));
+        // Sixteen colours still show the sign of a small stress.
+        let sixteen = Palette {
+            colours: Colours::Ansi16,
+            ..palette
+        };
+        assert_eq!(sixteen.stress(0.1), Color::LightYellow);
+        assert_eq!(Palette::PLAIN.stress(0.1), Color::Reset);
+    }
+
+    #[test]
+    fn the_terminal_states_its_colours() {
+        for (variables, colours) in [
+            ("TERM=xterm-256color", Colours::Ansi256),
+            ("TERM=screen", Colours::Ansi256),
+            ("", Colours::Ansi256),
+            ("TERM=linux", Colours::Ansi16),
+            ("TERM=vt220", Colours::Ansi16),
+            ("TERM=ansi", Colours::Ansi16),
+            ("TERM=vte-256color", Colours::Ansi256),
+            ("TERM=linux COLORTERM=truecolor", Colours::TrueColour),
+            ("TERM=xterm COLORTERM=24bit", Colours::TrueColour),
+            ("TERM=xterm COLORTERM=yes", Colours::Ansi256),
+            ("TERM=xterm COLORTERM=truecolor NO_COLOR=1", Colours::Plain),
+            ("TERM=xterm NO_COLOR=", Colours::Ansi256),
+            ("TERM=dumb COLORTERM=truecolor", Colours::Plain),
+        ] {
+            let values: BTreeMap<&str, &str> = variables
+                .split_whitespace()
+                .filter_map(|variable| variable.split_once('='))
+                .collect();
+            let value = |name: &str| values.get(name).map(|value| (*value).to_owned());
+            assert_eq!(Colours::of_environment(value), colours, "{variables}");
+        }
+    }
+}
