@@ -3,6 +3,7 @@
 use super::action::Task;
 use super::config::Config;
 use super::editor::Editor;
+use super::events::ListedEvents;
 use super::ghost::Ghost;
 use super::keys::bindings::{Context, KeyCommand};
 use super::manual_path::ManualPath;
@@ -26,6 +27,7 @@ use asperity_study::maps::{Grid, GridPlace};
 use asperity_study::{Axis, Ensemble, Quantity};
 use ratatui::style::Style;
 use std::sync::Arc;
+use std::time::Duration;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
@@ -55,6 +57,8 @@ pub struct View {
     /// curve has the main place.
     pub large: Option<Pane>,
     pub zoomed: bool,
+    /// True if the list of events takes the place of the results.
+    pub lists_events: bool,
     pub size: (u16, u16),
     pub appearance: Appearance,
     pub close_up: CloseUpTarget,
@@ -94,6 +98,8 @@ pub struct App {
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
     pub snapshot: Option<Arc<ContactSnapshot>>,
+    /// Events that the solver has listed last; they may belong to an earlier scene.
+    pub events: Option<Arc<ListedEvents>>,
     /// Number of computed stages of the scene that is being computed; `None` if no scene is being
     /// computed.
     pub progress: Option<usize>,
@@ -108,6 +114,8 @@ pub struct App {
     pub config: Config,
     /// Command that runs next, because the user has chosen it in the list of commands.
     pub chosen: Option<KeyCommand>,
+    /// Time for which the animation still rests at a jump.
+    pub rest: Duration,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
     /// State of the contact that was last requested from the solver.
@@ -130,6 +138,7 @@ impl App {
                 pane: Pane::Force,
                 large: None,
                 zoomed: false,
+                lists_events: false,
                 size,
                 appearance,
                 close_up: CloseUpTarget::WHOLE,
@@ -143,6 +152,7 @@ impl App {
             },
             solved: None,
             snapshot: None,
+            events: None,
             progress: Some(0),
             studies: Findings::default(),
             map: MapState::default(),
@@ -152,6 +162,7 @@ impl App {
             message: None,
             config,
             chosen: None,
+            rest: Duration::ZERO,
             finished: false,
             effects: Vec::new(),
             asked: None,
@@ -392,7 +403,19 @@ impl App {
         match self.view.large {
             Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
-            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
+            None => {
+                let mut panes = vec![
+                    Pane::Force,
+                    Pane::Timeline,
+                    Pane::Profile,
+                    Pane::Parameters,
+                    Pane::CloseUp,
+                ];
+                if self.view.lists_events {
+                    panes.push(Pane::Events);
+                }
+                panes
+            }
         }
     }
 

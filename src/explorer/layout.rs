@@ -148,8 +148,61 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
         ..body
     };
     let mut panes = panes_beside_list(app, left);
-    panes.push((Pane::Parameters, right));
+    panes.extend(panes_of_list(app, right));
     panes
+}
+
+/// Smallest height in rows of the area beside the panes for results below the list of parameters.
+const WITH_RESULT: u16 = 20;
+/// Height in rows from which both the results and the list of events are below the parameters.
+const WITH_BOTH: u16 = 40;
+
+/// Returns the list of parameters, and below it the results or the list of events or, in a high
+/// window, both.
+fn panes_of_list(app: &App, area: Rect) -> Vec<(Pane, Rect)> {
+    if area.height < WITH_RESULT {
+        return vec![(Pane::Parameters, area)];
+    }
+    let result_rows = match area.height {
+        32.. => 10,
+        26.. => 8,
+        _ => 5,
+    };
+    let lists_both = app.view.lists_events && area.height >= WITH_BOTH;
+    let mut lower = Vec::new();
+    if !app.view.lists_events || lists_both {
+        lower.push((Pane::Result, result_rows));
+    }
+    if app.view.lists_events {
+        let rows = if lists_both { 12 } else { area.height / 2 };
+        lower.push((Pane::Events, rows));
+    }
+    let taken: u16 = lower.iter().map(|(_, rows)| rows).sum();
+    let mut panes = vec![(
+        Pane::Parameters,
+        Rect {
+            height: area.height - taken,
+            ..area
+        },
+    )];
+    let mut y = area.bottom() - taken;
+    for (pane, height) in lower {
+        panes.push((pane, Rect { y, height, ..area }));
+        y += height;
+    }
+    panes
+}
+
+/// Returns the height in rows of the timeline in an area of this height: a row of ticks and the
+/// stages; in a higher area also a title and further rows of ticks.
+fn timeline_rows(height: u16) -> u16 {
+    match height {
+        40.. => 5,
+        32.. => 4,
+        26.. => 3,
+        WITH_LOWER.. => 2,
+        _ => 0,
+    }
 }
 
 /// Returns the pane that has the main place.
@@ -199,16 +252,29 @@ fn panes_beside_list(app: &App, left: Rect) -> Vec<(Pane, Rect)> {
     if left.height < WITH_LOWER || is_alone {
         return vec![(only_pane(app), left)];
     }
+    let timeline_rows = if app.view.large.is_none() {
+        timeline_rows(left.height)
+    } else {
+        0
+    };
     let upper = Rect {
-        height: (u32::from(left.height) * 62 / 100) as u16,
+        height: (u32::from(left.height - timeline_rows) * 62 / 100) as u16,
+        ..left
+    };
+    let timeline = Rect {
+        y: upper.bottom(),
+        height: timeline_rows,
         ..left
     };
     let lower = Rect {
-        y: upper.bottom(),
-        height: left.height - upper.height,
+        y: timeline.bottom(),
+        height: left.height - upper.height - timeline_rows,
         ..left
     };
     let mut panes = vec![(main, upper)];
+    if timeline_rows > 0 {
+        panes.push((Pane::Timeline, timeline));
+    }
     if app.view.large.is_some() {
         panes.push((Pane::Force, lower));
     } else if left.width >= WITH_CLOSE_UP {

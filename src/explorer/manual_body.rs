@@ -1,8 +1,9 @@
 //! The body under manual loading. It follows the stages of a path one after the other, each in one
 //! exact motion, just as a scene with these stages as its loading does.
 
-use asperity_contact::motion::{Body, Leg, MovingBody};
-use asperity_contact::{Contact, ContactError, CurvePoint, LegRecord, Move};
+use super::events::{LEAST_SHARE, MOST_LISTED};
+use asperity_contact::motion::{Body, JumpCollector, Leg, MovingBody};
+use asperity_contact::{Contact, ContactError, CurvePoint, Events, LegRecord, Move};
 use asperity_data::format_quantity;
 use asperity_scene::stages::Reach;
 
@@ -14,6 +15,8 @@ pub struct ManualBody {
     start: Body,
     reach: Reach,
     records: Vec<LegRecord>,
+    /// Jumps of all stages.
+    jumps: JumpCollector,
     /// Bodies after some of the stages, in the order of the stages. If there are any stages, the
     /// last body is the present one.
     kept: Vec<KeptBody>,
@@ -33,12 +36,18 @@ impl ManualBody {
             start: Body::new(contact, samples),
             reach: Reach::of(contact),
             records: Vec::new(),
+            jumps: JumpCollector::default(),
             kept: Vec::new(),
         }
     }
 
     pub fn records(&self) -> &[LegRecord] {
         &self.records
+    }
+
+    /// Lists the events of all stages.
+    pub fn events(&self) -> Result<Events, ContactError> {
+        self.jumps.events(&self.records, LEAST_SHARE, MOST_LISTED)
     }
 
     pub fn point(&self) -> CurvePoint {
@@ -71,6 +80,7 @@ impl ManualBody {
         if let Err(why) = self.go_back(same) {
             // There is not enough memory to follow the earlier stages again.
             self.records.clear();
+            self.jumps = JumpCollector::default();
             self.kept.clear();
             return Ok(Some(why.to_string()));
         }
@@ -97,6 +107,9 @@ impl ManualBody {
         let mut body = self.present().clone();
         let record = body.advance(target);
         let record = record.map_err(|error| error.in_words(target))?;
+        self.jumps
+            .observe(&record, &body.leg())
+            .map_err(|error| error.in_words(target))?;
         self.records.push(record);
         self.keep(body);
         Ok(())
@@ -125,6 +138,7 @@ impl ManualBody {
         }
         let body = self.body_after(count)?;
         self.records.truncate(count);
+        self.jumps.truncate(count);
         self.kept.retain(|kept| kept.stages < count);
         if count > 0 {
             self.keep(body);

@@ -3,7 +3,7 @@
 
 use super::action::{Gesture, Mouse};
 use super::app::App;
-use super::commands::{crosshair, dialogue, edit, manual, map, view};
+use super::commands::{crosshair, dialogue, edit, manual, map, timeline, view};
 use super::pane::Pane;
 use super::panel::Under;
 use super::panes::force::indentation_at;
@@ -42,10 +42,11 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
             app.view.pane = pane;
             let position = match under {
                 Under::Data(x, _) => Some(x),
-                Under::Row(_) | Under::Frame => None,
+                Under::Row(_) | Under::Column(..) | Under::Frame => None,
             };
             view::zoom_at(app, turns, position);
         }
+        Pane::Timeline | Pane::Events => timeline::go_to_event(app, turns < 0),
         _ => {}
     }
 }
@@ -62,6 +63,10 @@ fn point(app: &mut App, under: Under, is_press: bool) {
             app.begin();
             app.edit.select(row);
         }
+        (Pane::Timeline, Under::Column(column, columns)) => {
+            timeline::go_to_column(app, column, columns)
+        }
+        (Pane::Events, Under::Row(row)) if is_press => timeline::select_row(app, row),
         (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
         // A click only selects the pane. A drag begins manual loading.
         (Pane::Force, Under::Data(x, _)) if !is_press || app.edit.path.is_some() => drag(app, x),

@@ -6,6 +6,8 @@ use super::keys::bindings::Context;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
     Force,
+    /// The stages of the loading, its jumps and the position of the animation.
+    Timeline,
     Profile,
     CloseUp,
     /// Accuracy of the adhesion force: errors and computing times, the sources of the errors, and
@@ -18,6 +20,10 @@ pub enum Pane {
     /// Map of the regimes of adhesion over κ and H, or a map of a study.
     Map,
     Parameters,
+    /// The main results: adhesion forces of the random profiles, shares, energies, errors.
+    Result,
+    /// The list of jumps and marks of the loading.
+    Events,
 }
 
 impl Pane {
@@ -29,7 +35,13 @@ impl Pane {
     pub fn is_large(self) -> bool {
         !matches!(
             self,
-            Self::Force | Self::Profile | Self::CloseUp | Self::Parameters
+            Self::Force
+                | Self::Timeline
+                | Self::Profile
+                | Self::CloseUp
+                | Self::Parameters
+                | Self::Result
+                | Self::Events
         )
     }
 
@@ -37,7 +49,7 @@ impl Pane {
     /// this is the file of the force curve, which is exported in its place.
     pub fn file_name(self) -> &'static str {
         match self {
-            Self::Force | Self::Parameters => "force",
+            Self::Force | Self::Timeline | Self::Parameters | Self::Result => "force",
             Self::Profile => "profile",
             Self::CloseUp => "patch",
             Self::Trust => "trust",
@@ -45,6 +57,7 @@ impl Pane {
             Self::Preloads => "preloads",
             Self::Sensitivity => "sensitivity",
             Self::Map => "map",
+            Self::Events => "events",
         }
     }
 
@@ -53,7 +66,9 @@ impl Pane {
     /// is shown.
     pub fn keys(self) -> Context {
         match self {
-            Self::Sensitivity => Context::Explore,
+            Self::Sensitivity | Self::Result => Context::Explore,
+            Self::Timeline => Context::Timeline,
+            Self::Events => Context::Events,
             Self::Map => Context::Map,
             Self::Parameters => Context::Parameters,
             _ => Context::Crosshair,

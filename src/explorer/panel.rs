@@ -27,6 +27,8 @@ pub enum Body {
         rows: Vec<Line<'static>>,
         selected: usize,
     },
+    /// Lines from the top downwards.
+    Lines(Vec<Line<'static>>),
     /// Text in place of a chart, such as the reason why there is no chart.
     Text(String),
 }
@@ -219,7 +221,7 @@ impl Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
             Body::Text(text) if text.is_empty() => 0,
-            Body::Rows { .. } | Body::Text(_) => 1,
+            Body::Rows { .. } | Body::Lines(_) | Body::Text(_) => 1,
         };
         let room = area.height.saturating_sub(least);
         let above = ((panel.head.len() + legend) as u16).min(room);
@@ -269,6 +271,7 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
                 draw_scrollbar(first, hidden, column, look, buffer);
             }
         }
+        Body::Lines(lines) => draw_lines(lines, body, buffer),
         Body::Chart(plot) => drop(plot.draw(body, look.palette(), buffer)),
     }
     if has_title(area) {
@@ -355,7 +358,7 @@ fn fits_into_title(title: &str, texts: &[Part], width: u16) -> bool {
 
 /// Returns the title line of a pane: the title, a rule, and on the right as many of the texts
 /// `edge` as fit.
-fn title_line(
+pub fn title_line(
     title: &str,
     edge: Vec<Part>,
     width: u16,
@@ -428,6 +431,8 @@ pub enum Under {
     /// outside the plot area, these are the numbers at the nearest cell inside.
     Data(f64, f64),
     Row(usize),
+    /// A column of a body of lines, and the number of its columns.
+    Column(usize, usize),
     Frame,
 }
 
@@ -453,6 +458,9 @@ pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Und
             } else {
                 Under::Frame
             }
+        }
+        Body::Lines(_) if body.contains(cell) => {
+            Under::Column((cell.x - body.x).into(), body.width.into())
         }
         _ => Under::Frame,
     }

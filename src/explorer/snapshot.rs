@@ -2,6 +2,7 @@
 //! its scene (a number that increases whenever the scene changes), and contains only as many
 //! columns as the panes show.
 
+use super::events::ListedEvents;
 use super::manual_path::ManualPath;
 use super::request::{Drive, Focus, LineView, SnapshotRequest};
 use asperity_contact::motion::PatchState;
@@ -180,14 +181,15 @@ impl Reply {
         match self {
             Reply::Solved(solved, _) => solved.generation,
             Reply::Shown(snapshot) => snapshot.generation,
+            Reply::Listed(events) => events.generation,
             Reply::Progress { generation, .. } | Reply::Failed { generation, .. } => *generation,
         }
     }
 
     /// Returns true if this reply is the answer to a request. Returns false if it is a report of
-    /// progress, which other replies follow.
+    /// progress, which other replies follow, or the list of events, which follows an answer.
     pub fn is_answer(&self) -> bool {
-        !matches!(self, Reply::Progress { .. })
+        !matches!(self, Reply::Progress { .. } | Reply::Listed(_))
     }
 }
 
@@ -198,6 +200,8 @@ pub enum Reply {
     Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
     /// Another snapshot of the scene has been computed.
     Shown(Arc<ContactSnapshot>),
+    /// The events of the scene or of the path of manual loading have been listed.
+    Listed(Arc<ListedEvents>),
     /// Some stages of a scene have been computed.
     Progress {
         generation: u64,

@@ -3,6 +3,7 @@
 //! solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
+use super::events::{LEAST_SHARE, ListedEvents, MOST_LISTED};
 use super::manual_body::ManualBody;
 use super::manual_path::ManualPath;
 use super::player::{At, Player};
@@ -11,8 +12,8 @@ use super::snapshot::{
     ContactSnapshot, FollowedPath, Probe, Reply, SolvedScene, SpringsInContact, profile_part,
 };
 use crate::explorer::advice;
-use asperity_contact::motion::Leg;
-use asperity_contact::{ContactError, CurvePoint, LegRecord};
+use asperity_contact::motion::{JumpCollector, Leg};
+use asperity_contact::{ContactError, CurvePoint, Events, LegRecord};
 use asperity_data::Remedied;
 use asperity_report::{LineColumns, SectionContact};
 use asperity_scene::stages::{AfterLeg, Reach};
@@ -53,6 +54,8 @@ struct Newest {
     /// Legs of the loading; `None` for each leg that did not fit into memory.
     legs: Vec<Option<Leg>>,
     manual: Option<Manual>,
+    /// Events that were listed last for this scene.
+    listed: Option<Arc<ListedEvents>>,
     /// Lowest and highest point of the profile in each column. They are stored, because the next
     /// snapshot usually needs them again.
     profile: LineColumns,
@@ -173,6 +176,52 @@ impl Solver {
         } else if let Some(shown) = shown {
             report(Reply::Shown(shown));
         }
+        // The events follow the answer, because to list them takes part of the time of the loop.
+        if let Some(events) = self.list_events() {
+            self.newest.listed = Some(Arc::clone(&events));
+            report(Reply::Listed(events));
+        }
+    }
+
+    /// Lists the events of the newest scene or, under manual loading, of the path. Returns `None` if
+    /// they are listed already, or if the explorer waits for a newer scene.
+    fn list_events(&self) -> Option<Arc<ListedEvents>> {
+        let solved = self.newest.solved.as_deref()?;
+        let manual = self.newest.manual.as_ref();
+        let path = manual.map(|manual| Arc::clone(&manual.followed.path));
+        let is_listed = |listed: &Arc<ListedEvents>| listed.path == path;
+        if self.newest.listed.as_ref().is_some_and(is_listed) {
+            return None;
+        }
+        let events = match manual {
+            Some(manual) => manual.body.events(),
+            None => self.events_of_loading(solved)?,
+        };
+        Some(Arc::new(ListedEvents {
+            generation: self.newest.generation,
+            path,
+            events: events.map_err(|error| error.to_string()),
+        }))
+    }
+
+    /// Lists the events of the loading of a scene. Returns `None` if the explorer waits for a newer
+    /// scene.
+    fn events_of_loading(&self, solved: &SolvedScene) -> Option<Result<Events, ContactError>> {
+        let records = &solved.outcome.history.legs;
+        let mut jumps = JumpCollector::default();
+        for (record, leg) in records.iter().zip(&self.newest.legs) {
+            if self.awaited.load(Ordering::Relaxed) != solved.generation {
+                return None;
+            }
+            // A leg that does not fit into memory has too many springs for a list.
+            let Some(leg) = leg else {
+                return Some(Ok(Events::default()));
+            };
+            if let Err(error) = jumps.observe(record, leg) {
+                return Some(Err(error));
+            }
+        }
+        Some(jumps.events(records, LEAST_SHARE, MOST_LISTED))
     }
 
     /// Computes a scene, including the histogram of heights.

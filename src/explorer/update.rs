@@ -100,6 +100,7 @@ fn replied(app: &mut App, reply: Reply) {
             app.effects.push(Task::Study);
         }
         Reply::Shown(snapshot) => movement::shown(app, snapshot),
+        Reply::Listed(events) => app.events = Some(events),
         Reply::Progress { legs, .. } => app.progress = app.progress.map(|_| legs),
         Reply::Failed { error, .. } => {
             app.progress = None;

@@ -114,6 +114,11 @@ impl JumpCollector {
         Ok(())
     }
 
+    /// Forgets the stages after the first `count` ones, for a body that returns to an earlier state.
+    pub fn truncate(&mut self, count: usize) {
+        self.stages.truncate(count);
+    }
+
     /// Returns all jumps of a stage in the order of the motion. `stage` is the index of the stage,
     /// from 0.
     pub fn jumps(&self, stage: usize) -> &[Jump] {

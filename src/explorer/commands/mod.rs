@@ -14,4 +14,5 @@ pub mod opening;
 pub mod stages;
 pub mod table;
 pub mod target;
+pub mod timeline;
 pub mod view;

@@ -2,6 +2,7 @@
 //! of manual loading.
 
 use super::manual;
+use super::timeline::rest_before;
 use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
 use crate::explorer::request::Focus;
@@ -11,8 +12,8 @@ use std::time::Duration;
 
 /// Time that the animation takes for a loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
-/// Number of steps into which a loading stage is divided for stepping through the animation.
-const STEPS: f64 = 120.0;
+/// Time for which the animation rests at a large jump.
+const REST: Duration = Duration::from_millis(250);
 /// If the animation has passed less than this share of a loading stage, it counts as being at the
 /// start of the stage.
 const NEAR_START: f64 = 0.05;
@@ -35,37 +36,6 @@ fn is_at_rest(app: &App, player: Player) -> bool {
     let legs = app.played_legs();
     let is_at_end = player.at == At::End && player.leg + 1 >= legs.len();
     is_at_end || app.edit.path.is_none() && player == Player::at_rest(legs)
-}
-
-/// Moves the animation by a number of steps. If a step would leave the loading stage, the animation
-/// stops at the boundary between the two stages.
-pub fn step(app: &mut App, steps: i32) {
-    let legs = app.played_legs();
-    let player = Player {
-        playing: false,
-        ..app.playhead()
-    };
-    let share = f64::from(steps) / STEPS;
-    let reached = player.share(legs) + share;
-    let moved = if reached > 1.0 && player.leg + 1 < legs.len() {
-        Player {
-            leg: player.leg + 1,
-            at: At::Start,
-            ..player
-        }
-    } else if reached < 0.0 && player.leg > 0 {
-        Player {
-            leg: player.leg - 1,
-            at: At::End,
-            ..player
-        }
-    } else {
-        Player {
-            at: player.advanced(legs, share),
-            ..player
-        }
-    };
-    app.set_playhead(moved);
 }
 
 /// Plays the loading of the scene from its beginning or, under manual loading, the path from its
@@ -124,6 +94,10 @@ pub fn elapse(app: &mut App, time: Duration) {
     if !app.is_playing() || legs.is_empty() {
         return;
     }
+    let Some(time) = after_rest(app, time) else {
+        return;
+    };
+    let legs = app.played_legs();
     let last = legs.len() - 1;
     let mut player = app.playhead();
     let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
@@ -138,6 +112,14 @@ pub fn elapse(app: &mut App, time: Duration) {
         };
     }
     player.at = player.advanced(legs, share);
+    if let Some(at_jump) = rest_before(app, app.playhead(), player) {
+        app.set_playhead(Player {
+            playing: true,
+            ..at_jump
+        });
+        app.rest = REST;
+        return;
+    }
     if player.leg < last || player.at != At::End {
         app.set_playhead(player);
     } else if app.config.repeat {
@@ -147,6 +129,14 @@ pub fn elapse(app: &mut App, time: Duration) {
     } else {
         app.set_playhead(Player::at_rest(legs));
     }
+}
+
+/// Returns the part of the time that is left after the animation has rested at a jump; `None` if it
+/// still rests.
+fn after_rest(app: &mut App, time: Duration) -> Option<Duration> {
+    let left = time.checked_sub(app.rest);
+    app.rest = app.rest.saturating_sub(time);
+    left.filter(|left| !left.is_zero())
 }
 
 /// Shows a snapshot from the solver.

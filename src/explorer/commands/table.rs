@@ -3,7 +3,7 @@
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages,
-    target, view,
+    target, timeline, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -76,6 +76,8 @@ const LIST: &[Context] = &[Context::Explore, Context::Parameters];
 /// Contexts in which keys other than those for values act on the list of parameters.
 const LISTED: &[Context] = &[Context::Explore, Context::Manual, Context::Parameters];
 const BY_HAND: &[Context] = &[Context::Manual];
+const TIMELINE: &[Context] = &[Context::Timeline];
+const EVENTS: &[Context] = &[Context::Events];
 /// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
 /// instead.
 const ROWS: &[Context] = &[
@@ -186,12 +188,18 @@ fn takes_number(app: &App) -> bool {
 #[rustfmt::skip]
 static TABLE: &[Entry] = &[
     row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),
-    row(".", OTHER_PANES, "step-forwards", Do(|app| movement::step(app, 1)), "step", "one step forwards", ANIMATION),
-    row(",", EXPLORE, "step-backwards", Do(|app| movement::step(app, -1)), "", "one step backwards", ANIMATION),
-    row("r", EXPLORE, "restart", Do(movement::restart), "restart", "play from the beginning", ANIMATION),
+    row(",", EXPLORE, "previous-event", Do(|app| timeline::go_to_event(app, false)), "jump", "go to the previous jump or mark of the loading", ANIMATION).words("event step back").rank(2),
+    row(";", EXPLORE, "next-event", Do(|app| timeline::go_to_event(app, true)), "jump", "go to the next jump or mark of the loading", ANIMATION).words("event step forwards").rank(2),
+    row("e", EXPLORE, "toggle-events", Do(timeline::toggle_events), "events", "show the list of events, or the results", ANIMATION).words("jumps list energies merge split").rank(2),
+    row("r", EXPLORE, "toggle-repeat", Do(timeline::toggle_repeat), "", "repeat the animation, or stop it at its end", ANIMATION).words("loop again"),
     row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the next stage", ANIMATION),
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
+
+    row("← → h l Shift+← Shift+→ H L", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the stage by a small or a large step", ANIMATION).rank(1).unlisted(),
+    row("Home End g G", TIMELINE, "playhead-to-end", Key(timeline::go_to_end), "ends", "go to the beginning or to the end of the loading", ANIMATION).unlisted(),
+    row("+ = -", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
+    row("↑ ↓ k j PageUp PageDown Home End g G", EVENTS, "select-event", Key(timeline::select_event), "select", "go to another event of the list", ANIMATION).rank(1).unlisted(),
 
     row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand from here; again: the path becomes the loading of the scene", MANUAL).words("minor loop manual history keep path"),
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
@@ -207,7 +215,7 @@ static TABLE: &[Entry] = &[
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
     row("Shift+→ L", LIST, "increase-coarse", Do(|app| stages::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
-    row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, such as 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row("Enter", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, such as 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),

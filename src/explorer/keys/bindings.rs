@@ -18,6 +18,10 @@ pub enum Context {
     Crosshair,
     /// No prompt, manual loading, and the force curve is selected.
     Manual,
+    /// No prompt, and the timeline is selected.
+    Timeline,
+    /// No prompt, and the list of events is selected.
+    Events,
     /// No prompt, and the list of parameters is selected.
     Parameters,
     /// A prompt is open that has a line which the user types, but no list.
@@ -71,6 +75,8 @@ pub const EXPLORE: &[Context] = &[
     Context::Map,
     Context::Crosshair,
     Context::Manual,
+    Context::Timeline,
+    Context::Events,
     Context::Parameters,
 ];
 pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
@@ -90,7 +96,12 @@ impl Row {
     /// Returns true if the list of commands contains the row. Functions that work only in a prompt,
     /// or only with a crosshair or under manual loading, are not in the list.
     fn is_listed(&self) -> bool {
-        const ONLY_THERE: [Context; 2] = [Context::Crosshair, Context::Manual];
+        const ONLY_THERE: [Context; 4] = [
+            Context::Crosshair,
+            Context::Manual,
+            Context::Timeline,
+            Context::Events,
+        ];
         let mut contexts = self.contexts.iter();
         let works_without_prompt =
             contexts.any(|context| EXPLORE.contains(context) && !ONLY_THERE.contains(context));

@@ -2,15 +2,18 @@
 //! function that makes the content of the pane from the state of the explorer.
 
 mod close_up;
+mod events;
 pub mod force;
 mod map;
 mod parameters;
 mod preloads;
 mod profile;
+mod result;
 pub mod row;
 mod section;
 mod sensitivity;
 mod spectrum;
+mod timeline;
 pub mod trust;
 
 use self::row::PaneRow;
@@ -32,6 +35,7 @@ const EXPORTED: Size = Size {
 pub fn row(pane: Pane) -> &'static PaneRow {
     match pane {
         Pane::Force => &force::ROW,
+        Pane::Timeline => &timeline::ROW,
         Pane::Profile => &profile::ROW,
         Pane::CloseUp => &close_up::ROW,
         Pane::Trust => &trust::ROW,
@@ -40,6 +44,8 @@ pub fn row(pane: Pane) -> &'static PaneRow {
         Pane::Sensitivity => &sensitivity::ROW,
         Pane::Map => &map::ROW,
         Pane::Parameters => &parameters::ROW,
+        Pane::Result => &result::ROW,
+        Pane::Events => &events::ROW,
     }
 }
 

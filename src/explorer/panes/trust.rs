@@ -207,7 +207,7 @@ fn words(app: &App, width: u16) -> Words {
 }
 
 /// Returns the errors of the adhesion force, each as the name of its source and a text.
-fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
+pub(super) fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let estimate = app.studies.value::<Estimate>();
     let ensemble = app.studies.value::<Ensemble>();

@@ -1,0 +1,253 @@
+//! Commands of the timeline and of the list of events: steps from event to event, moves of the
+//! playhead (the position of the animation), and the speed of the animation.
+
+use crate::explorer::app::App;
+use crate::explorer::events;
+use crate::explorer::keys::key::direction;
+use crate::explorer::pane::Pane;
+use crate::explorer::player::{At, Player};
+use crate::explorer::request::Focus;
+use crate::explorer::timeline::{Timeline, next, passed, position_of, previous};
+use asperity_contact::{Event, LegRecord};
+use crossterm::event::{KeyCode, KeyEvent};
+
+/// Parts of a loading stage over which the playhead moves by a small and by a large step.
+const SMALL_STEP: f64 = 1.0 / 120.0;
+const LARGE_STEP: f64 = 1.0 / 12.0;
+/// Slowest and fastest speed of the animation that the keys reach.
+const SPEEDS: [f64; 2] = [0.25, 8.0];
+/// Number of columns on each side of a click in which the click selects a jump.
+const NEAR_TICK: usize = 1;
+
+/// Moves the animation to the next event, or to the event before if `forwards` is false.
+pub fn go_to_event(app: &mut App, forwards: bool) {
+    let Some(list) = listed(app) else {
+        return;
+    };
+    let legs = app.played_legs();
+    let player = app.playhead();
+    let found = if forwards {
+        next(legs, &list, player)
+    } else {
+        previous(legs, &list, player)
+    };
+    match found {
+        Some(index) => show(app, &list[index]),
+        None if list.is_empty() => app.set_done("there is no jump and no mark on this loading"),
+        None if forwards => app.set_done("this was the last event"),
+        None => app.set_done("this was the first event"),
+    }
+}
+
+/// Returns the listed events. If there are none yet or if they cannot be listed, a message states
+/// it.
+fn listed(app: &mut App) -> Option<Vec<Event>> {
+    let found = match events::of_app(app) {
+        Some(Ok(listed)) => Ok(listed.list.clone()),
+        Some(Err(why)) => Err(why.to_owned()),
+        None => Err("the jumps are being listed…".to_owned()),
+    };
+    match found {
+        Ok(list) => Some(list),
+        Err(why) => {
+            app.set_done(why);
+            None
+        }
+    }
+}
+
+/// Moves the animation to an event. The close-up shows the patch that changes.
+fn show(app: &mut App, event: &Event) {
+    let player = position_of(app.played_legs(), event);
+    if let Some(jump) = event.jump
+        && let Some(patch) = jump.after.or(jump.before)
+    {
+        app.view.close_up.focus = Focus::Spring(patch.middle());
+    }
+    app.set_playhead(player);
+}
+
+/// Selects another event in the list, by the pressed key, and moves the animation there.
+pub fn select_event(app: &mut App, key: &KeyEvent) {
+    let Some(list) = listed(app) else {
+        return;
+    };
+    let Some(last) = list.len().checked_sub(1) else {
+        return;
+    };
+    let present = passed(app.played_legs(), &list, app.playhead()).saturating_sub(1);
+    let page = 10;
+    let index = match key.code {
+        KeyCode::Up | KeyCode::Char('k') => return go_to_event(app, false),
+        KeyCode::Down | KeyCode::Char('j') => return go_to_event(app, true),
+        KeyCode::PageUp => present.saturating_sub(page),
+        KeyCode::PageDown => (present + page).min(last),
+        KeyCode::Home | KeyCode::Char('g') => 0,
+        _ => last,
+    };
+    show(app, &list[index]);
+}
+
+/// Moves the animation to the event in a row of the list.
+pub fn select_row(app: &mut App, row: usize) {
+    if let Some(list) = listed(app)
+        && let Some(event) = list.get(row)
+    {
+        show(app, event);
+    }
+}
+
+/// Moves the playhead along the loading by a small or a large step, depending on the pressed key.
+pub fn step(app: &mut App, key: &KeyEvent) {
+    let Some(direction) = direction(key) else {
+        return;
+    };
+    let size = if direction.is_coarse {
+        LARGE_STEP
+    } else {
+        SMALL_STEP
+    };
+    let share = f64::from(direction.columns) * size;
+    let legs = app.played_legs();
+    let player = Player {
+        playing: false,
+        ..app.playhead()
+    };
+    let reached = player.share(legs) + share;
+    let moved = if reached > 1.0 && player.leg + 1 < legs.len() {
+        Player {
+            leg: player.leg + 1,
+            at: At::Start,
+            ..player
+        }
+    } else if reached < 0.0 && player.leg > 0 {
+        Player {
+            leg: player.leg - 1,
+            at: At::End,
+            ..player
+        }
+    } else {
+        Player {
+            at: player.advanced(legs, share),
+            ..player
+        }
+    };
+    app.set_playhead(moved);
+}
+
+/// Moves the playhead to the beginning or to the end of the loading, depending on the pressed key.
+pub fn go_to_end(app: &mut App, key: &KeyEvent) {
+    let legs = app.played_legs();
+    let player = match key.code {
+        KeyCode::Home | KeyCode::Char('g') => Player {
+            playing: false,
+            ..Player::START
+        },
+        _ => Player {
+            leg: legs.len().saturating_sub(1),
+            at: At::End,
+            playing: false,
+        },
+    };
+    app.set_playhead(player);
+}
+
+/// Doubles or halves the speed of the animation.
+pub fn change_speed(app: &mut App, key: &KeyEvent) {
+    let factor = if key.code == KeyCode::Char('-') {
+        0.5
+    } else {
+        2.0
+    };
+    let [slowest, fastest] = SPEEDS;
+    app.config.speed = (app.config.speed * factor).clamp(slowest, fastest);
+}
+
+/// Repeats the animation from its beginning when it has reached its end, or stops it there.
+pub fn toggle_repeat(app: &mut App) {
+    app.config.repeat ^= true;
+    let text = if app.config.repeat {
+        "the animation repeats"
+    } else {
+        "the animation stops at its end"
+    };
+    app.set_done(text);
+}
+
+/// Shows the list of events in place of the results, or the results again.
+pub fn toggle_events(app: &mut App) {
+    let shows = app.view.pane == Pane::Events || app.view.lists_events;
+    app.view.lists_events = !shows;
+    app.view.pane = if shows { Pane::Force } else { Pane::Events };
+}
+
+/// Moves the playhead to a column of the timeline, which is `columns` wide. If a tick is at or beside
+/// the column, the playhead moves to the largest jump of this tick.
+pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
+    let legs = app.played_legs();
+    let timeline = Timeline::new(legs, columns);
+    if let Some(Ok(events)) = events::of_app(app)
+        && let Some(event) = jump_near(&timeline, legs, &events.list, column)
+    {
+        return show(app, &event);
+    }
+    if let Some((leg, share)) = timeline.position(column) {
+        let player = Player {
+            leg,
+            at: At::Start,
+            playing: false,
+        };
+        let at = player.advanced(legs, share);
+        app.set_playhead(Player { at, ..player });
+    }
+}
+
+/// Returns the largest jump whose tick is at or beside a column. A tick in the column itself comes
+/// first.
+fn jump_near(
+    timeline: &Timeline,
+    legs: &[LegRecord],
+    events: &[Event],
+    column: usize,
+) -> Option<Event> {
+    let mut found: Option<(usize, f64, Event)> = None;
+    for event in events {
+        let (Some(jump), Some(place)) = (event.jump, timeline.column_of(legs, event)) else {
+            continue;
+        };
+        let distance = place.abs_diff(column);
+        if distance > NEAR_TICK {
+            continue;
+        }
+        let energy = jump.energy.abs();
+        let is_better = found
+            .as_ref()
+            .is_none_or(|(nearest, largest, _)| (distance, -energy) < (*nearest, -largest));
+        if is_better {
+            found = Some((distance, energy, *event));
+        }
+    }
+    found.map(|(_, _, event)| event)
+}
+
+/// Returns the part of the next event at which the animation rests, because its jump is one of the
+/// largest: the position just after the jump, if it is before `until`.
+pub fn rest_before(app: &App, from: Player, until: Player) -> Option<Player> {
+    /// Share of the largest energy from which a jump is large.
+    const LARGE: f64 = 0.1;
+    let Some(Ok(listed)) = events::of_app(app) else {
+        return None;
+    };
+    let legs = app.played_legs();
+    let energies = listed.list.iter().filter_map(|event| event.jump);
+    let largest = energies.fold(0.0, |largest: f64, jump| jump.energy.abs().max(largest));
+    let first = passed(legs, &listed.list, from);
+    let last = passed(legs, &listed.list, until);
+    let between = listed.list.get(first..last)?;
+    let event = between.iter().find(|event| {
+        event
+            .jump
+            .is_some_and(|jump| jump.energy.abs() >= LARGE * largest)
+    })?;
+    Some(position_of(legs, event))
+}

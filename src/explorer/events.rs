@@ -1,0 +1,39 @@
+//! The events of the shown loading, as the solver has listed them.
+
+use super::app::App;
+use super::manual_path::ManualPath;
+use asperity_contact::Events;
+use asperity_data::format_rounded;
+use std::sync::Arc;
+
+/// Smallest energy of a listed jump, as a share of the largest energy of all jumps.
+pub const LEAST_SHARE: f64 = 0.01;
+/// Largest number of listed jumps.
+pub const MOST_LISTED: usize = 4096;
+
+/// Events of the loading of a scene or of a path of manual loading.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ListedEvents {
+    pub generation: u64,
+    /// Path of manual loading; `None` for the loading of the scene.
+    pub path: Option<Arc<ManualPath>>,
+    /// The events. If the jumps cannot be listed, the error is the reason, on one line.
+    pub events: Result<Events, String>,
+}
+
+/// Returns the events of the loading over which the animation moves, or the reason why there are
+/// none; `None` until the solver has listed the events.
+pub fn of_app(app: &App) -> Option<Result<&Events, &str>> {
+    let listed = app.events.as_deref()?;
+    let is_present = listed.generation == app.edit.generation && listed.path == app.edit.path;
+    if !is_present {
+        return None;
+    }
+    Some(listed.events.as_ref().map_err(String::as_str))
+}
+
+/// Returns an energy with its sign. An energy that springs gain is positive.
+pub fn signed_energy(energy: f64) -> String {
+    let sign = if energy > 0.0 { "+" } else { "" };
+    format!("{sign}{}", format_rounded(energy, 2, "J"))
+}

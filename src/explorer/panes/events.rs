@@ -1,0 +1,105 @@
+//! The pane with the list of events: the jumps and the marked points of the loading, in the order of
+//! the motion. The selected row is the event that the animation has passed last.
+
+use super::row::PaneRow;
+use super::timeline::{ink_of, symbol_of};
+use crate::explorer::app::App;
+use crate::explorer::events;
+use crate::explorer::panel::{Body, Panel};
+use crate::explorer::text::fitted;
+use crate::explorer::theme::Meaning;
+use crate::explorer::timeline::passed;
+use asperity_contact::{Event, Events};
+use asperity_data::{format_range, format_rounded, grouped};
+use asperity_report::event_words;
+use ratatui::layout::Size;
+use ratatui::text::{Line, Span};
+
+pub static ROW: PaneRow = PaneRow {
+    panel,
+    figure: |_, _| None,
+    help: &[(
+        "Events",
+        "key e: the jumps of the loading with at least 1 % of the largest energy, and its marks. A positive energy is \
+         gained by springs, a negative one released. With the pane selected, ↑ ↓ or a click move the animation to an event",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Width in columns from which a row also states the forces.
+const WITH_FORCES: u16 = 56;
+/// Width of the columns of indentation and energy.
+const NUMBER_COLUMNS: usize = 9;
+
+fn panel(app: &App, size: Size) -> Panel {
+    let listed = match events::of_app(app) {
+        None => return Panel::of_text("Events".to_owned(), "listing the jumps…"),
+        Some(Err(why)) => return Panel::of_text("Events".to_owned(), why),
+        Some(Ok(listed)) => listed,
+    };
+    if listed.list.is_empty() {
+        return Panel::of_text(
+            "Events".to_owned(),
+            "nothing happens at once: no jump and no mark on this loading",
+        );
+    }
+    let selected = passed(app.played_legs(), &listed.list, app.playhead()).checked_sub(1);
+    let mut rows = Vec::new();
+    for (index, event) in listed.list.iter().enumerate() {
+        rows.push(row(app, event, selected == Some(index), size.width));
+    }
+    let mut panel = Panel::of_text("Events".to_owned(), "");
+    panel.edge = vec![vec![Span::raw(count_in_words(listed))]];
+    panel.body = Body::Rows {
+        rows,
+        selected: selected.unwrap_or(0),
+    };
+    panel
+}
+
+/// Returns how many of all jumps are listed.
+fn count_in_words(listed: &Events) -> String {
+    let all = grouped(listed.jumps as u64);
+    if listed.listed_jumps == listed.jumps {
+        return format!("{all} jumps");
+    }
+    format!("{} of {all} jumps", grouped(listed.listed_jumps as u64))
+}
+
+fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static> {
+    let mark = event.mark.map_or(' ', symbol_of);
+    let indentation = format_rounded(event.indentation, 3, "m");
+    let mut line = Line::from(vec![
+        Span::raw(if is_selected { "›" } else { " " }),
+        Span::raw(format!("{indentation:>NUMBER_COLUMNS$} {mark} ")),
+        Span::raw(event_words(event)),
+    ]);
+    let energy = match (event.jump, event.instrument_loss) {
+        (Some(jump), _) => Some(jump.energy),
+        (None, Some(loss)) => Some(-loss),
+        (None, None) => None,
+    };
+    let energy_text = energy.map_or_else(String::new, events::signed_energy);
+    let mut right = format!("{energy_text:>NUMBER_COLUMNS$}");
+    if width >= WITH_FORCES {
+        let forces = match event.forces {
+            [before, after] if before == after => format_rounded(before, 3, "N"),
+            [before, after] => format_range((before, after), 3, "N"),
+        };
+        right = format!("{right}  F {forces}");
+    }
+    let room = usize::from(width).saturating_sub(right.chars().count() + 1);
+    line = fitted(line, room as u16);
+    let blanks =
+        " ".repeat(usize::from(width).saturating_sub(line.width() + right.chars().count()));
+    line.push_span(Span::raw(blanks));
+    let style = match energy {
+        Some(energy) => app.view.appearance.palette().ink(ink_of(energy > 0.0)),
+        None => app.style(Meaning::Text),
+    };
+    line.push_span(Span::styled(right, style));
+    if is_selected {
+        line = line.style(app.style(Meaning::Selected));
+    }
+    line
+}

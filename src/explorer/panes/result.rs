@@ -1,0 +1,273 @@
+//! The pane of the main results: the adhesion forces of the random profiles as a strip, and the
+//! results in one line each. In a small pane, the last lines are left out.
+
+use super::row::{PaneRow, outcome};
+use super::trust;
+use crate::explorer::app::App;
+use crate::explorer::panel::{Body, Panel};
+use crate::explorer::text::fitted;
+use crate::explorer::theme::Meaning;
+use asperity_data::{format_range, format_rounded, grouped};
+use asperity_report::{counted, percent};
+use asperity_scene::Outcome;
+use asperity_study::{Ensemble, Quantity};
+use ratatui::layout::Size;
+use ratatui::text::{Line, Span};
+
+pub static ROW: PaneRow = PaneRow {
+    panel,
+    figure: |_, _| None,
+    report: outcome,
+    help: &[(
+        "Result",
+        "adhesion force of each random profile, ● on a linear axis from zero, ◆ this profile; │ is the median. Below it \
+         medians and quartiles over the profiles; key e shows the events instead",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Number of rows of the strip of adhesion forces.
+const STRIP_ROWS: usize = 2;
+/// Smallest height in rows of a pane with the strip.
+const WITH_STRIP: u16 = 6;
+
+/// A result: its name, its value, and its range over the profiles, which may be empty.
+struct ResultLine {
+    name: &'static str,
+    value: String,
+    range: String,
+}
+
+fn panel(app: &App, size: Size) -> Panel {
+    let Some(outcome) = app.outcome() else {
+        return Panel::of_text("Result".to_owned(), "computing…");
+    };
+    let ensemble = app.studies.value::<Ensemble>();
+    let mut lines = Vec::new();
+    if size.height >= WITH_STRIP
+        && let Some(ensemble) = ensemble
+    {
+        lines.extend(strip(app, outcome, ensemble, size.width.into()));
+    }
+    for result in results(app, outcome, ensemble) {
+        lines.push(line_of_result(app, &result, size.width));
+    }
+    let mut panel = Panel::of_text("Result".to_owned(), "");
+    panel.edge = edge(ensemble);
+    panel.body = Body::Lines(lines);
+    panel
+}
+
+/// Returns the number of profiles that are computed.
+fn edge(ensemble: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
+    let Some(ensemble) = ensemble else {
+        return Vec::new();
+    };
+    let all = counted(ensemble.profiles(), "profile");
+    let text = if ensemble.computed() < ensemble.profiles() {
+        format!("{} of {all}", grouped(ensemble.computed()))
+    } else {
+        all
+    };
+    vec![vec![Span::raw(text)]]
+}
+
+/// Returns the adhesion forces of the random profiles as a strip with its axis: a point for each
+/// profile, stacked where several are in one column.
+fn strip(app: &App, outcome: &Outcome, ensemble: &Ensemble, width: usize) -> Vec<Line<'static>> {
+    let forces: Vec<f64> = ensemble
+        .values(Quantity::AdhesionForce)
+        .into_iter()
+        .flatten()
+        .collect();
+    let Some(statistics) = ensemble.statistics(Quantity::AdhesionForce) else {
+        return Vec::new();
+    };
+    let present = outcome.figures.adhesion_force;
+    let largest = forces.iter().copied().chain(present).fold(0.0, f64::max);
+    if largest <= 0.0 || width < 12 {
+        return Vec::new();
+    }
+    let [lower, median, upper] = statistics.quartiles;
+    let last = (width - 1) as f64;
+    let column_of = |force: f64| ((force / largest).clamp(0.0, 1.0) * last).round() as usize;
+    let mut rows = vec![vec![' '; width]; STRIP_ROWS];
+    for row in &mut rows {
+        row[column_of(median)] = '│';
+    }
+    let mut counts = vec![0; width];
+    for &force in &forces {
+        let column = column_of(force);
+        if counts[column] < STRIP_ROWS {
+            rows[counts[column]][column] = '●';
+        }
+        counts[column] += 1;
+    }
+    if let Some(force) = present {
+        rows[0][column_of(force)] = '◆';
+    }
+    let mut lines = Vec::new();
+    for row in rows.iter().rev() {
+        let mut spans = Vec::new();
+        for &symbol in row {
+            let style = match symbol {
+                '◆' => app.style(Meaning::Cursor),
+                '│' => app.style(Meaning::Quiet),
+                _ => app.style(Meaning::Text),
+            };
+            spans.push(Span::styled(symbol.to_string(), style));
+        }
+        lines.push(Line::from(spans));
+    }
+    lines.push(axis(app, [lower, median, upper, largest], width, column_of));
+    lines
+}
+
+/// Returns the axis of the strip: a line with zero, the quartiles and the largest force, each at its
+/// place if there is room.
+fn axis(
+    app: &App,
+    forces: [f64; 4],
+    width: usize,
+    column_of: impl Fn(f64) -> usize,
+) -> Line<'static> {
+    let [lower, median, upper, largest] = forces;
+    let mut cells = vec!['─'; width];
+    cells[0] = '0';
+    let mut taken = vec![0..2];
+    for force in [largest, median, upper, lower] {
+        let text = format_rounded(force, 3, "N");
+        let length = text.chars().count();
+        if length > width {
+            continue;
+        }
+        let middle = column_of(force);
+        let first = middle.saturating_sub(length / 2).min(width - length);
+        let place = first..first + length;
+        let is_free = taken
+            .iter()
+            .all(|other| place.end < other.start || other.end < place.start);
+        if !is_free {
+            continue;
+        }
+        for (column, symbol) in place.clone().zip(text.chars()) {
+            cells[column] = symbol;
+        }
+        taken.push(place);
+    }
+    let text: String = cells.into_iter().collect();
+    Line::styled(text, app.style(Meaning::Quiet))
+}
+
+/// Returns the results, the most important first.
+fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<ResultLine> {
+    let mut results = Vec::new();
+    let figures = &outcome.figures;
+    let share = figures
+        .adhesion_force
+        .zip(app.ideal_adhesion_force())
+        .map(|(force, ideal)| force / ideal);
+    let rows = [
+        ("F_a", Quantity::AdhesionForce, figures.adhesion_force, "N"),
+        ("F_a/F_a,max", Quantity::AdhesionShare, share, "%"),
+        (
+            "energy lost",
+            Quantity::DissipatedEnergy,
+            figures.dissipated_energy,
+            "J",
+        ),
+    ];
+    for (name, quantity, present, unit) in rows {
+        let statistics = ensemble.and_then(|ensemble| ensemble.statistics(quantity));
+        if let Some(statistics) = statistics {
+            let [lower, median, upper] = statistics.quartiles;
+            results.push(ResultLine {
+                name,
+                value: in_unit(median, unit),
+                range: range_in_unit((lower, upper), unit),
+            });
+        } else if let Some(value) = present {
+            results.push(ResultLine {
+                name,
+                value: in_unit(value, unit),
+                range: String::new(),
+            });
+        }
+    }
+    if let Some(regime) = outcome.regime {
+        results.push(ResultLine {
+            name: "regime",
+            value: regime
+                .by_protocols(outcome.regime_after_zero_force)
+                .replace("pressure-", ""),
+            range: String::new(),
+        });
+    }
+    if let Some(computed) = app.current()
+        && let Some(largest) = largest_error(&trust::errors(app, computed))
+    {
+        results.push(ResultLine {
+            name: "error",
+            value: largest,
+            range: String::new(),
+        });
+    }
+    let warnings = app.warnings().len() as u64;
+    if warnings > 0 {
+        results.push(ResultLine {
+            name: "warnings",
+            value: format!("{} (key A)", counted(warnings, "premise")),
+            range: String::new(),
+        });
+    }
+    results
+}
+
+/// Returns the source of the largest error and the error in words. `rows` are the errors from all
+/// sources; the last row names the source of the largest one.
+fn largest_error(rows: &[(&str, String)]) -> Option<String> {
+    let ((_, largest), sources) = rows.split_last()?;
+    let source = largest.split(':').next().unwrap_or(largest);
+    let words = sources.iter().find(|(name, _)| *name == source);
+    Some(match words {
+        Some((_, words)) => format!("{source} {words}"),
+        None => largest.clone(),
+    })
+}
+
+fn in_unit(value: f64, unit: &str) -> String {
+    if unit == "%" {
+        percent(value, 3)
+    } else {
+        format_rounded(value, 3, unit)
+    }
+}
+
+fn range_in_unit((low, high): (f64, f64), unit: &str) -> String {
+    if unit == "%" {
+        format_range((100.0 * low, 100.0 * high), 2, "1")
+    } else {
+        format_range((low, high), 2, unit)
+    }
+}
+
+/// Number of columns of the names of results.
+const NAME_COLUMNS: usize = 12;
+
+fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
+    let name = format!("{:NAME_COLUMNS$} ", result.name);
+    let mut line = Line::from(vec![
+        Span::styled(name, app.style(Meaning::Title)),
+        Span::raw(result.value.clone()),
+    ]);
+    let taken = line.width() + result.range.chars().count() + 1;
+    if !result.range.is_empty() && taken <= usize::from(width) {
+        let blanks = usize::from(width) - taken + 1;
+        line.push_span(Span::raw(" ".repeat(blanks)));
+        line.push_span(Span::styled(
+            result.range.clone(),
+            app.style(Meaning::Quiet),
+        ));
+    }
+    fitted(line, width)
+}

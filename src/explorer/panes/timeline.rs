@@ -1,0 +1,310 @@
+//! The pane of the timeline: the loading stages as segments of a line, the jumps as ticks over it,
+//! and the position of the animation.
+
+use super::row::PaneRow;
+use crate::explorer::app::App;
+use crate::explorer::caption::caption;
+use crate::explorer::pane::Pane;
+use crate::explorer::panel::{Body, Panel, title_line};
+use crate::explorer::text::Part;
+use crate::explorer::theme::Meaning;
+use crate::explorer::timeline::{Tick, Timeline, passed};
+use crate::explorer::{events, manual_path};
+use asperity_contact::{Direction, LegRecord, Mark};
+use asperity_data::{format_rounded, grouped};
+use asperity_plot::Ink;
+use asperity_report::event_words;
+use ratatui::layout::Size;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use std::ops::Range;
+
+pub static ROW: PaneRow = PaneRow {
+    panel,
+    figure: |_, _| None,
+    help: &[(
+        "Timeline",
+        "the stages of the loading; a tick is a jump, its height the square root of the elastic energy that springs gain \
+         or release. Such an energy is no loss: only a closed loop has a dissipated energy. ◇ jump-in, ▲ preload, ▼ \
+         pull-off, ○ jump-out. With the pane selected, ← → move along the stage, Home and End go to the ends, + and - \
+         change the speed; a click goes there",
+    )],
+    ..PaneRow::EMPTY
+};
+
+/// Height in rows from which the pane has a line with the speed and the event.
+const WITH_TITLE: u16 = 3;
+/// Glyphs of the top of a tick, from an eighth of a cell to the whole cell.
+const EIGHTHS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+
+/// Symbol in a cell, and the style of the symbol.
+#[derive(Clone, Copy)]
+struct Cell {
+    symbol: char,
+    style: Style,
+}
+
+fn panel(app: &App, size: Size) -> Panel {
+    let mut panel = Panel::of_text(String::new(), "");
+    let width = usize::from(size.width);
+    let legs = app.played_legs();
+    if legs.is_empty() || width == 0 {
+        return panel;
+    }
+    let timeline = Timeline::new(legs, width);
+    let mut lines = Vec::new();
+    if size.height >= WITH_TITLE {
+        let is_selected = app.view.pane == Pane::Timeline;
+        let look = app.view.appearance;
+        lines.push(title_line(
+            &title(app),
+            event(app),
+            size.width,
+            is_selected,
+            look,
+        ));
+    }
+    let rows = usize::from(size.height).saturating_sub(lines.len() + 1);
+    let playhead = app.playhead();
+    let head = timeline.column(playhead.leg, playhead.share(legs));
+    lines.extend(tick_lines(app, &timeline, width, rows, head));
+    lines.push(stage_line(app, &timeline, width, head));
+    panel.body = Body::Lines(lines);
+    panel
+}
+
+/// Returns the name of the pane, whether the animation plays, and its speed.
+fn title(app: &App) -> String {
+    let playing = if app.playhead().playing {
+        "▶"
+    } else {
+        "❚❚"
+    };
+    let speed = format_rounded(app.config.speed, 2, "1");
+    let repeat = if app.config.repeat { " ↻" } else { "" };
+    format!("Timeline  {playing} {speed}×{repeat}")
+}
+
+/// Returns the event that the animation has passed last, with the energy of its jump; without an
+/// event, the name of the present part of the loading.
+fn event(app: &App) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    let listed = match events::of_app(app) {
+        None => return vec![vec![Span::raw("listing the jumps…")]],
+        Some(Err(why)) => return vec![vec![Span::raw(why.to_owned())]],
+        Some(Ok(listed)) => listed,
+    };
+    let legs = app.played_legs();
+    let last = passed(legs, &listed.list, app.playhead()).checked_sub(1);
+    match last.map(|index| &listed.list[index]) {
+        Some(event) => {
+            parts.push(vec![Span::raw(event_words(event))]);
+            if let Some(jump) = event.jump {
+                let palette = app.view.appearance.palette();
+                let style = palette.ink(ink_of(jump.energy > 0.0));
+                parts.push(vec![Span::styled(
+                    events::signed_energy(jump.energy),
+                    style,
+                )]);
+            }
+        }
+        None => parts.extend(caption(app).map(|text| vec![Span::raw(text)])),
+    }
+    let shown = listed.list[..last.map_or(0, |index| index + 1)].iter();
+    let number = shown.filter(|event| event.jump.is_some()).count();
+    if listed.listed_jumps > 0 {
+        let count = grouped(listed.listed_jumps as u64);
+        let text = format!("jump {} of {count}", grouped(number as u64));
+        parts.push(vec![Span::raw(text)]);
+    }
+    parts
+}
+
+/// Returns the colour of an energy: that of pressing if springs gain it, that of pulling if they
+/// release it.
+pub fn ink_of(is_gain: bool) -> Ink {
+    if is_gain { Ink::Press } else { Ink::Pull }
+}
+
+/// Returns the lines with the ticks of the jumps. `head` is the column of the animation, which is a
+/// line through all rows.
+fn tick_lines(
+    app: &App,
+    timeline: &Timeline,
+    width: usize,
+    rows: usize,
+    head: Option<usize>,
+) -> Vec<Line<'static>> {
+    let palette = app.view.appearance.palette();
+    let ticks = match events::of_app(app) {
+        Some(Ok(listed)) => timeline.ticks(app.played_legs(), &listed.list, width),
+        _ => vec![None; width],
+    };
+    let mut lines = Vec::new();
+    for row in (0..rows).rev() {
+        let mut cells = Vec::new();
+        for (column, tick) in ticks.iter().enumerate() {
+            let symbol = tick.and_then(|tick| tick_symbol(tick, row, rows));
+            let cell = match (symbol, tick) {
+                (Some(symbol), Some(tick)) => Cell {
+                    symbol,
+                    style: palette.ink(ink_of(tick.is_gain)),
+                },
+                _ if Some(column) == head => Cell {
+                    symbol: '│',
+                    style: app.style(Meaning::Cursor),
+                },
+                _ => Cell {
+                    symbol: ' ',
+                    style: Style::new(),
+                },
+            };
+            cells.push(cell);
+        }
+        lines.push(line_of(&cells));
+    }
+    lines
+}
+
+/// Returns the part of a tick in one of the rows, which are counted from 0 at the bottom; `None` if
+/// the tick does not reach the row.
+fn tick_symbol(tick: Tick, row: usize, rows: usize) -> Option<char> {
+    let eighths = (tick.height * (8 * rows) as f64).round().max(1.0) as usize;
+    let in_row = eighths.saturating_sub(8 * row).min(8);
+    let index = in_row.checked_sub(1)?;
+    Some(EIGHTHS[index])
+}
+
+/// Returns the line with the stages: a segment for each stage with its number and its target, the
+/// marks of the force curve, and the position of the animation.
+fn stage_line(app: &App, timeline: &Timeline, width: usize, head: Option<usize>) -> Line<'static> {
+    let legs = app.played_legs();
+    let quiet = app.style(Meaning::Quiet);
+    let mut cells = vec![
+        Cell {
+            symbol: ' ',
+            style: quiet,
+        };
+        width
+    ];
+    let marks = marks(app, timeline);
+    let last = timeline
+        .stages
+        .iter()
+        .rposition(|columns| !columns.is_empty());
+    for (stage, columns) in timeline.stages.iter().enumerate() {
+        draw_segment(&mut cells, columns, last == Some(stage));
+        let taken: Vec<usize> = marks.iter().map(|mark| mark.column).collect();
+        write_name(app, &mut cells, &legs[stage], stage, columns, &taken);
+    }
+    for mark in marks {
+        if let Some(cell) = cells.get_mut(mark.column) {
+            cell.symbol = mark.symbol;
+            cell.style = app.style(Meaning::Title);
+        }
+    }
+    if let Some(cell) = head.and_then(|column| cells.get_mut(column)) {
+        cell.style = app.style(Meaning::Selected);
+    }
+    line_of(&cells)
+}
+
+/// Draws the segment of a stage. A stage in one column is a crossing.
+fn draw_segment(cells: &mut [Cell], columns: &Range<usize>, is_last: bool) {
+    for column in columns.clone() {
+        cells[column].symbol = match column {
+            _ if columns.len() == 1 => '┼',
+            _ if column == columns.start => '├',
+            _ if is_last && column + 1 == columns.end => '┤',
+            _ => '─',
+        };
+    }
+}
+
+/// Writes the number and the target of a stage into its segment: the longest of several texts that
+/// fits beside the marks. Nothing is written if none fits.
+fn write_name(
+    app: &App,
+    cells: &mut [Cell],
+    leg: &LegRecord,
+    stage: usize,
+    columns: &Range<usize>,
+    taken: &[usize],
+) {
+    let verb = match leg.direction {
+        Direction::Loading => "press",
+        Direction::Unloading => "pull",
+    };
+    let target = manual_path::in_words(leg.target);
+    let number = stage + 1;
+    let texts = [
+        format!(" {number} {verb} to {target} "),
+        format!(" {number} {target} "),
+        format!(" {number} "),
+    ];
+    for text in texts {
+        let length = text.chars().count();
+        let Some(place) = free_place(length, columns, taken) else {
+            continue;
+        };
+        for (column, symbol) in place.zip(text.chars()) {
+            cells[column] = Cell {
+                symbol,
+                style: app.style(Meaning::Text),
+            };
+        }
+        return;
+    }
+}
+
+/// Returns the first columns inside a segment that have room for a text of this length and no mark.
+fn free_place(length: usize, columns: &Range<usize>, taken: &[usize]) -> Option<Range<usize>> {
+    let last = columns.end.checked_sub(length + 1)?;
+    (columns.start + 2..=last)
+        .map(|first| first..first + length)
+        .find(|place| !taken.iter().any(|column| place.contains(column)))
+}
+
+/// Mark of the force curve on the line of the stages.
+struct PlacedMark {
+    column: usize,
+    symbol: char,
+}
+
+fn marks(app: &App, timeline: &Timeline) -> Vec<PlacedMark> {
+    let Some(Ok(listed)) = events::of_app(app) else {
+        return Vec::new();
+    };
+    let legs = app.played_legs();
+    let mut placed = Vec::new();
+    for event in &listed.list {
+        if let Some(mark) = event.mark
+            && let Some(column) = timeline.column_of(legs, event)
+        {
+            placed.push(PlacedMark {
+                column,
+                symbol: symbol_of(mark),
+            });
+        }
+    }
+    placed
+}
+
+/// Returns the symbol of a mark, as in the chart of the force curve.
+pub fn symbol_of(mark: Mark) -> char {
+    match mark {
+        Mark::JumpIn => '◇',
+        Mark::Preload => '▲',
+        Mark::PullOff => '▼',
+        Mark::JumpOut => '○',
+    }
+}
+
+fn line_of(cells: &[Cell]) -> Line<'static> {
+    let mut spans = Vec::new();
+    for same in cells.chunk_by(|cell, next| cell.style == next.style) {
+        let text: String = same.iter().map(|cell| cell.symbol).collect();
+        spans.push(Span::styled(text, same[0].style));
+    }
+    Line::from(spans)
+}
