@@ -90,7 +90,9 @@ impl ManualBody {
         if let Some(beyond) = self.reach.beyond(target) {
             let found = format_quantity(beyond.found, beyond.unit);
             let full_contact = format_quantity(beyond.full_contact, beyond.unit);
-            return Err(format!("{found} is far beyond full contact at {full_contact}"));
+            return Err(format!(
+                "{found} is far beyond full contact at {full_contact}"
+            ));
         }
         let mut body = self.present().clone();
         let record = body.advance(target);

@@ -344,7 +344,6 @@ impl Session<'_> {
         }
     }
 
-
     /// Waits for input or a result, and returns it. Returns `None` if before that a step of the
     /// animation, a frame or a copy of unsaved changes is due.
     fn wait(&mut self, playing: bool) -> Option<Incoming> {

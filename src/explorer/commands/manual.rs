@@ -61,12 +61,7 @@ fn new_path(app: &App) -> Option<ManualPath> {
     if !app.is_current() || app.legs().is_empty() {
         return None;
     }
-    let player = app.play;
-    let at = match player.at {
-        At::Indentation(indentation) => At::Indentation(round_to(indentation, DIGITS)),
-        at => at,
-    };
-    Some(ManualPath::starting_at(Player { at, ..player }))
+    Some(ManualPath::starting_at(app.play))
 }
 
 /// Returns the present path or, without manual loading, a path that starts at the present state.
@@ -180,7 +175,9 @@ fn with_move(app: &mut App, path: &ManualPath, target: Move) -> Option<ManualPat
     }
     if followed < count {
         let moves = counted(count - followed, "move");
-        app.set_done(format!("the path goes on from here, without {moves}; u brings back"));
+        app.set_done(format!(
+            "the path goes on from here, without {moves}; u brings back"
+        ));
     }
     Some(path.continued(followed, target))
 }
@@ -275,7 +272,10 @@ pub fn take_note(app: &mut App, before: Option<&ContactSnapshot>) {
 /// or if the path is not computed.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let followed = app.followed()?;
-    Some(stages::with_loading(&app.edit.document, &followed.loading()))
+    Some(stages::with_loading(
+        &app.edit.document,
+        &followed.loading(),
+    ))
 }
 
 /// Makes the path the loading of the scene, in one edit. The body stays where it is.

@@ -2,8 +2,8 @@
 //! the list of commands, the configuration, the demo and docs/keys.md all follow from this table.
 
 use super::{
-    accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages, target,
-    view,
+    accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages,
+    target, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -78,7 +78,12 @@ const LISTED: &[Context] = &[Context::Explore, Context::Manual, Context::Paramet
 const BY_HAND: &[Context] = &[Context::Manual];
 /// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
 /// instead.
-const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Manual, Context::Parameters];
+const ROWS: &[Context] = &[
+    Context::Explore,
+    Context::Crosshair,
+    Context::Manual,
+    Context::Parameters,
+];
 /// All contexts of panes except those in which the characters of these keys begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const VALUES: &[Context] = &[Context::Parameters];

@@ -78,7 +78,9 @@ mod tests {
         let names: Vec<&str> = names.collect();
         let is_known = |name: &&str| {
             let contexts = [Context::Explore, Context::Manual];
-            let mut commands = contexts.map(|context| bindings.named(name, context)).into_iter();
+            let mut commands = contexts
+                .map(|context| bindings.named(name, context))
+                .into_iter();
             commands.any(|command| command.is_some())
         };
         assert!(names.len() > 15 && names.iter().all(is_known), "{names:?}");

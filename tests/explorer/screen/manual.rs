@@ -57,7 +57,10 @@ fn the_body_is_taken_at_its_place() {
         }
         // Above first touch the body begins at first touch.
         driver.press("< d");
-        assert_eq!((driver.point().indentation, driver.point().springs), (0.0, 0));
+        assert_eq!(
+            (driver.point().indentation, driver.point().springs),
+            (0.0, 0)
+        );
     }
 }
 
@@ -127,7 +130,10 @@ fn every_key_of_manual_loading_is_on_every_keyboard() {
     let by_hand = rows.filter(|binding| binding.row.section.starts_with("Manual"));
     for key in by_hand.flat_map(|binding| &binding.keys) {
         // These characters need AltGr on a German or a French keyboard.
-        let is_hard = key.name.chars().any(|character| r"[]{}\|~@#€`^".contains(character));
+        let is_hard = key
+            .name
+            .chars()
+            .any(|character| r"[]{}\|~@#€`^".contains(character));
         assert!(!is_hard, "{}", key.name);
     }
 }
@@ -220,14 +226,14 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
     for (typed, expected) in [
         ("12 µN", Move::ToForce(1.2e-5)),
         ("8", Move::ToForce(8e-6)),
-        ("-2 µN", Move::ToForce(-2e-6)),
+        ("-20 nN", Move::ToForce(-2e-8)),
         ("150 nm", Move::ToIndentation(1.5e-7)),
         ("touch", Move::ToTouch),
         ("zero force", Move::ToZeroForce),
         ("separation", Move::ToSeparation),
     ] {
         go(&mut driver, typed);
-        assert_eq!(driver.app.prompt.is_none(), true, "{typed}: {}", driver.status());
+        assert!(driver.app.prompt.is_none(), "{typed}: {}", driver.status());
         let Some(&found) = path(&driver).moves.last() else {
             panic!("no move")
         };
@@ -242,7 +248,10 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
     driver.press("N 0 . 2");
     driver.states("F_a,max, nm): 0.2");
     driver.press("Enter");
-    assert_eq!(path(&driver).moves.last(), Some(&Move::ToForce(0.2 * ideal)));
+    assert_eq!(
+        path(&driver).moves.last(),
+        Some(&Move::ToForce(0.2 * ideal))
+    );
     // A minus begins a pulling force.
     driver.press("N - 1 Space n N");
     driver.states("): -1 nN");
@@ -306,7 +315,7 @@ fn an_edit_replays_the_path() {
 #[test]
 fn a_move_that_an_edited_scene_cannot_follow_waits_for_the_next_edit() {
     let mut driver = pressed("d");
-    for typed in ["10 µN", "-1 µN", "15 µN", "2 µN"] {
+    for typed in ["10 µN", "-20 nN", "15 µN", "2 µN"] {
         go(&mut driver, typed);
     }
     let before = followed(&driver).clone();
@@ -315,7 +324,7 @@ fn a_move_that_an_edited_scene_cannot_follow_waits_for_the_next_edit() {
     driver.app.view.pane = Pane::Parameters;
     driver.select("adhesion");
     driver.press("t");
-    driver.states("! move 2 of 4: the contact detaches before -1 µN");
+    driver.states("! move 2 of 4: the contact detaches before -20 nN");
     driver.states("; the moves stay");
     driver.shows("manual loading, 1 of 4 moves");
     assert_eq!(followed(&driver).count(), 1);
@@ -409,7 +418,10 @@ fn the_animation_plays_the_path() {
     assert_eq!(driver.point(), end);
     let lowest = shown.iter().copied().fold(f64::INFINITY, f64::min);
     let turn = followed(&driver).legs[followed(&driver).before].end();
-    assert!(lowest >= turn && lowest < end.indentation, "{lowest} {turn}");
+    assert!(
+        lowest >= turn && lowest < end.indentation,
+        "{lowest} {turn}"
+    );
     // An edit keeps the place of the animation in the path.
     driver.press("<");
     assert!(matches!(driver.app.drive(), Drive::Path(_)));

@@ -61,7 +61,10 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         driver.resize(size);
         let area = driver.area(Pane::Force);
         driver.mouse(area.x + 21, area.y + 5, Gesture::Press);
-        assert!(driver.app.edit.path.is_none(), "a click alone moves nothing");
+        assert!(
+            driver.app.edit.path.is_none(),
+            "a click alone moves nothing"
+        );
         for (number, column) in [21, 25, 18, 23].into_iter().enumerate() {
             let (column, row) = (area.x + column, area.y + 5);
             driver.mouse(
