@@ -439,3 +439,45 @@ fn the_animation_plays_the_path() {
         assert!(driver.app.present().is_some(), "{keys}");
     }
 }
+
+#[test]
+fn without_a_computed_scene_there_is_no_path() {
+    let beyond = rough()
+        .set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]")
+        .unwrap();
+    let mut driver = Driver::start(beyond);
+    let why = driver.status();
+    assert!(why.contains("detaches"), "{why}");
+    for keys in ["d", "S"] {
+        driver.press(keys);
+        assert_eq!(
+            (driver.app.edit.path.is_none(), driver.status()),
+            (true, why.clone())
+        );
+    }
+    let mut driver = Driver::open(rough());
+    driver.answers("d", "the scene is still being computed");
+    assert!(driver.app.edit.path.is_none());
+}
+
+#[test]
+fn a_path_has_a_largest_number_of_moves() {
+    let few = [
+        ("roughness.modes", "(2, 16)"),
+        ("numerics.points", "64"),
+        ("numerics.samples", "16"),
+    ];
+    let mut driver = mid_retraction(changed(&rough(), &few));
+    driver.press("d");
+    let path = ManualPath {
+        moves: [Move::ToForce(1e-6), Move::ToForce(2e-6)].repeat(500),
+        ..path(&driver).clone()
+    };
+    driver.app.edit.adopt_path(Some(path));
+    driver.press("Tab Tab Tab Tab");
+    assert_eq!(followed(&driver).count(), 1000);
+    driver.answers("h", "the path has 1000 moves, the most");
+    go(&mut driver, "3 µN");
+    driver.states("the path has 1000 moves, the most");
+    assert_eq!(followed(&driver).count(), 1000);
+}
