@@ -193,7 +193,7 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
-    row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand from here; again: the path becomes the loading of the scene", MANUAL).words("minor loop manual history keep path"),
+    row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand with ← → or a typed target; again: the path becomes the loading", MANUAL).words("minor loop manual history keep path"),
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
     row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
     row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).shown_if(is_manual),
