@@ -14,6 +14,8 @@ const BYTES_KEPT: usize = 1 << 28;
 pub struct ManualBody {
     start: Body,
     reach: Reach,
+    /// Largest memory in bytes for the bodies after earlier stages.
+    bytes_kept: usize,
     records: Vec<LegRecord>,
     /// Jumps of all stages.
     jumps: JumpCollector,
@@ -35,6 +37,7 @@ impl ManualBody {
         ManualBody {
             start: Body::new(contact, samples),
             reach: Reach::of(contact),
+            bytes_kept: BYTES_KEPT,
             records: Vec::new(),
             jumps: JumpCollector::default(),
             kept: Vec::new(),
@@ -125,7 +128,7 @@ impl ManualBody {
         let mut bytes: usize = bytes.sum();
         // The last stage is often replaced by a longer one. Therefore the body before it is always
         // kept.
-        while bytes > BYTES_KEPT && self.kept.len() > 2 {
+        while bytes > self.bytes_kept && self.kept.len() > 2 {
             let oldest = self.kept.remove(0);
             bytes -= oldest.body.leg().bytes();
         }
@@ -164,5 +167,79 @@ impl ManualBody {
             body.advance(record.target)?;
         }
         Ok(body)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_contact::motion::load_body;
+    use asperity_scene::{Simulation, open};
+
+    const STAGES: [Move; 6] = [
+        Move::ToForce(1.0e-5),
+        Move::ToIndentation(4.0e-7),
+        Move::ToForce(2.0e-5),
+        Move::ToZeroForce,
+        Move::ToForce(1.5e-5),
+        Move::ToSeparation,
+    ];
+
+    fn contact() -> Contact {
+        let scene = open("pressure-sensitive").unwrap();
+        let scene = scene.set("numerics.points", "1024").unwrap();
+        Simulation::default().contact(scene.scene()).unwrap().0
+    }
+
+    /// Follows the stages and checks that the body is that of a fresh run.
+    fn check(body: &mut ManualBody, stages: &[Move]) {
+        assert_eq!(body.follow(stages, &|| false), Ok(None));
+        let mut fresh = Body::new(&contact(), 64);
+        let mut legs = Vec::new();
+        let history = load_body(&mut fresh, stages, |_, leg| {
+            legs.push(leg.clone());
+            Ok(())
+        });
+        assert_eq!(body.records(), history.unwrap().legs);
+        assert_eq!(body.point(), fresh.point());
+        for (number, leg) in legs.iter().enumerate() {
+            let found = body.leg_of(number).unwrap();
+            let middle = 0.5 * (body.records()[number].start() + body.records()[number].end());
+            assert_eq!(found.point(middle), leg.point(middle));
+        }
+    }
+
+    #[test]
+    fn with_and_without_kept_bodies_it_goes_back_and_on() {
+        for bytes_kept in [0, 20_000, BYTES_KEPT] {
+            let mut body = ManualBody {
+                bytes_kept,
+                ..ManualBody::new(&contact(), 64)
+            };
+            for count in [1, 3, 6, 5, 2, 6, 0, 4] {
+                check(&mut body, &STAGES[..count]);
+            }
+            let other = [STAGES[0], Move::ToTouch, STAGES[2], Move::ToSeparation];
+            check(&mut body, &other);
+        }
+    }
+
+    #[test]
+    fn it_stays_before_a_stage_that_it_cannot_follow() {
+        let mut body = ManualBody::new(&contact(), 64);
+        let far = [STAGES[0], Move::ToForce(-1.0), Move::ToForce(2.0e-5)];
+        let why = body.follow(&far, &|| false).unwrap().unwrap();
+        assert!(why.starts_with("the contact detaches before -1 N"), "{why}");
+        assert_eq!(body.records().len(), 1);
+        let deep = [STAGES[0], Move::ToForce(1.0e3)];
+        let why = body.follow(&deep, &|| false).unwrap().unwrap();
+        assert!(
+            why.starts_with("1 kN is far beyond full contact at "),
+            "{why}"
+        );
+        check(&mut body, &STAGES);
+        let stopped = body.follow(&[Move::ToTouch], &|| true);
+        assert_eq!(stopped, Err(ContactError::Interrupted));
+        check(&mut body, &STAGES);
     }
 }

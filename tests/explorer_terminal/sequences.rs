@@ -156,8 +156,10 @@ fn pieces_are_joined() -> bool {
 fn a_paste_without_its_end_is_not_lost() {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);
-    terminal.send("F");
-    terminal.wait_for("Go to the force (");
+    terminal.send("d");
+    terminal.wait_for("manual loading");
+    terminal.send("\r");
+    terminal.wait_for("Press or pull to (");
     terminal.send("\x1b[200~1 mN");
     terminal.wait_for("): 1 mN");
     // A pause shorter than the longest one does not divide a text, as its letters would be keys.
@@ -166,6 +168,6 @@ fn a_paste_without_its_end_is_not_lost() {
     terminal.send("mN\x1b[201~");
     terminal.wait_for("): 2 mN");
     terminal.send("\x1b");
-    terminal.wait_without("Go to the force (");
+    terminal.wait_without("Press or pull to (");
     quit(&mut terminal);
 }

@@ -209,15 +209,17 @@ fn a_long_text_is_searched_as_fast_as_it_is_typed() {
         terminal.send(ESCAPE);
         terminal.wait_without("at most 4096 characters");
     }
-    terminal.send("F");
-    terminal.wait_for("Go to the force (");
+    terminal.send("d");
+    terminal.wait_for("manual loading");
+    terminal.send("\r");
+    terminal.wait_for("Press or pull to (");
     terminal.send("\x1b[200~1\r\n mN\x1b[201~");
     terminal.wait_for("! control characters are left out");
     terminal.wait_for("): 1 mN");
     terminal.send("\x7f");
     terminal.wait_without("left out");
-    terminal.wait_for("Go to the force (");
+    terminal.wait_for("Press or pull to (");
     terminal.send(ESCAPE);
-    terminal.wait_without("Go to the force (");
+    terminal.wait_without("Press or pull to (");
     quit(&mut terminal);
 }

@@ -29,9 +29,12 @@ const DIGITS: usize = 10;
 /// Begins manual loading or, if the body has been moved, makes the path the loading of the scene.
 pub fn toggle(app: &mut App) {
     let Some(path) = &app.edit.path else {
-        if let Some(path) = new_path(app) {
-            adopt(app, path);
-            select_force_curve(app);
+        match new_path(app) {
+            Some(path) => {
+                adopt(app, path);
+                select_force_curve(app);
+            }
+            None => state_why_not(app),
         }
         return;
     };
@@ -61,12 +64,15 @@ fn new_path(app: &App) -> Option<ManualPath> {
     if !app.is_current() || app.legs().is_empty() {
         return None;
     }
-    let player = app.play;
-    let at = match player.at {
-        At::Indentation(indentation) => At::Indentation(round_to(indentation, DIGITS)),
-        at => at,
-    };
-    Some(ManualPath::starting_at(Player { at, ..player }))
+    Some(ManualPath::starting_at(app.play))
+}
+
+/// States that the scene is still being computed. If its computation has failed, the message with
+/// the reason stays.
+fn state_why_not(app: &mut App) {
+    if app.is_computing() {
+        app.set_error(edit::STILL_COMPUTED);
+    }
 }
 
 /// Returns the present path or, without manual loading, a path that starts at the present state.
@@ -121,11 +127,11 @@ pub fn push(app: &mut App, key: &KeyEvent) {
     };
     let step = f64::from(direction.columns) * (high - low) / steps;
     let Some(path) = present_path(app) else {
-        return;
+        return state_why_not(app);
     };
     match end_of(app, &path) {
         Some(end) => step_to(app, &path, end, end + step),
-        None => app.set_done("the body still moves; press again"),
+        None => app.set_error("the end of the last move is still being computed"),
     }
 }
 
@@ -199,7 +205,7 @@ pub fn separate(app: &mut App) {
         return app.set_done("nothing is in contact");
     }
     let Some(path) = present_path(app) else {
-        return;
+        return state_why_not(app);
     };
     if let Some(next) = with_move(app, &path, Move::ToSeparation) {
         adopt(app, next);
@@ -286,7 +292,7 @@ pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
 /// Makes the path the loading of the scene, in one edit. The body stays where it is.
 fn become_loading(app: &mut App) {
     let Some(followed) = app.followed() else {
-        return app.set_error(edit::STILL_COMPUTED);
+        return state_why_not(app);
     };
     let left_out = followed.path.moves.len() - followed.count();
     if followed.moves().is_empty() {

@@ -3,7 +3,7 @@
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages,
-    target, timeline, view,
+    target, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -196,12 +196,7 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
-    row("← → h l Shift+← Shift+→ H L", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the stage by a small or a large step", ANIMATION).rank(1).unlisted(),
-    row("Home End g G", TIMELINE, "playhead-to-end", Key(timeline::go_to_end), "ends", "go to the beginning or to the end of the loading", ANIMATION).unlisted(),
-    row("+ = -", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
-    row("↑ ↓ k j PageUp PageDown Home End g G", EVENTS, "select-event", Key(timeline::select_event), "select", "go to another event of the list", ANIMATION).rank(1).unlisted(),
-
-    row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand from here; again: the path becomes the loading of the scene", MANUAL).words("minor loop manual history keep path"),
+    row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand with ← → or a typed target; again: the path becomes the loading", MANUAL).words("minor loop manual history keep path"),
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
     row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
     row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).shown_if(is_manual),

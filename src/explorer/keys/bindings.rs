@@ -355,8 +355,8 @@ mod tests {
             command.map(|command| (command.row.name, command.key.map(|key| key.code)))
         };
         assert_eq!(
-            name(bindings.named("pull-coarse", Context::Explore)),
-            Some(("pull-coarse", None))
+            name(bindings.named("toggle-manual", Context::Explore)),
+            Some(("toggle-manual", None))
         );
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
         assert_eq!(

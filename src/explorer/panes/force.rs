@@ -38,8 +38,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Curve",
         "force F over the indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ \
-         present state. Curves with letters are ghosts. Under manual loading the path is drawn so, and the loading of \
-         the scene in a weaker colour. Dots are a measured curve, with its residuals below",
+         present state. Curves with letters are ghosts. Under manual loading this is the path of the body, beside the \
+         loading of the scene in a weaker colour. Dots are a measured curve, with its residuals below",
     )],
     ..PaneRow::EMPTY
 };

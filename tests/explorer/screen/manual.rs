@@ -226,19 +226,14 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
     for (typed, expected) in [
         ("12 µN", Move::ToForce(1.2e-5)),
         ("8", Move::ToForce(8e-6)),
-        ("-2 µN", Move::ToForce(-2e-6)),
+        ("-20 nN", Move::ToForce(-2e-8)),
         ("150 nm", Move::ToIndentation(1.5e-7)),
         ("touch", Move::ToTouch),
         ("zero force", Move::ToZeroForce),
         ("separation", Move::ToSeparation),
     ] {
         go(&mut driver, typed);
-        assert_eq!(
-            driver.app.prompt.is_none(),
-            true,
-            "{typed}: {}",
-            driver.status()
-        );
+        assert!(driver.app.prompt.is_none(), "{typed}: {}", driver.status());
         let Some(&found) = path(&driver).moves.last() else {
             panic!("no move")
         };
@@ -320,7 +315,7 @@ fn an_edit_replays_the_path() {
 #[test]
 fn a_move_that_an_edited_scene_cannot_follow_waits_for_the_next_edit() {
     let mut driver = pressed("d");
-    for typed in ["10 µN", "-1 µN", "15 µN", "2 µN"] {
+    for typed in ["10 µN", "-20 nN", "15 µN", "2 µN"] {
         go(&mut driver, typed);
     }
     let before = followed(&driver).clone();
@@ -329,7 +324,7 @@ fn a_move_that_an_edited_scene_cannot_follow_waits_for_the_next_edit() {
     driver.app.view.pane = Pane::Parameters;
     driver.select("adhesion");
     driver.press("t");
-    driver.states("! move 2 of 4: the contact detaches before -1 µN");
+    driver.states("! move 2 of 4: the contact detaches before -20 nN");
     driver.states("; the moves stay");
     driver.shows("manual loading, 1 of 4 moves");
     assert_eq!(followed(&driver).count(), 1);
@@ -443,4 +438,46 @@ fn the_animation_plays_the_path() {
         assert!(driver.app.edit.path.is_some(), "{keys}");
         assert!(driver.app.present().is_some(), "{keys}");
     }
+}
+
+#[test]
+fn without_a_computed_scene_there_is_no_path() {
+    let beyond = rough()
+        .set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]")
+        .unwrap();
+    let mut driver = Driver::start(beyond);
+    let why = driver.status();
+    assert!(why.contains("detaches"), "{why}");
+    for keys in ["d", "S"] {
+        driver.press(keys);
+        assert_eq!(
+            (driver.app.edit.path.is_none(), driver.status()),
+            (true, why.clone())
+        );
+    }
+    let mut driver = Driver::open(rough());
+    driver.answers("d", "the scene is still being computed");
+    assert!(driver.app.edit.path.is_none());
+}
+
+#[test]
+fn a_path_has_a_largest_number_of_moves() {
+    let few = [
+        ("roughness.modes", "(2, 16)"),
+        ("numerics.points", "64"),
+        ("numerics.samples", "16"),
+    ];
+    let mut driver = mid_retraction(changed(&rough(), &few));
+    driver.press("d");
+    let path = ManualPath {
+        moves: [Move::ToForce(1e-6), Move::ToForce(2e-6)].repeat(500),
+        ..path(&driver).clone()
+    };
+    driver.app.edit.adopt_path(Some(path));
+    driver.press("Tab Tab Tab Tab");
+    assert_eq!(followed(&driver).count(), 1000);
+    driver.answers("h", "the path has 1000 moves, the most");
+    go(&mut driver, "3 µN");
+    driver.states("the path has 1000 moves, the most");
+    assert_eq!(followed(&driver).count(), 1000);
 }
