@@ -257,7 +257,7 @@ mod tests {
             (
                 "\"F5\"",
                 "\"r\"",
-                "config.ron:11:42: r: bound to toggle-play and to restart",
+                "config.ron:11:42: r: bound to toggle-play and to toggle-repeat",
             ),
             (
                 "repeat: false",
@@ -277,7 +277,8 @@ mod tests {
     fn keys_are_exchanged_and_quit_stays_in_reach() {
         let keys = |settings: &str| parse(&format!("(version: 1, keys: [{settings}])"));
         let swapped =
-            keys(r#"(action: "restart", keys: ["R"]), (action: "reseed", keys: ["r"])"#).unwrap();
+            keys(r#"(action: "toggle-repeat", keys: ["R"]), (action: "reseed", keys: ["r"])"#)
+                .unwrap();
         let keys_of = |config: &Config, name: &str| {
             let mut rows = config
                 .bindings
@@ -286,13 +287,16 @@ mod tests {
             rows.next().unwrap().names()
         };
         assert_eq!(
-            (keys_of(&swapped, "restart"), keys_of(&swapped, "reseed")),
+            (
+                keys_of(&swapped, "toggle-repeat"),
+                keys_of(&swapped, "reseed")
+            ),
             ("R".to_owned(), "r".to_owned())
         );
         let config = keys(r#"(action: "quit", keys: ["_"])"#).unwrap();
         assert_eq!(keys_of(&config, "quit"), "_ Ctrl+c");
         assert!(
-            keys(r#"(action: "restart", keys: [])"#).is_ok(),
+            keys(r#"(action: "toggle-repeat", keys: [])"#).is_ok(),
             "a key may be taken away"
         );
         let why = keys(r#"(action: "accept", keys: ["y"])"#).unwrap_err();

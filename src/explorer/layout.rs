@@ -197,7 +197,6 @@ fn panes_of_list(app: &App, area: Rect) -> Vec<(Pane, Rect)> {
 /// stages; in a higher area also a title and further rows of ticks.
 fn timeline_rows(height: u16) -> u16 {
     match height {
-        40.. => 5,
         32.. => 4,
         26.. => 3,
         WITH_LOWER.. => 2,

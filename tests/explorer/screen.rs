@@ -29,6 +29,7 @@ mod stages;
 mod studies;
 mod study;
 mod target;
+mod timeline;
 mod tour;
 mod trust;
 mod typing;
@@ -83,6 +84,13 @@ fn pressed(keys: &str) -> Driver {
     driver.select("roughness.hurst");
     driver.press(keys);
     driver
+}
+
+/// Moves the playhead by keys of the timeline, whichever pane is selected.
+fn steps(driver: &mut Driver, keys: &str) {
+    let pane = std::mem::replace(&mut driver.app.view.pane, Pane::Timeline);
+    driver.press(keys.trim());
+    driver.app.view.pane = pane;
 }
 
 /// Explorers in every mode and pane.

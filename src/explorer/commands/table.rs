@@ -3,7 +3,7 @@
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages,
-    target, view,
+    target, timeline, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;

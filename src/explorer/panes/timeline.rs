@@ -17,7 +17,7 @@ use asperity_report::event_words;
 use ratatui::layout::Size;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
@@ -32,8 +32,9 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Height in rows from which the pane has a line with the speed and the event.
-const WITH_TITLE: u16 = 3;
+/// Heights in rows of a strip whose first line is its title. A higher pane has the title that all
+/// panes have.
+const STRIP_WITH_TITLE: RangeInclusive<u16> = 3..=4;
 /// Glyphs of the top of a tick, from an eighth of a cell to the whole cell.
 const EIGHTHS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
@@ -53,7 +54,7 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     let timeline = Timeline::new(legs, width);
     let mut lines = Vec::new();
-    if size.height >= WITH_TITLE {
+    if STRIP_WITH_TITLE.contains(&size.height) {
         let is_selected = app.view.pane == Pane::Timeline;
         let look = app.view.appearance;
         lines.push(title_line(
@@ -63,6 +64,9 @@ fn panel(app: &App, size: Size) -> Panel {
             is_selected,
             look,
         ));
+    } else {
+        panel.title = title(app);
+        panel.edge = event(app);
     }
     let rows = usize::from(size.height).saturating_sub(lines.len() + 1);
     let playhead = app.playhead();

@@ -45,7 +45,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     driver.act(Action::Reply(Reply::Shown(before.into())));
     driver.perform(effects);
     assert_eq!(number(&driver), first + 1);
-    driver.press(". ,");
+    steps(&mut driver, "Right Left");
     assert_eq!(number(&driver), first + 1);
 }
 

@@ -144,7 +144,7 @@ fn the_misfit_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
     let work = driver.document().scene().adhesion.unwrap().work().unwrap();
     assert!((work - 0.05).abs() < 5e-4, "{work}");
     driver.shows_all(["fit: γ ", "u undoes"]);
-    driver.press(".");
+    steps(&mut driver, "Right");
     assert!(
         is_up_to_date(&driver.app) && misfit(&driver) < near,
         "{}",

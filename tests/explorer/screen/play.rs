@@ -17,22 +17,27 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     );
     assert_eq!(driver.app.play.at, before.at);
     let here = driver.point().indentation;
-    driver.press(".");
+    driver.press("Tab");
+    assert_eq!(driver.app.view.pane, Pane::Timeline);
+    driver.press("Right");
     assert!(driver.point().indentation > here);
-    driver.press(",");
+    driver.press("Left");
     assert!((driver.point().indentation - here).abs() < 1e-15);
-    driver.press("Space .");
+    driver.press("Space Right");
     assert!(!driver.app.play.playing, "a step pauses");
     for (keys, leg, at) in [
         ("> >", 1, At::Start),
         ("<", 0, At::Start),
         // First to the start of this leg, and nothing is before.
-        (". . <", 0, At::Start),
-        (",", 0, At::Start),
+        ("Right Right <", 0, At::Start),
+        ("Left", 0, At::Start),
         // Steps go from leg to leg in both directions.
-        ("> ,", 0, At::End),
-        (". ,", 0, At::End),
-        ("> . r", 0, At::Start),
+        ("> Left", 0, At::End),
+        ("Right Left", 0, At::End),
+        ("Shift+Right End", 1, At::End),
+        ("Home", 0, At::Start),
+        // Play begins again at the end.
+        ("G Space", 0, At::Start),
     ] {
         driver.press(keys);
         assert_eq!(

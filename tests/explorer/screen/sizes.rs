@@ -173,7 +173,7 @@ fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
     driver.app.view.pane = pane;
     driver.app.view.zoomed = true;
     driver.resize(size);
-    driver.press(".");
+    steps(&mut driver, "Right");
     driver
 }
 

@@ -206,12 +206,13 @@ fn the_path_of_manual_loading_becomes_the_loading() {
         (rough(), "d H H L L L"),
         (rough(), "< d L H H H S"),
         (rough(), "d Enter `15 uN` Enter h h Enter `10 uN` Enter"),
-        (smooth(), "> . . d L H L l"),
+        (smooth(), "> d L H L l"),
         (without_adhesion(), "d L L H L"),
         (open("jkr-sphere").unwrap(), "d H H L S"),
     ] {
         let mut driver = Driver::start(scene.clone());
-        driver.press("Space > . . . . . . . . . .");
+        driver.press("Space >");
+        steps(&mut driver, &"Right ".repeat(10));
         driver.press(keys);
         let followed = driver.app.followed().expect("a path").clone();
         let point = driver.point();

@@ -1,0 +1,190 @@
+//! The timeline, the list of events, and the results beside them.
+
+use super::*;
+use asperity::explorer::events;
+use asperity::explorer::player::At;
+use asperity_contact::{Direction, Event, LegRecord};
+
+fn listed(driver: &Driver) -> Vec<Event> {
+    match events::of_app(&driver.app) {
+        Some(Ok(listed)) => listed.list.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A driver whose playhead is at the beginning of the loading.
+fn at_beginning(document: Document) -> Driver {
+    let mut driver = Driver::start(document);
+    driver.press("Space");
+    steps(&mut driver, "Home");
+    driver
+}
+
+#[test]
+fn keys_visit_all_events_in_the_order_of_the_motion() {
+    for document in [rough(), smooth(), open("pressure-sensitive").unwrap()] {
+        let mut driver = at_beginning(document);
+        let events = listed(&driver);
+        assert!(events.len() > 2);
+        for event in &events {
+            driver.press(";");
+            let point = driver.point();
+            let distance = (point.indentation - event.indentation).abs();
+            assert!(
+                distance <= 1e-9 * event.indentation.abs() + f64::MIN_POSITIVE
+                    || point.springs == 0,
+                "{event:?}: {point:?}"
+            );
+            assert_eq!(driver.app.play.leg, event.stage);
+            if event.jump.is_some() {
+                let [before, after] = event.forces;
+                let scale = before.abs().max(after.abs()).max(1e-12);
+                assert!(
+                    (point.force - after).abs() <= 1e-6 * scale,
+                    "{event:?}: {point:?}"
+                );
+                let patches = event.jump.unwrap().patches[1];
+                assert_eq!(point.fragments, patches, "{event:?}");
+            }
+        }
+        driver.press(";");
+        driver.states("this was the last event");
+        for event in events.iter().rev().skip(1) {
+            driver.press(",");
+            let indentation = driver.point().indentation;
+            assert!((indentation - event.indentation).abs() <= 1e-9 * event.indentation.abs());
+        }
+        driver.press(",");
+        driver.states("this was the first event");
+    }
+}
+
+#[test]
+fn loadings_without_events_say_so() {
+    let still = rough().set("loading", "[ToIndentation(-1e-9)]").unwrap();
+    let stepwise = rough()
+        .set("numerics.solver", "Stepwise(steps: 200)")
+        .unwrap();
+    for (document, words) in [
+        (still, "there is no jump and no mark on this loading"),
+        (stepwise, "stepwise"),
+    ] {
+        let mut driver = Driver::start(document);
+        driver.press("Space ;");
+        assert!(driver.text().contains(words), "{}", driver.text());
+        driver.press("e");
+        driver.press("Down Up Home End PageDown");
+    }
+}
+
+#[test]
+fn windows_show_the_timeline_if_they_have_room() {
+    for (size, rows) in [
+        ((160, 45), 4),
+        ((120, 36), 4),
+        ((100, 30), 3),
+        ((80, 24), 2),
+        ((40, 12), 0),
+    ] {
+        let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+        driver.resize(size);
+        driver.press("; ;");
+        let text = driver.text();
+        let shown = if rows == 0 {
+            0
+        } else {
+            usize::from(driver.area(Pane::Timeline).height)
+        };
+        assert_eq!(shown, rows, "{text}");
+        assert_eq!(text.contains("Timeline"), rows >= 3, "{text}");
+        assert_eq!(text.contains("├"), rows > 0, "{text}");
+        if size.0 >= 120 {
+            driver.shows_all(["1 press to 10 µN", "2 pull to separation", " of "]);
+        }
+    }
+}
+
+#[test]
+fn a_click_on_a_tick_goes_to_its_jump() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.resize((120, 36));
+    let events = listed(&driver);
+    let largest = |direction: Direction, legs: &[LegRecord]| {
+        let mut jumps: Vec<&Event> = events.iter().filter(|event| event.jump.is_some()).collect();
+        jumps.retain(|event| legs[event.stage].direction == direction);
+        let energy = |event: &&Event| event.jump.map_or(0.0, |jump| jump.energy.abs());
+        **jumps
+            .iter()
+            .max_by(|event, other| energy(event).total_cmp(&energy(other)))
+            .unwrap()
+    };
+    let legs = driver.outcome().history.legs.clone();
+    let area = driver.area(Pane::Timeline);
+    for direction in [Direction::Loading, Direction::Unloading] {
+        let wanted = largest(direction, &legs);
+        let mut reached = false;
+        for column in area.left()..area.right() {
+            driver.mouse(column, area.bottom() - 2, Gesture::Press);
+            let indentation = driver.point().indentation;
+            reached |= (indentation - wanted.indentation).abs() <= 1e-9 * wanted.indentation.abs();
+        }
+        assert!(reached, "{wanted:?}");
+    }
+    driver.mouse(area.right() - 1, area.bottom() - 1, Gesture::Press);
+    assert_eq!(driver.app.play.leg, 1);
+}
+
+#[test]
+fn the_list_follows_the_playhead_and_moves_it() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.resize((160, 45));
+    driver.press("e");
+    assert_eq!(driver.app.view.pane, Pane::Events);
+    let events = listed(&driver);
+    driver.press("Down Down");
+    let third = driver.point().indentation;
+    assert!((third - events[1].indentation).abs() <= 1e-9 * third.abs());
+    driver.press("End");
+    assert!(driver.app.play.leg == 1);
+    driver.press("Home");
+    let area = driver.area(Pane::Events);
+    driver.mouse(area.x + 3, area.y + 3, Gesture::Press);
+    let indentation = driver.point().indentation;
+    assert!(
+        (indentation - events[2].indentation).abs() < 1e-15,
+        "{indentation}: {}",
+        driver.text()
+    );
+    driver.press("e");
+    assert!(!driver.app.view.lists_events);
+}
+
+#[test]
+fn a_path_by_hand_has_its_own_stages_and_events() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.resize((120, 36));
+    steps(&mut driver, "End");
+    driver.press("< d L L L L H H H H H H");
+    let followed = driver.app.followed().expect("a path").clone();
+    assert!(followed.moves().len() >= 2);
+    let events = listed(&driver);
+    assert!(events.iter().all(|event| event.stage < followed.legs.len()));
+    assert!(driver.text().contains("press to"), "{}", driver.text());
+    driver.press("Esc");
+    assert!(driver.app.edit.path.is_none());
+    assert_eq!(driver.app.events.as_ref().unwrap().path, None);
+}
+
+#[test]
+fn keys_change_the_speed_and_repeat() {
+    let mut driver = at_beginning(smooth());
+    driver.resize((120, 36));
+    driver.press("Tab = +");
+    assert_eq!(driver.app.config.speed, 4.0);
+    driver.press("- - - - - -");
+    assert_eq!(driver.app.config.speed, 0.25);
+    driver.press("r");
+    driver.states("the animation repeats");
+    assert!(driver.text().contains('↻'), "{}", driver.text());
+    assert_eq!(driver.app.play.at, At::Start);
+}
