@@ -33,8 +33,6 @@ pub struct CurveLook {
     /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
     /// the rms height h or the length L; false to show all in SI units.
     pub normalised: bool,
-    /// True if the area that represents the dissipated energy is shaded.
-    pub loss: bool,
 }
 
 /// Message to the user, shown below the panes.
