@@ -106,10 +106,11 @@ impl Section {
     /// Returns the area of the rigid body below its profile. `positions` is the range in m of all
     /// columns together.
     fn body(&self, positions: Span, z: Span) -> Shape {
-        let width = positions.width() / self.columns.len().max(1) as f64;
+        // The area reaches from the left end of the first to the right end of the last column.
+        let width = positions.width() / self.columns.len().saturating_sub(1).max(1) as f64;
         let mut points = Vec::with_capacity(self.columns.len());
         for (index, column) in self.columns.iter().enumerate() {
-            let x = positions.low + width * (index as f64 + 0.5);
+            let x = positions.low + width * index as f64;
             let (low, high) = column.line;
             points.push((x, z.low, f64::midpoint(low, high)));
         }
