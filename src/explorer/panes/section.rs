@@ -68,7 +68,7 @@ pub fn of_springs(
     let part = part(section.first, section.springs);
     let whole = snapshot.section(part)?;
     // Equal colours mean equal stresses in the figures of the profile and of a patch too.
-    let profile = snapshot.section(LinePart::drawn(0, snapshot.line.points as usize))?;
+    let profile = snapshot.section(LinePart::drawn(0, snapshot.line.points))?;
     let largest_stress = profile.largest_stress().unwrap_or(1.0);
     Some(whole.chart(snapshot.line, z, largest_stress))
 }

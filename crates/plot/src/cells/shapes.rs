@@ -124,10 +124,12 @@ impl LayerShape<'_> {
             } else {
                 row_at(high)
             };
+            let top = edge.min(level);
+            let bottom = edge.max(level);
             for column in first..end {
-                for row in edge.min(level)..=edge.max(level) {
+                for (row, colour) in (top..).zip(&colours[top..=bottom]) {
                     if !is_thinned || row == edge || (column + row).is_multiple_of(2) {
-                        painter.paint(column, row, colours[row]);
+                        painter.paint(column, row, *colour);
                     }
                 }
             }
