@@ -35,8 +35,6 @@ pub struct CurveLook {
     /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
     /// the rms height h or of the length L. False to show all values in SI units.
     pub normalised: bool,
-    /// True if the area in the force curve that represents the dissipated energy is shaded.
-    pub loss: bool,
 }
 
 /// Message to the user, shown below the panes.

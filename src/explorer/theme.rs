@@ -38,6 +38,8 @@ pub enum Meaning {
     /// Frames, axes and less important text.
     Quiet,
     Title,
+    /// Heading of a group of rows.
+    Heading,
     Selected,
     Error,
     Key,
@@ -83,6 +85,7 @@ impl Appearance {
         match meaning {
             Meaning::Text => palette.style(Role::Text),
             Meaning::Title => palette.style(Role::Text).add_modifier(Modifier::BOLD),
+            Meaning::Heading => palette.style(Role::Accent).add_modifier(Modifier::BOLD),
             Meaning::Cursor => palette.ink(Ink::Cursor),
             Meaning::Quiet => palette.style(Role::Quiet),
             Meaning::Error => palette.style(Role::Error),

@@ -238,6 +238,14 @@ impl Shape {
         }
     }
 
+    /// Returns this [`Shape::Envelope`] with its area filled. Any other shape stays as it is.
+    pub fn filled(mut self, area: StressFill) -> Shape {
+        if let Shape::Envelope { fill, .. } = &mut self {
+            *fill = Some(area);
+        }
+        self
+    }
+
     /// Returns the points (x, y) of a curve. For a [`Shape::Envelope`], returns the lowest and the
     /// highest point of each column. For any other shape, returns an empty list.
     pub fn points(&self) -> Vec<(f64, f64)> {
@@ -246,6 +254,7 @@ impl Shape {
             Shape::Envelope {
                 x: (from, to),
                 columns,
+                ..
             } => {
                 let mut points = Vec::new();
                 for (index, ends) in columns.iter().enumerate() {
@@ -283,12 +292,17 @@ impl Shape {
             Shape::Envelope {
                 x: (from, to),
                 columns,
+                fill,
             } => {
                 *from /= x_unit;
                 *to /= x_unit;
                 for (low, high) in columns.iter_mut().flatten() {
                     *low /= y_unit;
                     *high /= y_unit;
+                }
+                if let Some(fill) = fill {
+                    fill.level /= y_unit;
+                    fill.full /= y_unit;
                 }
             }
             Shape::Boxes(boxes) => {
@@ -339,6 +353,9 @@ pub enum Shape {
         x: (f64, f64),
         /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
+        /// Area between the line and a level, which is filled in place of the line; `None` for a
+        /// line.
+        fill: Option<StressFill>,
     },
     /// Area inside the closed line through these points.
     Inside(Vec<(f64, f64)>),
@@ -351,6 +368,25 @@ pub enum Shape {
     /// Heat map with one coloured cell for each pair of a number on the horizontal axis and a
     /// number on the vertical axis.
     Map(Box<HeatMap>),
+}
+
+/// Filled area between a profile and the level at which its springs have no stress. The colour of
+/// each height shows the stress of a spring at this height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressFill {
+    /// y of a spring without stress. Springs above this level are pressed, springs below it are
+    /// pulled.
+    pub level: f64,
+    /// Distance from the level at which the colour is that of the largest stress.
+    pub full: f64,
+}
+
+impl StressFill {
+    /// Returns the stress of a spring at the height `y` as a share of the largest stress. It is
+    /// positive for a pressed spring.
+    pub fn stress(self, y: f64) -> f64 {
+        (y - self.level) / self.full
+    }
 }
 
 /// Pattern of a line.
@@ -519,7 +555,8 @@ impl Entry {
         for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
             let sample = match shape {
                 Shape::Curve { stroke, sign, .. } => Sample::Line(*stroke, *sign),
-                Shape::Envelope { .. } => Sample::Line(Some(Stroke::Solid), None),
+                Shape::Envelope { fill: Some(_), .. } => Sample::Solid,
+                Shape::Envelope { fill: None, .. } => Sample::Line(Some(Stroke::Solid), None),
                 Shape::Band(_) | Shape::Inside(_) => Sample::Area,
                 Shape::Boxes(_) => Sample::Solid,
                 Shape::Upright(_) | Shape::Level(_) => Sample::Guide,

@@ -37,6 +37,8 @@ pub enum Ink {
     Pull,
     /// Area inside a loop: the dissipated energy.
     Loop,
+    /// The rigid body below its profile.
+    Body,
     /// Earlier curve that stays in the background, so that it can be compared with the present
     /// curve.
     Kept,
@@ -68,8 +70,14 @@ impl Ink {
             Ink::Press => Role::Press,
             Ink::Pull => Role::Pull,
             Ink::Loop => Role::LoopGround,
+            Ink::Body => Role::BodyGround,
             Ink::Series(number) => SERIES[number % SERIES.len()],
         }
+    }
+
+    /// Returns true for an area that a terminal shows as the ground of cells, if it can.
+    pub(crate) fn is_ground(self) -> bool {
+        matches!(self, Ink::Loop | Ink::Body)
     }
 
     /// Returns the colour of the ink in a figure with a white background.

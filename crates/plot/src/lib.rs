@@ -20,11 +20,11 @@ mod ticks;
 
 pub use axis::ChartAxis;
 pub use cells::legend::legend;
-pub use cells::map::{SHADES, key};
-pub use cells::pane::{ContactRow, PaneChart, split};
+pub use cells::map::{SHADES, key, shade_sample};
+pub use cells::pane::{ContactRow, PaneChart, contact_signs, split};
 pub use cells::plot::{CellPlot, Name};
 pub use cells::text::figure_text;
-pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
+pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, StressFill, Stroke};
 pub use colour::{Ink, Rgb, Shades};
 pub use label::{Label, prefixed, statement, value_label};
 pub use palette::{Background, Colours, Palette, Role};

@@ -4,7 +4,7 @@
 //! springs are pulled or that the body moves away. No other hue has a meaning in a loop or a
 //! profile, so that people with colour blindness can read them.
 
-use crate::colour::{Ink, Lab, Rgb, difference, lab};
+use crate::colour::{Ink, Lab, Rgb, difference, ink_on, lab};
 use ratatui::style::{Color, Modifier, Style};
 use std::sync::LazyLock;
 
@@ -193,8 +193,8 @@ struct StressIndices {
     pull: [u8; 3],
 }
 
-/// Share of the largest stress at which the colour of a spring has each share of the full colour is
-/// `share.powf(STRESS_POWER)`: small stresses can be distinguished too.
+/// Power of the stress to which the share of the full colour is proportional. It is below 1, so that
+/// small stresses can be distinguished too.
 const STRESS_POWER: f64 = 0.7;
 
 /// Colours for a terminal or a picture: those that it can show and that read on its background.
@@ -369,6 +369,17 @@ impl Palette {
             Colours::TrueColour => Color::Rgb(red, green, blue),
         }
     }
+
+    /// Returns the colour of a sign on a shade of a heat map.
+    pub(crate) fn ink_on_shade(self, ground: Color) -> Color {
+        match ground {
+            Color::Rgb(red, green, blue) => self.shade(ink_on([red, green, blue])),
+            Color::Indexed(index) if index >= FIRST_FIXED => {
+                self.shade(ink_on(fixed_colour(index)))
+            }
+            _ => Color::Reset,
+        }
+    }
 }
 
 impl Role {
@@ -386,6 +397,11 @@ impl Role {
 pub(crate) fn stress_step(stress: f64) -> u8 {
     let share = stress.abs().min(1.0).powf(STRESS_POWER);
     ((share * f64::from(STRESS_STEPS)).ceil() as u8).clamp(1, STRESS_STEPS)
+}
+
+/// Returns the largest stress that has the colour of this step, as a share of the largest stress.
+pub(crate) fn stress_of_step(step: u8) -> f64 {
+    (f64::from(step) / f64::from(STRESS_STEPS)).powf(STRESS_POWER.recip())
 }
 
 /// Number of the first of the 256 colours that are the same in all terminals. The colours before it

@@ -119,7 +119,7 @@ impl ContactSets {
         // An elastic surface far above the profile is left out of the range of the axis.
         let level = section.level.min(high + 0.5 * (high - low));
         let z = Span::around([low, high, level].into_iter(), 0.05);
-        let mut chart = section.chart(outcome.line, z);
+        let mut chart = section.chart(outcome.line, z, section.largest_stress().unwrap_or(1.0));
         chart.x = position_axis(outcome);
         let note = Label::plain("largest force: ")
             .join(&value_label("", "F", "N", *force))
@@ -279,17 +279,20 @@ mod tests {
     fn the_profile_shows_the_contact_at_the_largest_force() {
         let (outcome, sets, line) = computed(&[]);
         let figure = sets.profile_figure("", &outcome, &line);
-        assert_eq!(names(&figure), ["surface", "profile", "contact"]);
-        let Shape::Envelope { columns, .. } = &figure.charts[0].layers[2].shape else {
-            panic!()
-        };
+        assert_eq!(names(&figure), ["surface", "profile", "pressed", "pulled"]);
+        let mut springs = 0;
+        for layer in &figure.charts[0].layers[3..] {
+            let Shape::Envelope { columns, .. } = &layer.shape else {
+                panic!()
+            };
+            assert_eq!(columns.len(), line.gaps.len());
+            springs += columns.iter().flatten().count();
+        }
         let preload = outcome.history.legs[0].largest;
         assert_eq!(
-            columns.iter().flatten().count() as u64,
-            preload.springs,
+            springs as u64, preload.springs,
             "one column for each spring"
         );
-        assert_eq!(columns.len(), line.gaps.len());
         let (outcome, sets, line) = computed(&[("loading", "[ToTouch]"), ("adhesion", "None")]);
         let note = sets.profile_figure("", &outcome, &line).notes[0].to_string();
         assert_eq!(note, "largest force: F = 0 N, d = 0 m");

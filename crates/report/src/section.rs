@@ -1,8 +1,8 @@
 //! A profile in contact, reduced to the columns of a chart.
 
 use asperity_contact::Patch;
-use asperity_data::AxisScale;
-use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
+use asperity_data::{AxisScale, quantile};
+use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, StressFill};
 use asperity_scene::stages::LineFacts;
 use std::ops::Range;
 
@@ -75,8 +75,9 @@ pub struct Column {
 impl Section {
     /// Returns the chart of the heights over the position along the profile. `line` contains the
     /// spring spacing of the profile and the index of its first spring, and `z` is the range of the
-    /// vertical axis in m.
-    pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
+    /// vertical axis in m. Springs that are compressed or stretched by `largest_stress`, in m, have
+    /// the colour of the largest stress.
+    pub fn chart(&self, line: LineFacts, z: Span, largest_stress: f64) -> Chart {
         let end = self.first + self.springs.max(1);
         let x = Span {
             low: (line.first + self.first) as f64 * line.spacing,
@@ -84,24 +85,77 @@ impl Section {
         };
         let surface = self.envelope(x, |column| Some(column.surface));
         let profile = self.envelope(x, |column| Some(column.line));
-        let contact = self.envelope(x, |column| column.contact);
+        let level = self.level;
+        let pressed = self.envelope(x, |column| column.pressed(level));
+        let pulled = self.envelope(x, |column| column.pulled(level));
+        let fill = StressFill {
+            level,
+            full: largest_stress,
+        };
         let layers = vec![
+            Layer::unnamed(Ink::Body, self.body(x, z)),
             Layer::new("surface".into(), Ink::Surface, surface),
             Layer::new("profile".into(), Ink::Profile, profile),
-            Layer::new("contact".into(), Ink::Contact, contact),
+            Layer::new("pressed".into(), Ink::Press, pressed.filled(fill)),
+            Layer::new("pulled".into(), Ink::Pull, pulled.filled(fill)),
         ];
         let x = ChartAxis::new(AxisScale::Linear, x, "position", "x", "m");
         let y = ChartAxis::new(AxisScale::Linear, z, "height", "z", "m");
         Chart::new(x, y, layers)
     }
 
+    /// Returns the area of the rigid body below its profile. `positions` is the range in m of all
+    /// columns together.
+    fn body(&self, positions: Span, z: Span) -> Shape {
+        // The area reaches from the left end of the first to the right end of the last column.
+        let width = positions.width() / self.columns.len().saturating_sub(1).max(1) as f64;
+        let mut points = Vec::with_capacity(self.columns.len());
+        for (index, column) in self.columns.iter().enumerate() {
+            let x = positions.low + width * index as f64;
+            let (low, high) = column.line;
+            points.push((x, z.low, f64::midpoint(low, high)));
+        }
+        Shape::Band(points)
+    }
+
     /// Returns a shape with the lowest and the highest point of each column. `positions` is the
     /// range in m of all columns together.
-    fn envelope(&self, positions: Span, heights: fn(&Column) -> Option<(f64, f64)>) -> Shape {
+    fn envelope(&self, positions: Span, heights: impl Fn(&Column) -> Option<(f64, f64)>) -> Shape {
         Shape::Envelope {
             x: (positions.low, positions.high),
             columns: self.columns.iter().map(heights).collect(),
+            fill: None,
         }
+    }
+
+    /// Returns the compression or stretch in m that only few springs of the part exceed; `None`
+    /// without contact.
+    pub fn largest_stress(&self) -> Option<f64> {
+        /// Share of the columns in contact whose stress does not exceed the result. A few springs
+        /// at the edges of patches have much larger stresses.
+        const SHARE: f64 = 0.97;
+        let mut stresses = Vec::new();
+        for (low, high) in self.columns.iter().filter_map(|column| column.contact) {
+            stresses.push((high - self.level).abs().max((low - self.level).abs()));
+        }
+        stresses.sort_by(f64::total_cmp);
+        quantile(&stresses, SHARE).filter(|stress| *stress > 0.0)
+    }
+}
+
+impl Column {
+    /// Returns the lowest and the highest point above `level` of the springs in contact, which are
+    /// pressed; `None` if there are none.
+    fn pressed(&self, level: f64) -> Option<(f64, f64)> {
+        let (low, high) = self.contact?;
+        (high >= level).then(|| (low.max(level), high))
+    }
+
+    /// Returns the lowest and the highest point below `level` of the springs in contact, which are
+    /// pulled; `None` if there are none.
+    fn pulled(&self, level: f64) -> Option<(f64, f64)> {
+        let (low, high) = self.contact?;
+        (low < level).then(|| (low, high.min(level)))
     }
 }
 

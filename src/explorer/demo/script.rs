@@ -31,6 +31,7 @@ pub const TOUR: &[Cue] = &[
     Enter("20 µN"),
     Do("toggle-play"),
     Wait(LOOP),
+    Wait(2.0),
     Do("clear-ghosts"),
     Do("toggle-events"),
     Repeat(4, 1.0, "previous-event"),

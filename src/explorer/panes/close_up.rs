@@ -25,9 +25,6 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Smallest width in columns at which the pane shows the names of its curves.
-const WITH_NAMES: u16 = 40;
-
 fn panel(app: &App, size: Size) -> Panel {
     let Some(snapshot) = app.snapshot.as_deref() else {
         return Panel::of_text("Contact patch".to_owned(), "");
@@ -54,13 +51,6 @@ fn panel(app: &App, size: Size) -> Panel {
             .extend(describe(app, patch).map(|text| vec![Text::raw(text)]));
     }
     if let Body::Chart(plot) = &mut panel.body {
-        if size.width < WITH_NAMES {
-            // The names are not needed, because the profile pane on the screen uses the same
-            // colours and has the names.
-            for layer in &mut plot.chart.layers {
-                layer.name = Label::default();
-            }
-        }
         plot.chart.layers.push(Layer {
             name: Label::default(),
             ..ends(snapshot)
@@ -76,7 +66,7 @@ fn ends(snapshot: &ContactSnapshot) -> Layer {
         points.push((section::position(snapshot.line, *spring), *height));
     }
     let signs = Shape::signs(points, Sign::Ring);
-    Layer::new("patch end".into(), Ink::Contact, signs)
+    Layer::new("patch end".into(), Ink::Text, signs)
 }
 
 /// Returns the chart of the springs in the close-up, for an exported file.

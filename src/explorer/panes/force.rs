@@ -20,8 +20,8 @@ use asperity_report::{
     loop_chart,
 };
 
+use asperity_scene::Outcome;
 use asperity_scene::text::quoted;
-use asperity_scene::{Governing, Outcome};
 use asperity_study::half_space::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -37,9 +37,9 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| fit(app).or_else(|| outcome(app)),
     help: &[(
         "Curve",
-        "force F over the indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ \
-         present state. Curves with letters are ghosts. Under manual loading this is the path of the body, beside the \
-         loading of the scene in a weaker colour. Dots are a measured curve, with its residuals below",
+        "force F over the indentation d: amber and dotted on loading, blue and solid on unloading; the shaded area of \
+         the loop is the dissipated energy ΔW; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ present state. Grey dashes with \
+         letters are ghosts; coloured dashes show manual loading; dots are a measured curve, with its residuals below",
     )],
     ..PaneRow::EMPTY
 };
@@ -115,6 +115,9 @@ fn panel(app: &App, size: Size) -> Panel {
         names.extend(names_of_marks(app));
     }
     names.extend(letters_of_ghosts(app));
+    if shows_loss(app) && app.is_current() {
+        names.extend(name_of_loss(app));
+    }
     let below = residuals(app, &chart.x);
     let mut panel = Panel {
         head: lines_of_ghosts(app, size),
@@ -257,8 +260,8 @@ fn state(app: &App) -> Vec<String> {
     parts
 }
 
-/// Returns the title: the name and the unit of the vertical quantity, the dissipated energy if its
-/// area is shaded, and the event at the shown state.
+/// Returns the title: the name and the unit of the vertical quantity, and the event at the shown
+/// state.
 fn title(app: &App, y: Option<&ChartAxis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
@@ -269,44 +272,75 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
         Some(axis) => format!("{name} {}", axis.symbol_with_unit()),
         None => name.to_owned(),
     };
-    let loss = if shows_loss(app) {
-        format!(" · {}", loss(app))
-    } else {
-        String::new()
-    };
     let event = match caption(app) {
         _ if app.is_computing() => " · computing".to_owned(),
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
-    format!("{name}{loss}{event}")
+    format!("{name}{event}")
 }
 
-/// Returns true if the area of the dissipated energy is shaded. Only a chart of force over
-/// indentation has such an area.
+/// Returns true if the chart contains the area of the dissipated energy: only a closed loop of the
+/// force over the indentation has this area.
 fn shows_loss(app: &App) -> bool {
-    app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation
+    let is_force_over_indentation = app.view.curve.quantities == LoopQuantities::ForceIndentation;
+    is_force_over_indentation
+        && app
+            .outcome()
+            .is_some_and(|outcome| outcome.figures.dissipated_energy.is_some())
 }
 
-/// Returns the dissipated energy as text, and the Tabor number, because the energy depends on it.
-fn loss(app: &App) -> String {
-    let Some(outcome) = app.outcome() else {
-        return "ΔW open".to_owned();
-    };
-    let Some(energy) = outcome.figures.dissipated_energy else {
-        return "ΔW open".to_owned();
-    };
+/// Returns the dissipated energy, which is written inside the loop, where the loop is widest.
+fn name_of_loss(app: &App) -> Option<Name> {
+    let energy = app.outcome()?.figures.dissipated_energy?;
+    let units = units(app);
+    let mut at = Vec::new();
+    for place in places_inside(app) {
+        at.push(units.place(&place));
+    }
     let energy = format_rounded(energy, 3, "J");
-    let Some(tabor_number) = outcome.tabor_number else {
-        return format!("ΔW {energy}");
+    Some(Name {
+        at,
+        texts: vec![format!("ΔW {energy}"), energy],
+        ink: Ink::Text,
+    })
+}
+
+/// Number of points on the curve of the unloading beside which the dissipated energy may be
+/// written.
+const PLACES_INSIDE: usize = 24;
+
+/// Returns points inside the loop, those at which it is widest first. They lie halfway between the
+/// unloading and the loading at the same indentation. Points at which the loop is narrow are left
+/// out.
+fn places_inside(app: &App) -> Vec<CurvePoint> {
+    /// Smallest distance between the two curves, as a share of the largest distance.
+    const LEAST_SHARE: f64 = 0.5;
+    let mut legs = app.legs().iter();
+    let Some(loading) = legs.find(|leg| leg.direction == Direction::Loading) else {
+        return Vec::new();
     };
-    let low = if tabor_number < Governing::LEAST_TABOR_NUMBER {
-        format!(" < {}", Governing::LEAST_TABOR_NUMBER)
-    } else {
-        String::new()
+    let Some(unloading) = legs.find(|leg| leg.direction == Direction::Unloading) else {
+        return Vec::new();
     };
-    let tabor_number = format_rounded(tabor_number, 3, "1");
-    format!("ΔW {energy}, Tabor μ {tabor_number}{low}")
+    let mut places: Vec<(CurvePoint, f64)> = Vec::new();
+    let step = (unloading.curve.len() / PLACES_INSIDE).max(1);
+    for point in unloading.curve.iter().step_by(step) {
+        let loaded = &loading.curve;
+        let above = loaded.partition_point(|other| other.indentation < point.indentation);
+        let Some(other) = loaded.get(above) else {
+            continue;
+        };
+        let middle = CurvePoint {
+            force: f64::midpoint(point.force, other.force),
+            ..*point
+        };
+        places.push((middle, (other.force - point.force).abs()));
+    }
+    places.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+    let widest = places.first().map_or(0.0, |(_, distance)| *distance);
+    places.retain(|(_, distance)| *distance >= LEAST_SHARE * widest);
+    places.into_iter().map(|(place, _)| place).collect()
 }
 
 fn units(app: &App) -> LoopUnits {
@@ -431,11 +465,11 @@ fn chart(app: &App) -> Option<Chart> {
     // Areas are inserted below the curves. Drawn later, they would hide parts of the curves.
     for [lower, _, upper] in &bands {
         let border = lower.iter().chain(upper.iter().rev());
-        insert_area(&mut chart, units, border);
+        insert_area(&mut chart, units, Ink::Kept, border);
     }
     if shows_loss(app) {
         let border = app.legs().iter().flat_map(|leg| &leg.curve);
-        insert_area(&mut chart, units, border);
+        insert_area(&mut chart, units, Ink::Loop, border);
     }
     Some(chart)
 }
@@ -444,10 +478,11 @@ fn chart(app: &App) -> Option<Chart> {
 fn insert_area<'a>(
     chart: &mut Chart,
     units: LoopUnits,
+    ink: Ink,
     border: impl Iterator<Item = &'a CurvePoint>,
 ) {
     let border = border.map(|point| units.place(point)).collect();
-    let area = Layer::unnamed(Ink::Kept, Shape::Inside(border));
+    let area = Layer::unnamed(ink, Shape::Inside(border));
     chart.layers.insert(1, area);
 }
 

@@ -10,7 +10,7 @@ use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_range, format_rounded, grouped};
-use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
+use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign, shade_sample};
 use asperity_report::{study_curves, study_figure, study_map};
 use asperity_study::StudyError;
 use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap};
@@ -260,15 +260,23 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     // Only every second shade belongs to a regime, beginning with the densest shade. A shade
     // between two regimes shows that some profiles of a cell are in one regime and some in the
     // other.
-    let shades_of_regimes = SHADES.iter().rev().step_by(2);
-    for (class, shade) in map.class_names.iter().zip(shades_of_regimes) {
-        let style = look.palette().ink(class.ink);
+    let palette = look.palette();
+    let sample = |step: usize| {
+        let (character, style) = shade_sample(map, step, palette);
+        Text::styled(character, style)
+    };
+    let steps_of_regimes = (0..SHADES.len()).rev().step_by(2);
+    for (class, step) in map.class_names.iter().zip(steps_of_regimes) {
+        let mut shade = sample(step);
+        if !palette.has_shades() {
+            shade = shade.style(palette.ink(class.ink));
+        }
         let name = Text::raw(format!(" {}", class.name));
-        parts.push(vec![Text::styled(*shade, style), name]);
+        parts.push(vec![shade, name]);
     }
     if grid.is_split(app.mapped()) {
-        let text = format!("{} {} profiles disagree", SHADES[3], SHADES[1]);
-        parts.push(vec![Text::raw(text)]);
+        let name = Text::raw(" profiles disagree");
+        parts.push(vec![sample(3), Text::raw(" "), sample(1), name]);
     }
     parts
 }

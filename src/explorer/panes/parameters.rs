@@ -177,6 +177,8 @@ fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> L
     } else if is_selected {
         // The selected row is also marked if another pane receives the keys, but less brightly.
         Meaning::Title
+    } else if parameter.is_head() {
+        Meaning::Heading
     } else {
         Meaning::Text
     };

@@ -8,11 +8,15 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::text::Part as TextPart;
 
 use asperity_data::{AxisScale, format_quantity};
-use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, Stroke, prefixed};
+use asperity_plot::{
+    Chart, ChartAxis, Colours, Ink, Layer, Shape, Span, Stroke, contact_signs, prefixed,
+};
 use asperity_report::{Part as LinePart, Section};
 use asperity_surface::lines::Histogram;
+use ratatui::text::Span as Text;
 use std::f64::consts::TAU;
 
 pub static ROW: PaneRow = PaneRow {
@@ -29,8 +33,10 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Profile",
-        "rigid profile below, elastic surface above; ■ contact, [ ] the part in the pane Patch. On the right the \
-         distribution of heights, and dotted a normal distribution",
+        "rigid profile below, elastic surface above. Springs in contact are filled: amber and above the dotted level \
+         of the free surface they are pressed, blue and below it they are pulled; the filled area is the force. In \
+         the row below, █ is in contact, ▪ in part, · free; without colours ▒ and ▫ are pulled. [ ] is the part in \
+         the pane Patch. On the right the distribution of heights, and dotted a normal distribution",
     )],
     ..PaneRow::EMPTY
 };
@@ -68,8 +74,15 @@ fn with_profile(app: &App, snapshot: &ContactSnapshot, width: u16) -> Panel {
     };
     let histogram = app.outcome().and_then(|outcome| outcome.histogram.as_ref());
     plot.beside = Some(distribution(histogram, plot.chart.y.clone()));
+    let largest_stress = section::largest_stress(snapshot, &snapshot.profile);
     for column in &snapshot.profile.columns {
-        plot.contact.springs.push(column.contact.is_some());
+        let stress = column.contact.map(|(low, high)| {
+            (f64::midpoint(low, high) - snapshot.profile.level) / largest_stress
+        });
+        plot.contact.springs.push(stress);
+    }
+    if snapshot.probe.is_none() {
+        panel.edge.push(words_of_stress(app));
     }
     let has_close_up = Layout::of(app).pane(Pane::CloseUp).is_some();
     if has_close_up {
@@ -79,6 +92,25 @@ fn with_profile(app: &App, snapshot: &ContactSnapshot, width: u16) -> Panel {
         plot.contact.marked = Some((from, to));
     }
     panel
+}
+
+/// Returns the words `pressed` and `pulled` in the colours of the springs. Without colours, each
+/// word follows the sign of its springs.
+fn words_of_stress(app: &App) -> TextPart {
+    let palette = app.view.appearance.palette();
+    let mut words = Vec::new();
+    for (word, ink, stress) in [("pressed", Ink::Press, 1.0), ("pulled", Ink::Pull, -1.0)] {
+        let word = if palette.colours == Colours::Plain {
+            format!("{} {word}", contact_signs(palette, stress).all)
+        } else {
+            word.to_owned()
+        };
+        if !words.is_empty() {
+            words.push(Text::raw(" "));
+        }
+        words.push(Text::styled(word, palette.ink(ink)));
+    }
+    words
 }
 
 /// Returns the position of a spring in a part of the profile, from 0 at its left end to 1 at its

@@ -8,7 +8,7 @@ use crate::explorer::snapshot::{ContactSnapshot, Probe};
 use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::format_quantity;
-use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
+use asperity_plot::{Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke, value_label};
 use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
@@ -24,10 +24,17 @@ pub fn panel(
     look: Appearance,
     width: u16,
 ) -> Panel {
-    let mut chart = section.chart(snapshot.line, z).with_symbols();
+    let largest_stress = largest_stress(snapshot, section);
+    let mut chart = section
+        .chart(snapshot.line, z, largest_stress)
+        .with_symbols();
     // The surface is drawn dotted, so that it differs from the profile even without colours.
-    if let Some(surface) = chart.layers.first_mut() {
-        surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
+    for layer in &mut chart.layers {
+        if layer.ink == Ink::Surface {
+            layer.shape = Shape::line(layer.shape.points(), Stroke::Dotted);
+        }
+        // The pane names the pressed and the pulled springs beside its title.
+        layer.name = Label::default();
     }
     if let Some(probe) = snapshot.probe {
         // The crosshair is the lowest layer. Drawn later, its lines would hide parts of the curves.
@@ -60,7 +67,17 @@ pub fn of_springs(
 ) -> Option<Chart> {
     let part = part(section.first, section.springs);
     let whole = snapshot.section(part)?;
-    Some(whole.chart(snapshot.line, z))
+    // Equal colours mean equal stresses in the figures of the profile and of a patch too.
+    let profile = snapshot.section(LinePart::drawn(0, snapshot.line.points))?;
+    let largest_stress = profile.largest_stress().unwrap_or(1.0);
+    Some(whole.chart(snapshot.line, z, largest_stress))
+}
+
+/// Returns the compression or stretch in m that has the colour of the largest stress on the screen.
+/// It is that of the visible profile, so that equal colours in all panes mean equal stresses.
+pub fn largest_stress(snapshot: &ContactSnapshot, section: &Section) -> f64 {
+    let of_profile = snapshot.profile.largest_stress();
+    of_profile.or(section.largest_stress()).unwrap_or(1.0)
 }
 
 /// Returns a figure with the chart of a section. The note of the figure states the force and the

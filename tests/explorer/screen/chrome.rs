@@ -112,7 +112,7 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     driver.press("/ `dissipated energy`");
     let text = driver.text();
     assert!(
-        text.contains("Find: dissipated energy") && text.contains("shade the area"),
+        text.contains("Find: dissipated energy") && text.contains("area of the loop"),
         "{text}"
     );
     assert!(!text.contains("quit without saving"), "{text}");
@@ -120,7 +120,7 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     driver.press("Enter j");
     let text = driver.text();
     assert!(
-        text.contains("shade the area") && !text.contains("dissipated energyj"),
+        text.contains("area of the loop") && !text.contains("dissipated energyj"),
         "{text}"
     );
     driver.press("End Home PageDown Esc");

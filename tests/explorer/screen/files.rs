@@ -4,6 +4,7 @@ use super::*;
 use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::command_line::command_line;
 use asperity::explorer::theme::Marker;
+use asperity_plot::Colours;
 use asperity_report::RunReport;
 use asperity_report::scene_provenance;
 use asperity_report::{Format, write};
@@ -161,12 +162,13 @@ fn profile_and_close_up_come_from_the_springs_at_any_size_of_the_window() {
             profile.windows(2).all(|pair| pair[0].0 != pair[1].0),
             "{pane:?}"
         );
+        let contact: Vec<_> = curves["pressed"].iter().chain(&curves["pulled"]).collect();
         assert!(
-            curves["contact"]
+            contact
                 .iter()
                 .all(|spring| profile.contains(spring) && surface.contains(spring))
         );
-        assert!(!curves["contact"].is_empty() && springs > 60);
+        assert!(!contact.is_empty() && springs > 60);
     }
 }
 
@@ -175,6 +177,7 @@ fn the_text_is_the_screen_without_the_prompt() {
     for marker in [Marker::Braille, Marker::Ascii] {
         let mut driver = pressed("c L d Shift+Left j");
         driver.app.view.appearance.marker = marker;
+        driver.app.view.appearance.colours = Colours::Plain;
         driver.perform(vec![Task::Ask]);
         let seen = asperity_plot::screen_text(&driver.screen());
         let written = exported(&mut driver, "a.txt");
@@ -209,7 +212,7 @@ fn every_pane_is_exported_as_a_figure() {
         (
             "",
             Pane::Profile,
-            &["surface", "profile", "contact", "(nm)"],
+            &["surface", "profile", "pressed", "pulled", "(nm)"],
         ),
         ("", Pane::CloseUp, &["surface", "patch end"]),
         ("Q", Pane::Spectrum, &["wave number"]),

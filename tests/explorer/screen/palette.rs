@@ -11,8 +11,7 @@ fn query(driver: &mut Driver, text: &str) {
 #[test]
 fn a_command_is_found_by_words_and_runs_as_its_key_does() {
     for (typed, keys) in [
-        ("shade area", "a"),
-        ("dissipated", "a"),
+        ("normalised units", "N"),
         ("next patch", "n"),
         ("undo", "u"),
         ("swap", "x"),
@@ -48,8 +47,8 @@ fn everyday_words_find_commands_parameters_and_scenes() {
         ("theme", "change the colours"),
         ("spectrum", "show spectra"),
         ("spread", "show adhesion against preload"),
-        ("minor loop", "press and pull by hand"),
-        ("hysteresis", "shade the area"),
+        ("minor loop", "begin manual loading"),
+        ("hysteresis", "plot force"),
         ("roughness", "rms height"),
         ("work of adhesion", "work of adhesion"),
         ("title", "title"),
@@ -76,7 +75,7 @@ fn everyday_words_find_commands_parameters_and_scenes() {
     assert_eq!(driver.document().name(), "jkr-sphere");
     // A misspelt word is answered with the nearest one.
     query(&mut driver, "hysterisis");
-    driver.shows_all(["for hysteresis", "shade the area"]);
+    driver.shows_all(["for hysteresis", "plot force"]);
     driver.press("Ctrl+u `qqqqqq`");
     driver.shows("nothing fits");
 }

@@ -17,7 +17,7 @@ fn strokes(stroke: Stroke) -> [&'static str; 3] {
     }
 }
 
-fn text_of(sample: Sample) -> String {
+fn text_of(sample: Sample, palette: Palette) -> String {
     match sample {
         Sample::Line(stroke, sign) => {
             let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
@@ -26,6 +26,7 @@ fn text_of(sample: Sample) -> String {
         Sample::Area => "⠪⠕⠪".to_owned(),
         Sample::Solid => "■".to_owned(),
         Sample::Guide => "┊".to_owned(),
+        Sample::Contour if palette.has_shades() => "▀▀".to_owned(),
         Sample::Contour => "▁▕".to_owned(),
         Sample::Empty => "blank:".to_owned(),
     }
@@ -42,7 +43,7 @@ pub fn legend(charts: &[Chart], palette: Palette) -> Vec<Vec<Text<'static>>> {
         for (ink, sample) in entry.samples {
             let text = match (sample, letter) {
                 (Sample::Line(..), Some(letter)) => letter.to_string(),
-                (sample, _) => text_of(sample),
+                (sample, _) => text_of(sample, palette),
             };
             if part.last().is_none_or(|last| *last.content != text) {
                 part.push(Text::styled(text, palette.ink(ink)));

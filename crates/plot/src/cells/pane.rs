@@ -5,11 +5,11 @@ use super::legend::legend;
 use super::plot::{CellPlot, Name, is_blank};
 use crate::chart::{Chart, Shape};
 use crate::colour::Ink;
-use crate::palette::Palette;
+use crate::palette::{Colours, Palette};
 use asperity_data::format_rounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::style::{Color, Style};
 use ratatui::text::Span as Text;
 use std::ops::RangeInclusive;
 
@@ -46,17 +46,18 @@ pub struct PaneChart {
     pub contact: ContactRow,
 }
 
-/// Row of characters below a chart that shows which springs are in contact. Each character shows
-/// the springs that lie above this character: `■` if all these springs are in contact, `▪` if some
-/// are in contact, and `·` if none is in contact.
+/// Row of characters below a chart that shows which springs are in contact, and their stress. Each
+/// character shows the springs above it: `█` if all of them are in contact, `▪` if some are, and `·`
+/// if none is. In a terminal with colours the colour shows the mean stress; without colours the
+/// characters are `▒` and `▫` for springs that are pulled.
 #[derive(Default)]
 pub struct ContactRow {
-    /// For each spring, from left to right, true if the spring is in contact. If the list is empty,
-    /// the row is not drawn.
-    pub springs: Vec<bool>,
-    /// Part of the horizontal axis that the row encloses in brackets; `None` for no brackets. The
-    /// part is given by the positions of its two ends, from 0 (left end of the axis) to 1 (right
-    /// end).
+    /// Stress of each spring, from left to right, as a share of the largest stress and positive if
+    /// the spring is pressed; `None` for a spring without contact. If the list is empty, the row is
+    /// not drawn.
+    pub springs: Vec<Option<f64>>,
+    /// Part of the horizontal axis that is enclosed in brackets, as the positions of its two ends
+    /// from 0 (left end of the axis) to 1 (right end); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
@@ -239,6 +240,7 @@ impl PaneChart {
                 left_out.push(entry);
             }
         }
+        place.draw_grounds(buffer, &self.chart, palette);
         self.draw_below(plot, area, palette, buffer);
         if let Some(chart) = &self.beside
             && let Some(right) = right
@@ -302,6 +304,10 @@ impl PaneChart {
                 buffer[(beside, y)].set_symbol(" ");
             }
         }
+        if palette.has_shades() {
+            let ground = buffer[(x, y)].bg;
+            buffer[(x, y)].set_fg(palette.ink_on_shade(ground));
+        }
         if let Some(cell) = buffer.cell_mut((x, plot.bottom()))
             && ["─", "┬"].contains(&cell.symbol())
         {
@@ -353,8 +359,10 @@ impl ContactRow {
     /// Draws the contact signs into the row below a plot, and the brackets around the marked part.
     fn draw(&self, plot: Rect, palette: Palette, buffer: &mut Buffer) {
         let y = plot.bottom();
-        let signs = self.signs(usize::from(plot.width));
-        buffer.set_string(plot.x, y, signs, palette.ink(Ink::Contact));
+        for (x, cell) in (plot.x..).zip(0..plot.width) {
+            let sign = self.sign(usize::from(cell), usize::from(plot.width), palette);
+            buffer[(x, y)].set_char(sign.character).set_fg(sign.colour);
+        }
         let Some((from, to)) = self.marked else {
             return;
         };
@@ -368,24 +376,54 @@ impl ContactRow {
         }
     }
 
-    /// Returns one sign for each cell of a row: `■` if all springs of the cell are in contact, `▪`
-    /// if some are, `·` if none is.
-    fn signs(&self, cells: usize) -> String {
+    /// Returns the sign of a cell in a row of `cells` cells.
+    fn sign(&self, cell: usize, cells: usize, palette: Palette) -> ContactSign {
         let springs = &self.springs;
-        let mut signs = String::new();
-        for cell in 0..cells {
-            let from = cell * springs.len() / cells;
-            let to = ((cell + 1) * springs.len() / cells).max(from + 1);
-            let part = &springs[from..to];
-            let in_contact = part.iter().filter(|is_in_contact| **is_in_contact).count();
-            signs.push(if in_contact == 0 {
-                '·'
-            } else if in_contact < part.len() {
-                '▪'
-            } else {
-                '■'
-            });
+        let from = cell * springs.len() / cells;
+        let to = ((cell + 1) * springs.len() / cells).max(from + 1);
+        let part = &springs[from..to];
+        let stresses: Vec<f64> = part.iter().copied().flatten().collect();
+        if stresses.is_empty() {
+            return ContactSign {
+                character: '·',
+                colour: palette.ink(Ink::Quiet).fg.unwrap_or_default(),
+            };
         }
-        signs
+        let mean = stresses.iter().sum::<f64>() / stresses.len() as f64;
+        let signs = contact_signs(palette, mean);
+        ContactSign {
+            character: if stresses.len() < part.len() {
+                signs.some
+            } else {
+                signs.all
+            },
+            colour: palette.stress(mean),
+        }
+    }
+}
+
+struct ContactSign {
+    character: char,
+    colour: Color,
+}
+
+/// Characters of [`ContactRow`] for cells in which all or some of the springs are in contact.
+pub struct ContactSigns {
+    pub all: char,
+    pub some: char,
+}
+
+/// Returns the characters for springs with this stress, which is negative for pulled springs.
+pub fn contact_signs(palette: Palette, stress: f64) -> ContactSigns {
+    if palette.colours == Colours::Plain && stress < 0.0 {
+        ContactSigns {
+            all: '▒',
+            some: '▫',
+        }
+    } else {
+        ContactSigns {
+            all: '█',
+            some: '▪',
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::glyph::glyph;
 use super::map;
-use super::shapes::LayerShape;
+use super::shapes::{LayerShape, border_of_band, shade_inside};
 use crate::axis::ChartAxis;
 use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
@@ -180,13 +180,19 @@ impl CellPlot {
                 .x_bounds([0.0, 1.0])
                 .y_bounds([0.0, 1.0])
                 .paint(|context| {
+                    let mut is_after_fill = false;
                     for layer in chart.layers.iter().filter(|layer| is_on_canvas(layer)) {
-                        context.layer();
+                        // Pressed and pulled springs share the cells along the level between them,
+                        // so that they are drawn into the same layer of the canvas.
+                        if !(is_after_fill && is_fill(layer)) {
+                            context.layer();
+                        }
+                        is_after_fill = is_fill(layer);
                         context.draw(&LayerShape {
                             chart,
                             shape: &layer.shape,
                             ink: layer.ink,
-                            colour: palette.ink(layer.ink).fg.unwrap_or_default(),
+                            palette,
                         });
                     }
                 })
@@ -195,8 +201,28 @@ impl CellPlot {
         self.draw_signs(buffer, chart, palette);
     }
 
-    /// Writes the longest text of a name that fits beside one of the points [`Name::at`]. A text
-    /// fits if all cells that it needs are blank. Returns false if no text fits.
+    /// Shades the area inside the loop of a chart and the area of the rigid body. They are drawn
+    /// after all texts, because texts are written in blank cells.
+    pub fn draw_grounds(&self, buffer: &mut Buffer, chart: &Chart, palette: Palette) {
+        if self.plot.is_empty() {
+            return;
+        }
+        for layer in chart.layers.iter().filter(|layer| layer.ink.is_ground()) {
+            match &layer.shape {
+                Shape::Inside(border) => {
+                    shade_inside(buffer, self.plot, chart, border, layer.ink, palette);
+                }
+                Shape::Band(points) => {
+                    let border = border_of_band(points);
+                    shade_inside(buffer, self.plot, chart, &border, layer.ink, palette);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Writes the longest text of a name for which there are enough blank cells beside one of the
+    /// points [`Name::at`]. Returns false if no text fits.
     pub fn draw_name(
         &self,
         buffer: &mut Buffer,
@@ -377,9 +403,18 @@ impl CellPlot {
     }
 }
 
-/// Returns true for a layer that is drawn as Braille dots.
+/// Returns true for a layer whose data are Braille dots.
 fn is_on_canvas(layer: &Layer) -> bool {
-    !matches!(layer.shape, Shape::Map(_))
+    match layer.shape {
+        Shape::Map(_) => false,
+        Shape::Inside(_) | Shape::Band(_) => !layer.ink.is_ground(),
+        Shape::Curve { stroke, sign, .. } => stroke.is_some() || sign == Some(Sign::Point),
+        _ => true,
+    }
+}
+
+fn is_fill(layer: &Layer) -> bool {
+    matches!(layer.shape, Shape::Envelope { fill: Some(_), .. })
 }
 
 /// Returns true for a cell without content.
@@ -483,7 +518,7 @@ fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
 mod tests {
     use super::*;
     use crate::chart::HeatMap;
-    use crate::chart::Stroke;
+    use crate::chart::{StressFill, Stroke};
     use crate::colour::Shades;
     use crate::scale::Span;
     use asperity_data::AxisScale;
@@ -722,6 +757,60 @@ mod tests {
         assert!(!both.iter().any(|symbol| symbol == glyph(Sign::Dot)));
     }
 
+    /// Springs of a profile that are pressed in the left half and pulled in the right half.
+    fn stressed() -> Chart {
+        let fill = StressFill {
+            level: 0.0,
+            full: 1e-5,
+        };
+        let half = |heights: [Option<(f64, f64)>; 2]| {
+            Shape::Envelope {
+                x: (-1.3e-7, 6.4e-7),
+                columns: heights.to_vec(),
+                fill: None,
+            }
+            .filled(fill)
+        };
+        let pressed = half([Some((1e-5, 1e-5)), None]);
+        let pulled = half([None, Some((-1e-5, -1e-5))]);
+        chart(vec![
+            Layer::unnamed(Ink::Press, pressed),
+            Layer::unnamed(Ink::Pull, pulled),
+        ])
+    }
+
+    #[test]
+    fn the_sign_of_a_stress_is_seen_with_and_without_colours() {
+        let (place, plain) = drawn(&stressed(), (60, 20));
+        let plot = place.plot;
+        // Dots and foreground colours of the two halves of the plot.
+        let dots = |buffer: &Buffer, columns: std::ops::Range<u16>| {
+            let mut dots = 0;
+            for x in columns {
+                for y in plot.y..plot.bottom() {
+                    let symbol = buffer[(x, y)].symbol().chars().next().unwrap();
+                    dots += (u32::from(symbol).wrapping_sub(0x2800) & 0xff).count_ones()
+                        * u32::from(('\u{2800}'..='\u{28ff}').contains(&symbol));
+                }
+            }
+            dots
+        };
+        let middle = plot.x + plot.width / 2;
+        let pressed = dots(&plain, plot.x..middle - 1);
+        let pulled = dots(&plain, middle + 1..plot.right());
+        assert!(
+            pulled > 100 && pressed > 3 * pulled / 2,
+            "{pressed} {pulled}"
+        );
+
+        let mut coloured = Buffer::empty(plain.area);
+        place.draw(&mut coloured, &stressed(), Palette::DARK);
+        let row = place.cell(&stressed(), (0.0, 9e-6)).unwrap().1;
+        assert_eq!(coloured[(middle - 3, row)].fg, Palette::DARK.stress(1.0));
+        let row = place.cell(&stressed(), (0.0, -9e-6)).unwrap().1;
+        assert_eq!(coloured[(middle + 3, row)].fg, Palette::DARK.stress(-1.0));
+    }
+
     #[test]
     fn a_chart_is_drawn_like_this() {
         let area = [(0.0, -1.5e-5), (5e-7, -1.5e-5), (5e-7, 0.0)];
@@ -739,6 +828,7 @@ mod tests {
                 Shape::Envelope {
                     x: (-1e-7, 6e-7),
                     columns: columns.collect(),
+                    fill: None,
                 },
             ),
             curve(

@@ -1,8 +1,12 @@
 //! Draws the layers of a chart as Braille dots, on a canvas with coordinates from 0 to 1.
 
+use super::plot::is_blank;
 use crate::axis::{Axes, Share};
-use crate::chart::{Chart, Shape, Sign, Stroke};
+use crate::chart::{Chart, Shape, Sign, StressFill, Stroke};
 use crate::colour::Ink;
+use crate::palette::{Colours, Palette, Role};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
 
@@ -10,7 +14,7 @@ pub(super) struct LayerShape<'a> {
     pub chart: &'a Chart,
     pub shape: &'a Shape,
     pub ink: Ink,
-    pub colour: Color,
+    pub palette: Palette,
 }
 
 /// Column and row of a Braille dot on the canvas.
@@ -26,7 +30,11 @@ impl LayerShape<'_> {
 
     fn paint(&self, painter: &mut Painter<'_, '_>, dot: Dot) {
         let (x, y) = dot;
-        painter.paint(x, y, self.colour);
+        painter.paint(x, y, self.colour());
+    }
+
+    fn colour(&self) -> Color {
+        self.palette.ink(self.ink).fg.unwrap_or_default()
     }
 
     fn lines(&self, painter: &mut Painter<'_, '_>, runs: &[Vec<Share>], stroke: Stroke) {
@@ -57,29 +65,71 @@ impl LayerShape<'_> {
     }
 
     /// Shades the area inside a closed line: paints every dot that is inside the line and for which
-    /// [`Self::is_shaded`] returns true. A dot is inside if the line crosses the column an odd
-    /// number of times below the dot.
+    /// [`Self::is_shaded`] returns true.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
-        let Some((last, _)) = painter.get_point(1.0, 0.0) else {
+        let Some(last) = painter.get_point(1.0, 0.0) else {
             return;
         };
-        let mut shares: Vec<Share> = Vec::new();
-        for (x, y) in border {
-            // Zero on a logarithmic axis has no finite position, so the point is placed far below
-            // the chart.
-            let up = self.chart.y.share(*y).clamp(-9.0, 9.0);
-            shares.push((self.chart.x.share(*x), up));
+        for dot in dots_inside(self.chart, border, last) {
+            if self.is_shaded(dot.0, dot.1) {
+                self.paint(painter, dot);
+            }
         }
-        for column in 0..=last {
-            let x = column as f64 / last.max(1) as f64;
-            for pair in crossings(&shares, x).chunks_exact(2) {
-                let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
-                let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else {
-                    continue;
-                };
-                for row in high..=low {
-                    if self.is_shaded(column, row) {
-                        self.paint(painter, (column, row));
+    }
+
+    /// Fills the area between a profile and the level without stress. The colour of each row of
+    /// dots shows the stress at its height. Without colours, pulled springs have only every second
+    /// dot, and the dots along the profile.
+    fn fill(
+        &self,
+        painter: &mut Painter<'_, '_>,
+        x: (f64, f64),
+        columns: &[Option<(f64, f64)>],
+        fill: StressFill,
+    ) {
+        let Some((last_column, last_row)) = painter.get_point(1.0, 0.0) else {
+            return;
+        };
+        let y = &self.chart.y;
+        let row_at = |number: f64| {
+            let down = 1.0 - y.share(number).clamp(0.0, 1.0);
+            (down * last_row as f64).round() as usize
+        };
+        let mut colours = Vec::with_capacity(last_row + 1);
+        for row in 0..=last_row {
+            let up = 1.0 - row as f64 / last_row.max(1) as f64;
+            let number = y.scale.number(y.span.low + up * y.span.width());
+            // The stress of the layer has only one sign, even in the row of the level.
+            let size = fill.stress(number).abs();
+            let is_pulled = self.ink == Ink::Pull;
+            colours.push(self.palette.stress(if is_pulled { -size } else { size }));
+        }
+        let is_thinned = self.palette.colours == Colours::Plain && self.ink == Ink::Pull;
+        let level = row_at(fill.level);
+        let width = (x.1 - x.0) / columns.len().max(1) as f64;
+        for (index, heights) in columns.iter().enumerate() {
+            let Some((low, high)) = *heights else {
+                continue;
+            };
+            let left = self.chart.x.share(x.0 + width * index as f64) * last_column as f64;
+            let right = self.chart.x.share(x.0 + width * (index + 1) as f64) * last_column as f64;
+            if right < 0.0 || left > last_column as f64 {
+                continue;
+            }
+            // The dots from the left to the right end of the column, at least the nearest one.
+            let first = (left.round().max(0.0) as usize).min(last_column);
+            let end = (right.round() as usize).clamp(first + 1, last_column + 1);
+            let edge = if self.ink == Ink::Pull {
+                row_at(low)
+            } else {
+                row_at(high)
+            };
+            let top = edge.min(level);
+            let bottom = edge.max(level);
+            for column in first..end {
+                for (row, colour) in (top..).zip(&colours[top..=bottom]) {
+                    if !is_thinned || row == edge || (column + row).is_multiple_of(2) {
+                        painter.paint(column, row, *colour);
                     }
                 }
             }
@@ -114,6 +164,100 @@ impl LayerShape<'_> {
     }
 }
 
+/// Returns the dots inside a closed line on a canvas, on which `last` is the lower right dot. A dot
+/// is inside if the line crosses the column an odd number of times below the dot.
+fn dots_inside(chart: &Chart, border: &[(f64, f64)], last: Dot) -> Vec<Dot> {
+    let (last_column, last_row) = last;
+    let mut shares: Vec<Share> = Vec::new();
+    for (x, y) in border {
+        // Zero on a logarithmic axis has no finite position, so the point is placed far below the
+        // chart.
+        let up = chart.y.share(*y).clamp(-9.0, 9.0);
+        shares.push((chart.x.share(*x), up));
+    }
+    let row_at = |up: f64| ((1.0 - up.clamp(0.0, 1.0)) * last_row as f64).round() as usize;
+    let mut dots = Vec::new();
+    for column in 0..=last_column {
+        let x = column as f64 / last_column.max(1) as f64;
+        for pair in crossings(&shares, x).chunks_exact(2) {
+            for row in row_at(pair[1])..=row_at(pair[0]) {
+                dots.push((column, row));
+            }
+        }
+    }
+    dots
+}
+
+/// Returns the points of the closed line around a band.
+pub(super) fn border_of_band(points: &[(f64, f64, f64)]) -> Vec<(f64, f64)> {
+    let lower = points.iter().map(|(x, low, _)| (*x, *low));
+    let upper = points.iter().rev().map(|(x, _, high)| (*x, *high));
+    lower.chain(upper).collect()
+}
+
+/// Least number of dots of a cell, out of eight, that lie inside an area whose ground covers the
+/// cell.
+const DOTS_OF_GROUND: u8 = 5;
+
+/// Bits of a Braille character for its two columns of dots and their four rows.
+const BRAILLE: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
+
+/// Shades the cells inside a closed line: with a ground or, in a terminal without grounds, with
+/// dots if it is a loop. Dots are only drawn in blank cells that are not beside a text, so that texts can be read.
+pub(super) fn shade_inside(
+    buffer: &mut Buffer,
+    plot: Rect,
+    chart: &Chart,
+    border: &[(f64, f64)],
+    ink: Ink,
+    palette: Palette,
+) {
+    /// A cell inside the line.
+    #[derive(Clone, Copy, Default)]
+    struct Inside {
+        /// Number of dots inside.
+        dots: u8,
+        /// Bits of the Braille character that shades the cell.
+        pattern: u32,
+    }
+    let width = usize::from(plot.width);
+    let last = (width * 2 - 1, usize::from(plot.height) * 4 - 1);
+    let mut cells = vec![Inside::default(); width * usize::from(plot.height)];
+    for (column, row) in dots_inside(chart, border, last) {
+        let cell = &mut cells[row / 4 * width + column / 2];
+        cell.dots += 1;
+        if (column + row).is_multiple_of(2) {
+            cell.pattern |= BRAILLE[column % 2][row % 4];
+        }
+    }
+    let ground = palette.ground(ink.role());
+    for (inside, position) in cells.iter().zip(plot.positions()) {
+        let is_beside_text = has_letter(buffer, position.x.saturating_sub(1), position.y)
+            || has_letter(buffer, position.x + 1, position.y);
+        let cell = &mut buffer[position];
+        if let Some(ground) = ground {
+            if inside.dots >= DOTS_OF_GROUND {
+                cell.set_bg(ground);
+            }
+        } else if ink == Ink::Loop
+            && inside.pattern > 0
+            && is_blank(cell)
+            && !is_beside_text
+            && let Some(dots) = char::from_u32(0x2800 + inside.pattern)
+        {
+            cell.set_char(dots).set_style(palette.style(Role::Quiet));
+        }
+    }
+}
+
+/// Returns true if the cell at a column and a row has a letter or a digit.
+fn has_letter(buffer: &Buffer, column: u16, row: u16) -> bool {
+    let Some(cell) = buffer.cell((column, row)) else {
+        return false;
+    };
+    cell.symbol().chars().any(char::is_alphanumeric)
+}
+
 /// Returns the heights at which a closed line crosses the vertical line at x, in ascending order.
 fn crossings(line: &[Share], x: f64) -> Vec<f64> {
     let mut crossings = Vec::new();
@@ -145,16 +289,17 @@ impl CanvasShape for LayerShape<'_> {
             } => {
                 self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
             }
-            Shape::Band(points) => {
-                let upper = points.iter().rev().map(|(x, _, high)| (*x, *high));
-                let border: Vec<_> = points
-                    .iter()
-                    .map(|(x, low, _)| (*x, *low))
-                    .chain(upper)
-                    .collect();
-                self.inside(painter, &border);
-            }
-            Shape::Envelope { x, columns } => {
+            Shape::Band(points) => self.inside(painter, &border_of_band(points)),
+            Shape::Envelope {
+                x,
+                columns,
+                fill: Some(fill),
+            } => self.fill(painter, *x, columns, *fill),
+            Shape::Envelope {
+                x,
+                columns,
+                fill: None,
+            } => {
                 self.lines(painter, &self.axes().envelope(*x, columns), Stroke::Solid);
             }
             Shape::Inside(border) => self.inside(painter, border),

@@ -3,9 +3,10 @@
 use super::elements::{EMPTY, PAPER, Pen, Place, Svg, TEXT};
 use super::frame::Frame;
 use crate::axis::ChartAxis;
-use crate::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
+use crate::chart::{Contour, HeatMap, Layer, Shape, Sign, StressFill, Stroke};
 use crate::colour::{Ink, Rgb, ink_on};
 use crate::contour::contour;
+use crate::palette::{Palette, STRESS_STEPS, stress_of_step};
 use std::collections::BTreeMap;
 
 pub(super) const AREA_OPACITY: f64 = 0.25;
@@ -25,7 +26,10 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
 }
 
 fn is_line(layer: &Layer) -> bool {
-    matches!(layer.shape, Shape::Curve { .. } | Shape::Envelope { .. })
+    matches!(
+        layer.shape,
+        Shape::Curve { .. } | Shape::Envelope { fill: None, .. }
+    )
 }
 
 fn draw_layer(svg: &mut Svg, frame: &Frame<'_>, layer: &Layer) {
@@ -33,11 +37,16 @@ fn draw_layer(svg: &mut Svg, frame: &Frame<'_>, layer: &Layer) {
     let colour = layer.ink.on_paper();
     match &layer.shape {
         Shape::Map(map) => heat_map(svg, frame, map),
-        Shape::Band(points) => band(svg, frame, points, colour),
+        Shape::Band(points) => band(svg, frame, points, layer.ink),
         Shape::Inside(border) => {
             let places: Vec<_> = border.iter().filter_map(|point| place(*point)).collect();
-            svg.area(&places, colour, AREA_OPACITY);
+            svg.area(&places, colour, opacity_of(layer.ink));
         }
+        Shape::Envelope {
+            x,
+            columns,
+            fill: Some(fill),
+        } => draw_fill(svg, frame, layer.ink, *x, columns, *fill),
         Shape::Boxes(boxes) => {
             let corners = boxes.iter().filter_map(|((left, right), (low, high))| {
                 Some((place((*left, *high))?, place((*right, *low))?))
@@ -50,7 +59,11 @@ fn draw_layer(svg: &mut Svg, frame: &Frame<'_>, layer: &Layer) {
                 svg.line(&ends.map(|end| frame.at(end)), guide(layer.ink));
             }
         }
-        Shape::Envelope { x, columns } => {
+        Shape::Envelope {
+            x,
+            columns,
+            fill: None,
+        } => {
             let pen = Pen {
                 colour,
                 width: 1.2,
@@ -86,6 +99,58 @@ fn draw_layer(svg: &mut Svg, frame: &Frame<'_>, layer: &Layer) {
     }
 }
 
+/// Returns the opacity of an area. Grounds are pale colours already.
+fn opacity_of(ink: Ink) -> f64 {
+    if ink.is_ground() { 1.0 } else { AREA_OPACITY }
+}
+
+/// Fills the area between a profile and the level without stress. Each column consists of pieces,
+/// one for each step of the stress. One path contains all pieces of a step.
+fn draw_fill(
+    svg: &mut Svg,
+    frame: &Frame<'_>,
+    ink: Ink,
+    x: (f64, f64),
+    columns: &[Option<(f64, f64)>],
+    fill: StressFill,
+) {
+    let is_pulled = ink == Ink::Pull;
+    let width = (x.1 - x.0) / columns.len().max(1) as f64;
+    for step in 1..=STRESS_STEPS {
+        let mut pieces = Vec::new();
+        let from = fill.full * stress_of_step(step - 1);
+        let to = if step == STRESS_STEPS {
+            f64::INFINITY
+        } else {
+            fill.full * stress_of_step(step)
+        };
+        for (index, heights) in columns.iter().enumerate() {
+            let Some((low, high)) = *heights else {
+                continue;
+            };
+            let left = x.0 + width * index as f64;
+            let (bottom, top) = if is_pulled {
+                ((fill.level - to).max(low), fill.level - from)
+            } else {
+                (fill.level + from, (fill.level + to).min(high))
+            };
+            if bottom >= top {
+                continue;
+            }
+            let corners = [(left, top), (left + width, bottom)];
+            let [Some(upper), Some(lower)] = corners.map(|point| frame.axes.place_at_end(point))
+            else {
+                continue;
+            };
+            pieces.push((frame.at(upper), frame.at(lower)));
+        }
+        if !pieces.is_empty() {
+            let colour = Palette::LIGHT.stress_rgb(ink.role(), step);
+            svg.boxes(pieces.into_iter(), colour);
+        }
+    }
+}
+
 /// Draws a line through these positions, if there are at least two.
 fn line(svg: &mut Svg, places: &[Place], pen: Pen) {
     if places.len() > 1 {
@@ -108,7 +173,9 @@ fn radius(frame: &Frame<'_>, points: usize) -> f64 {
         .max(0.9)
 }
 
-fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rgb) {
+fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], ink: Ink) {
+    let colour = ink.on_paper();
+    let opacity = opacity_of(ink);
     let ends: Vec<Option<(Place, Place)>> = points
         .iter()
         .map(|point| ends_of_band(frame, *point))
@@ -124,12 +191,12 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
                     (high.0 + SIGN, high.1),
                     (high.0 - SIGN, high.1),
                 ];
-                svg.area(&corners, colour, AREA_OPACITY);
+                svg.area(&corners, colour, opacity);
             }
             _ => {
                 let lower = run.iter().rev().map(|ends| ends.0);
                 let border: Vec<Place> = run.iter().map(|ends| ends.1).chain(lower).collect();
-                svg.area(&border, colour, AREA_OPACITY);
+                svg.area(&border, colour, opacity);
             }
         }
     }
