@@ -43,8 +43,10 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ at which adhesion vanishes. For all larger values, the mean adhesion force
-/// over the random profiles is below a given share of F_a,max, [`AdhesionBoundary::level`].
+/// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+/// adhesion, at which adhesion vanishes. For all larger values, the adhesion force, as a mean over
+/// the random profiles, is below the share [`AdhesionBoundary::level`] of the ideal adhesion force
+/// F_a,max.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary

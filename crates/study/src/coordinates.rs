@@ -211,7 +211,8 @@ impl Coordinates {
         (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
-    /// Returns the length of the range in coordinates.
+    /// Returns the difference between the coordinates of the two ends of the range. On a linear
+    /// scale a coordinate is the number itself; on a logarithmic scale it is its decadic logarithm.
     pub fn length(&self) -> f64 {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }

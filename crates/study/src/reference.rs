@@ -63,8 +63,8 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Smallest mean number of grid cells in contact with which profiles and square surfaces are
-    /// compared at a force.
+    /// Profiles and square surfaces are compared at a force only if at least this number of grid
+    /// cells of a square surface are in contact, as a mean over the square surfaces.
     pub const LEAST_CELLS: f64 = 20.0;
 
     /// Returns the relative error that the grid of the square surfaces causes in the indentation or

@@ -572,7 +572,9 @@ mod tests {
                     "{waves} {path} {side}"
                 );
             }
-            // If the length changes, the results are those of a scene that states modes.
+            // If the length changes, the waves are stretched with it. The results are therefore
+            // those of a scene that states its waves as modes (numbers of waves on the length)
+            // instead of wavelengths.
             let stretched = found
                 .influences
                 .iter()

@@ -59,7 +59,8 @@ pub struct Simulation {
     roughness: Option<Rough>,
     line: Option<KeptLine>,
     histogram: Option<Histogram>,
-    /// The last profile in the type that a contact needs, with its contact tree.
+    /// The last profile as a [`Profile`], from which a contact can be made. It has its contact
+    /// tree.
     profile: Option<Profile>,
     /// Profile of the form without roughness, for the adhesion force of the smooth body; `None`
     /// until it is needed.

@@ -88,8 +88,8 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes, the wave
-    /// numbers at which the spectrum is given.
+    /// Returns the expected value of each observed power, which the spectrum `values` predicts.
+    /// `values` is ln C2D at the nodes, the wave numbers at which the spectrum is given.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

@@ -156,8 +156,10 @@ impl Powers {
         }
     }
 
-    /// Returns the largest difference, over all maps, between the waves parallel to an axis and the
-    /// waves in neighbouring directions ([`MapPower::apart`]).
+    /// Returns the largest difference, over all maps, between two squared gradients: that of the
+    /// waves parallel to an axis, and that which the waves in neighbouring directions lead to
+    /// expect. The difference is a share of the squared gradient of the map. It is 0 if it is
+    /// negligible or may be chance ([`MapPower::apart`]).
     pub fn apart(&self) -> f64 {
         self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
     }
