@@ -50,8 +50,8 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// Returns the change of the number divided by the magnitude of the unchanged number. `side` is
-    /// 0 for the smaller value and 1 for the larger value.
+    /// Returns the change of the number of the scene, divided by the magnitude of its unchanged
+    /// value. `side` is 0 for the smaller value and 1 for the larger value.
     pub fn step(&self, side: usize) -> f64 {
         (self.sides[side].0 - self.value) / self.value.abs()
     }
@@ -114,9 +114,10 @@ impl Sensitivity {
     ];
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
-    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene with κ
-    /// instead of a work of adhesion keeps κ when another number changes. If the length changes,
-    /// the same numbers of waves fit on it, so the wavelengths change in proportion.
+    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene that
+    /// states the roughness parameter κ instead of a work of adhesion keeps κ when another number
+    /// changes. If the length changes, the same numbers of waves fit on it, so the wavelengths
+    /// change in proportion.
     ///
     /// `control` reports the sensitivity over the profiles computed so far after each profile.
     ///

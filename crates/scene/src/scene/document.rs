@@ -266,8 +266,9 @@ impl Document {
         (!default.is_empty()).then_some(default)
     }
 
-    /// Returns the fields that this scene has or may have. Fields that need another choice are left
-    /// out, such as the angle of a cone in a scene with a sphere.
+    /// Returns the fields that this scene has or may have. A field is left out if it belongs to a
+    /// choice that the scene does not have: the angle of a cone, for example, in a scene with a
+    /// sphere.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }

@@ -244,7 +244,7 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Returns the profile of a scene in the type that a [`Contact`] needs.
+    /// Returns the profile of a scene as a [`Profile`], from which a [`Contact`] can be made.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].
