@@ -91,7 +91,8 @@ pub(super) struct ProfileRecord {
     /// study does not record it.
     pub summit: Option<f64>,
     /// Exponents α of the stiffness k ∝ F^α and n of the force F ∝ dⁿ, for the contact without
-    /// adhesion, with the indentation d. `None` if the study does not record them.
+    /// adhesion, with the indentation d. `None` if the study does not record them, or if they
+    /// cannot be fitted.
     pub exponents: Option<(f64, f64)>,
 }
 

@@ -20,9 +20,9 @@ pub(super) struct MapPower {
     /// Wave numbers 2π/Δ in rad/m, along the rows and perpendicular to the rows. Δ is the distance
     /// between points in this direction.
     pub sampling: [f64; 2],
-    /// The waves with their powers C2D, sorted by wave number, up to the smaller of the two Nyquist
-    /// wave numbers. They cover only one half of the plane of wave numbers, because the other half
-    /// has the same powers.
+    /// The waves with their power spectral densities C2D in m⁴, sorted by wave number, up to the
+    /// smaller of the two Nyquist wave numbers. They cover only one half of the plane of wave
+    /// numbers, because the other half has the same powers.
     pub waves: Vec<Wave>,
     /// True if short waves parallel to one axis are left out, because whole rows or columns are
     /// offset against each other.

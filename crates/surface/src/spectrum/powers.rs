@@ -54,7 +54,7 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface. Each power is first multiplied by its factor from
+    /// Adds the power spectra of a surface. Before that, a power is multiplied by its factor from
     /// `weights`, unless the surface is periodic: without a window function, all parts of the
     /// surface count equally anyway.
     pub fn add(
