@@ -46,8 +46,8 @@ pub struct GridLayer {
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means. If `scale` is `None`, the layer
-    /// gets the scale that suits the means.
+    /// Makes a layer of a quantity with the range of `means`, its means over the profiles, one for
+    /// each cell. If `scale` is `None`, the layer gets the scale that suits these means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let mut range: Option<(f64, f64)> = None;
@@ -65,8 +65,9 @@ impl GridLayer {
     }
 }
 
-/// Returns the scale that suits the means. It is logarithmic if all means are above zero and at
-/// least a third of them are below a fiftieth of the largest mean. Otherwise it is linear.
+/// Returns the scale that suits `means`, the means of a quantity over the profiles, one for each
+/// cell. It is logarithmic if all means are above zero and at least a third of them are below a
+/// fiftieth of the largest mean. Otherwise it is linear.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means

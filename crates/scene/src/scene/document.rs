@@ -315,7 +315,7 @@ impl Document {
         }
     }
 
-    /// Returns the lines before the scene in a CSV table of results from which the document was
+    /// Returns the lines above the scene in the CSV table of results from which the document was
     /// read. If it was not read from such a table, returns an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head

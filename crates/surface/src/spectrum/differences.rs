@@ -28,11 +28,11 @@ pub(super) struct Unevenness {
     /// errors follow from how much the integrals differ between parts and between surfaces.
     pub errors: [f64; 3],
     /// Ratio of the largest to the smallest rms gradient among the parts of a surface. The largest
-    /// ratio of all surfaces is given; 1 if chance explains the differences.
+    /// ratio of all surfaces is given; 1 if chance explains the differences between the parts.
     pub ratio_of_parts: f64,
     /// Ratio of the largest to the smallest rms height among surfaces with equal numbers and
     /// distances of points, or the same ratio of the rms gradients if it is larger; 1 if chance
-    /// explains the differences.
+    /// explains the differences between the surfaces.
     pub ratio_of_surfaces: f64,
 }
 

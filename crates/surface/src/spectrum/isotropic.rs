@@ -67,7 +67,7 @@ pub struct IsotropicSpectrum {
     pub(super) missing: [f64; 3],
     /// Ratio of the largest to the smallest rms height, or rms gradient, among several kinds of
     /// surfaces. The kinds, such as profiles and maps, are fitted together by this spectrum. The
-    /// ratio is 1 if chance explains the differences.
+    /// ratio is 1 if chance explains the differences between the kinds.
     pub(super) ratio_of_kinds: f64,
 }
 
