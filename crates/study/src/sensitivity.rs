@@ -44,8 +44,8 @@ pub struct Influence {
     pub value: f64,
     /// Smaller value of the number and then larger value of the number, each with the results for
     /// this value. The results are `None` if the scene does not allow the value. The values usually
-    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. The difference may be
-    /// another one for a wavelength or a whole number.
+    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. A wavelength or a whole
+    /// number may differ by another share.
     pub sides: [(f64, Option<Changed>); 2],
 }
 

@@ -71,7 +71,7 @@ pub(super) struct Spread {
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
     /// surface, or among its halves if there are no quarters. The ratio is 1 if chance explains the
-    /// differences.
+    /// differences between them.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,
@@ -403,9 +403,9 @@ pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of an estimated to an expected variance that counts as chance. The
-/// estimated variance of a mean follows from the differences between `parts` parts. The expected
-/// variance of this mean is that of a uniform surface.
+/// Returns the largest ratio of two variances that counts as chance. Both are variances of the mean
+/// of a moment over `parts` parts of a surface: the first is estimated from the differences between
+/// the parts, the second is that on a uniform surface.
 ///
 /// On a uniform surface, the ratio exceeds the result once in a thousand times. The result is a
 /// quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance
