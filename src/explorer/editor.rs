@@ -45,7 +45,7 @@ impl Edited {
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
-    /// The measured curve that is compared with the scene.
+    /// The measured curve that is compared with the scene; `None` if there is none.
     pub measured: Option<Measured>,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.

@@ -53,8 +53,8 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session, with which this session continues. Their first scene is
-    /// the scene that is opened.
+    /// Unsaved changes of another session, with which this session continues; `None` if it
+    /// continues no other session. Their first scene is the scene that is opened.
     pub restored: Option<Kept>,
     /// Configuration of the explorer. The fields `theme` and `marker` replace the corresponding
     /// settings.
