@@ -73,7 +73,8 @@ pub struct View {
     /// True if computing times are shown. A demo hides them, because they differ from one
     /// computation to the next.
     pub shows_times: bool,
-    /// Text that a demo shows instead of the keys, which have no effect while its script plays.
+    /// Text that a demo shows instead of the keys, which have no effect while its script plays;
+    /// `None` outside a demo.
     pub demo: Option<&'static str>,
 }
 
@@ -110,13 +111,15 @@ pub struct App {
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
     pub config: Config,
-    /// Command that runs next, because the user has chosen it in the list of commands.
+    /// Command that runs next, because the user has chosen it in the list of commands; otherwise
+    /// `None`.
     pub chosen: Option<KeyCommand>,
     /// Time for which the animation still rests at a jump.
     pub rest: Duration,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
-    /// State of the contact that was last requested from the solver.
+    /// State of the contact that was last requested from the solver; `None` before the first
+    /// request.
     pub(super) asked: Option<Awaited>,
 }
 
@@ -256,9 +259,9 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Returns the governing parameters, such as κ, of the present scene; `None` if they are not
-    /// known yet. They are known if the present scene has the profile and the material of the scene
-    /// that was computed last. The adhesion may differ.
+    /// Returns the governing parameters of the present scene, such as the effective modulus and the
+    /// work of adhesion; `None` if they are not known yet. They are known if the present scene has
+    /// the profile and the material of the scene that was computed last. The adhesion may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let before = &computed.scene;
@@ -356,6 +359,7 @@ impl App {
 
     /// Returns the horizontal and the vertical axis of the map that is shown. If no map is computed
     /// yet, returns the axes of the live map, which the explorer will compute for the scene.
+    /// Returns `None` if the scene has no live map.
     pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
@@ -590,19 +594,21 @@ impl App {
         }
     }
 
-    /// Returns true if forces are shown in units of F_a,max. This is possible only if a scene with
-    /// a positive F_a,max is computed.
+    /// Returns true if forces are shown in units of the ideal adhesion force F_a,max. This is
+    /// possible only if a scene with a positive F_a,max is computed.
     pub fn is_normalised(&self) -> bool {
         self.view.curve.normalised && self.ideal_adhesion_force().is_some()
     }
 
-    /// Returns F_a,max of the computed scene in N; `None` if it is not above zero.
+    /// Returns the ideal adhesion force F_a,max of the computed scene in N; `None` if no scene is
+    /// computed, or if the force is not above zero.
     pub fn ideal_adhesion_force(&self) -> Option<f64> {
         let force = self.outcome()?.ideal_adhesion_force?;
         if force > 0.0 { Some(force) } else { None }
     }
 
-    /// Returns a force (in N) of the computed scene as text, in N or in units of F_a,max.
+    /// Returns a force (in N) of the computed scene as text, in N or in units of the ideal adhesion
+    /// force F_a,max.
     pub fn force_in_words(&self, force: f64) -> String {
         match self.ideal_adhesion_force() {
             Some(ideal) if self.is_normalised() => {
@@ -612,13 +618,16 @@ impl App {
         }
     }
 
-    /// Returns F_a/F_a,max of the computed profile as text.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force as text, for
+    /// the computed profile. Returns `None` if there is no adhesion force.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
         let force = self.outcome()?.figures.adhesion_force?;
         Some(share_in_words(force / self.ideal_adhesion_force()?))
     }
 
-    /// Returns the median of F_a/F_a,max over the random profiles as text.
+    /// Returns the median over the random profiles of the ratio F_a/F_a,max as text. The ratio is
+    /// the adhesion force divided by the ideal adhesion force. Returns `None` until profiles are
+    /// computed, and if no profile has an adhesion force.
     pub fn median_share_in_words(&self) -> Option<String> {
         let ensemble = self.studies.value::<Ensemble>()?;
         let shares = ensemble.statistics(Quantity::AdhesionShare)?;

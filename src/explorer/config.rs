@@ -65,7 +65,7 @@ impl Default for Config {
 }
 
 /// Returns the path of the user's configuration file: `asperity/config.ron` in the configuration
-/// folder. The file may not exist.
+/// folder. The file may not exist. Returns `None` if the user has no configuration folder.
 pub fn default_path() -> Option<PathBuf> {
     let folder = choose_base_strategy().ok()?.config_dir();
     Some(folder.join("asperity").join("config.ron"))

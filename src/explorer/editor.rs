@@ -62,7 +62,7 @@ struct TriedMove {
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
-    /// The measured curve that is compared with the scene.
+    /// The measured curve that is compared with the scene; `None` if there is none.
     pub measured: Option<Measured>,
     /// Path along which the user moves the body; `None` without manual loading.
     pub path: Option<Arc<ManualPath>>,

@@ -11,8 +11,8 @@ pub struct MapState {
     /// Quantity that the user has chosen. If the map does not contain it, the first quantity of the
     /// map is shown.
     pub quantity: Quantity,
-    /// The finished study that the user has opened. It stays open until the user opens another
-    /// study.
+    /// The finished study that the user has opened; `None` if the user has opened none. It stays
+    /// open until the user opens another study.
     pub study: Option<OpenStudy>,
     /// True if the map of the study is shown instead of the live map, which the explorer computes
     /// for the present scene.
@@ -90,8 +90,8 @@ impl MapState {
     }
 
     /// Returns a text that identifies the live map of a scene, which the explorer computes for this
-    /// scene. The text does not depend on κ and H, because they are the axes of the map. Returns
-    /// `None` if the scene has no live map.
+    /// scene. The text does not depend on the roughness parameter κ and the Hurst exponent, because
+    /// they are the axes of the map. Returns `None` if the scene has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -17,7 +17,8 @@ pub enum Pane {
     Preloads,
     /// Sensitivity: how much the results change when each number of the scene changes.
     Sensitivity,
-    /// Map of the regimes of adhesion over κ and H, or a map of a study.
+    /// Map of the regimes of adhesion over the roughness parameter κ and the Hurst exponent H, or a
+    /// map of a study.
     Map,
     Parameters,
     /// The main results: adhesion forces of the random profiles, shares, energies, errors.

@@ -79,11 +79,13 @@ pub enum Setting {
     Field,
     /// The row cannot be changed, because it is the heading of a group.
     Heading,
-    /// The row is κ or e_el/γ. The scene file states only one of γ, κ and e_el/γ. A new value in
-    /// this row therefore replaces the stated one.
-    RoughnessParameter(RoughnessParameter),
-    /// The row is the work of adhesion γ. The scene file states only one of γ, κ and e_el/γ. A new
+    /// The row is a roughness parameter: κ, or the ratio e_el/γ of elastic energy to work of
+    /// adhesion. The scene file states only one of these two and the work of adhesion γ. A new
     /// value in this row therefore replaces the stated one.
+    RoughnessParameter(RoughnessParameter),
+    /// The row is the work of adhesion γ. The scene file states either γ or a roughness parameter
+    /// (κ or e_el/γ) from which γ follows. A new value in this row therefore replaces the stated
+    /// one.
     WorkOfAdhesion,
     /// The row is an option for reading the measured curve. The number is the index of the option
     /// in [`curve_options::OPTIONS`].

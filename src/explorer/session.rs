@@ -56,8 +56,8 @@ pub struct Options {
     pub colours: Option<Colours>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session, with which this session continues. Their first scene is
-    /// the scene that is opened.
+    /// Unsaved changes of another session, with which this session continues; `None` if it
+    /// continues no other session. Their first scene is the scene that is opened.
     pub restored: Option<Kept>,
     /// Configuration. The fields `theme`, `colours` and `marker` have precedence over it.
     pub config: Config,

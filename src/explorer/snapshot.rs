@@ -154,7 +154,7 @@ pub struct CloseUp {
     /// The visible part of the profile.
     pub section: Section,
     /// Ends of the visible patches, each as the index of a spring and the height of this spring in
-    /// m. They are drawn like the white circles of Fig. 3 of the paper.
+    /// m. They are drawn like the white circles of Fig. 3 of Popov and Filippov (2012).
     pub boundaries: Vec<(usize, f64)>,
     /// The patch nearest to the middle of the close-up; `None` if nothing is in contact.
     pub patch: Option<PatchFacts>,

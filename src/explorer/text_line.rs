@@ -63,9 +63,9 @@ impl TextLine {
         self.left_out
     }
 
-    /// Inserts a text before the cursor. If the line is selected, the text replaces the line.
-    /// Control characters are left out. If the line would become too long, the end of the text is
-    /// left out too.
+    /// Inserts a text into the typed line, before the cursor. If the line is selected, the text
+    /// replaces the line. Control characters are left out. If the line would become too long, the
+    /// end of the text is left out too.
     pub fn insert(&mut self, text: &str) {
         let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
         if self.selected && !inserted.is_empty() {
@@ -84,8 +84,8 @@ impl TextLine {
         };
     }
 
-    /// Moves the cursor or deletes text. If the line is selected, a deletion removes the whole
-    /// line. The line is not selected afterwards.
+    /// Moves the cursor in the typed line, or deletes text. If the line is selected, a deletion
+    /// removes the whole line. The line is not selected afterwards.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);

@@ -339,7 +339,8 @@ pub(super) enum Target {
     /// Force in N or indentation in m at which a stage of the loading ends. The contained index of
     /// the stage begins at 0.
     Stage(usize),
-    /// Preload F_n: in N if `in_newtons` is true, otherwise in units of E* h L.
+    /// Preload F_n: in N if `in_newtons` is true, otherwise in units of E* h L (effective modulus,
+    /// rms height, length of the profile).
     Preload { in_newtons: bool },
     /// Number of springs per shortest wave of the roughness. The shortest wave has as many periods
     /// over the length of the profile as the number of all springs divided by this number.
@@ -430,8 +431,9 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// Returns the parameter κ or e_el/γ if this quantity is one of these two; otherwise `None`. A
-    /// scene may state κ or e_el/γ in place of a work of adhesion.
+    /// Returns this quantity as a roughness parameter; `None` for any other quantity. The two
+    /// roughness parameters, κ and e_el/γ, compare the roughness with the work of adhesion, and a
+    /// scene may state one of them in place of the work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),

@@ -50,9 +50,9 @@ struct Point {
 }
 
 /// Narrows the interval between `ends` by the method of Chandrupatla: inverse quadratic
-/// interpolation where the quantity is smooth enough, otherwise bisection. Returns the end of the
-/// last interval that lies on the side of the target with the answer. If only whole numbers are
-/// allowed, the interval is bisected until no whole number lies between its ends.
+/// interpolation where the quantity is smooth enough, otherwise bisection. Of the two ends of the
+/// last interval, returns the one at which the quantity has reached the target. If only whole
+/// numbers are allowed, the interval is bisected until no whole number lies between its ends.
 pub(super) fn passage(
     coordinates: &Coordinates,
     passage: Passage,

@@ -14,17 +14,19 @@ use serde::Serialize;
 /// error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error due to the finite number of springs, for the profile with the seed of the scene.
+    /// Error due to the finite number of springs, for the profile with the seed of the scene;
+    /// `None` if it is unknown.
     pub grid: Option<f64>,
-    /// Error of the median over random profiles, due to the finite number of these profiles.
+    /// Error of the median over random profiles, due to the finite number of these profiles; `None`
+    /// if it is unknown.
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a
-    /// measured surface.
+    /// measured surface; `None` if it is unknown.
     pub surface: Option<f64>,
     /// Lower bound of the relative error of the model of one-dimensional profiles. It follows from
     /// the difference between the mean adhesion force on profiles and the mean adhesion force on
     /// bodies in three dimensions. The bound is the part of this difference that neither the number
-    /// of profiles and bodies nor the grid of the bodies can explain.
+    /// of profiles and bodies nor the grid of the bodies can explain. `None` if it is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`.
     /// `None` if no error is known. It is also `None` if a premise of the model does not hold,

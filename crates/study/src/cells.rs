@@ -16,7 +16,8 @@ const ENOUGH_UNITS: u64 = 256;
 /// making the profile would take longer than computing the streaks.
 const LEAST_STREAKS: u64 = 16;
 
-/// Numbering of the streaks and units of a plan.
+/// Numbering of the streaks and units of a plan. A streak consists of all cells that differ only in
+/// the preload, on one profile. A unit consists of streaks that one thread computes.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
     /// Indices of the axes without a preload axis, sorted by [`Shapes`]: first the axes that change

@@ -38,8 +38,8 @@ pub(super) struct Streaks<'a> {
     /// Function that returns true if at least one record of a streak is missing. The streak is
     /// computed only in this case. A streak consists of all cells that differ only in the preload.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
-    /// Measured roughness of the plan, if it has one. The files are read once, so that all threads
-    /// compute from the same bytes.
+    /// Measured roughness of the plan; `None` if its roughness is not measured. The files are read
+    /// once, so that all threads compute from the same bytes.
     pub profile: Option<&'a Arc<MeasuredRoughness>>,
 }
 

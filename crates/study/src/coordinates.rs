@@ -138,8 +138,8 @@ enum Map {
     BothSides(f64),
 }
 
-/// Coordinates of a searched range. The first numbers that are tried are equally spaced in these
-/// coordinates. Only allowed numbers are used.
+/// Coordinates of a searched range. A coordinate is a function of a number, such as its logarithm.
+/// The first numbers that are tried have equally spaced coordinates. Only allowed numbers are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinates {
     map: Map,
@@ -176,7 +176,8 @@ impl Coordinates {
         }
     }
 
-    /// Returns the coordinate of a number.
+    /// Returns the coordinate of a number: on a linear scale the number itself, and on a
+    /// logarithmic scale its decadic logarithm.
     pub fn coordinate(&self, number: f64) -> f64 {
         match self.map {
             Map::Scale(scale) => scale.coordinate(number),
@@ -195,8 +196,8 @@ impl Coordinates {
             .clamp(self.ends[0], self.ends[1])
     }
 
-    /// Returns an allowed number near the middle between two numbers, measured in coordinates.
-    /// `None` if no allowed number lies between them.
+    /// Returns an allowed number whose coordinate is near the middle between the coordinates of two
+    /// numbers. `None` if no allowed number lies between them.
     pub fn middle(&self, ends: [f64; 2]) -> Option<f64> {
         let [from, to] = ends;
         let middle = self.number(f64::midpoint(self.coordinate(from), self.coordinate(to)));
@@ -211,14 +212,16 @@ impl Coordinates {
         (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
-    /// Returns the length of the range in coordinates.
+    /// Returns the difference between the coordinates of the two ends of the range. On a linear
+    /// scale a coordinate is the number itself; on a logarithmic scale it is its decadic logarithm.
     pub fn length(&self) -> f64 {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Returns the difference of coordinates that belongs to a relative difference of numbers.
-    /// `share` is the difference of two numbers divided by their magnitude. `places` are two
-    /// numbers of the range; the conversion is valid near the one with the larger magnitude.
+    /// Converts a relative difference between two numbers to the difference between their
+    /// coordinates. `share` is the difference of two numbers divided by their magnitude. `places`
+    /// are two numbers of the range; the conversion is valid near the one with the larger
+    /// magnitude.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {

@@ -20,8 +20,8 @@ use asperity_scene::{CheckedScene, Simulation};
 /// number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which
-/// a quantity reaches a target.
+/// Answers to a [`Question`]: for each random profile, the values of one number of the scene, such
+/// as the work of adhesion, at which a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Question that is answered on each profile.
@@ -168,9 +168,10 @@ impl Found {
         Err(question.refused(&found, "a number that changes the quantity"))
     }
 
-    /// Returns for each profile the smallest number at which the quantity crosses the target, in SI
-    /// units; `None` for a profile without a crossing in the searched range. If a preload is sought
-    /// and the smallest searched preload already reaches the target, this preload is returned.
+    /// Returns for each profile the smallest value of the sought number, in SI units, at which the
+    /// quantity of the question crosses its target; `None` for a profile without a crossing in the
+    /// searched range. If a preload is sought and the smallest searched preload already reaches the
+    /// target, this preload is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers
             .iter()
@@ -178,8 +179,8 @@ impl Found {
             .collect()
     }
 
-    /// Returns the number of profiles on which the quantity does not cross the target in the
-    /// searched range.
+    /// Returns the number of profiles on which the quantity of the question does not cross its
+    /// target in the searched range.
     pub fn unreached(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }
@@ -220,9 +221,9 @@ impl Found {
     }
 
     /// Returns a quantile of the answers over all profiles, such as the median if `share` is 0.5.
-    /// The answer of a profile is the number, in SI units, at which the quantity crosses the
-    /// target. A profile without a crossing counts as beyond the searched range. Returns `None` if
-    /// the quantile lies beyond this range.
+    /// The answer of a profile is the value of the sought number, in SI units, at which the
+    /// quantity of the question crosses its target. A profile without a crossing counts as beyond
+    /// the searched range. Returns `None` if the quantile lies beyond this range.
     ///
     /// If only some values of the number are allowed, such as whole numbers or lengths with a whole
     /// number of waves, the allowed value nearest to the quantile is returned.
@@ -233,8 +234,9 @@ impl Found {
         Some(self.question.allowed().nearest(value))
     }
 
-    /// Returns the smallest and the largest number over the profiles at which the quantity crosses
-    /// the target, in SI units; `None` if no profile has such a number.
+    /// Returns the smallest and the largest answer over the profiles. The answer of a profile is
+    /// the value of the sought number, in SI units, at which the quantity of the question crosses
+    /// its target. `None` if no profile has an answer.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values: Vec<f64> = self.values().into_iter().flatten().collect();
         let least = values.iter().copied().reduce(f64::min)?;

@@ -46,8 +46,8 @@ pub struct GridLayer {
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means. If `scale` is `None`, the layer
-    /// gets the scale that suits the means.
+    /// Makes a layer of a quantity with the range of `means`, its means over the profiles, one for
+    /// each cell. If `scale` is `None`, the layer gets the scale that suits these means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let mut range: Option<(f64, f64)> = None;
@@ -65,8 +65,9 @@ impl GridLayer {
     }
 }
 
-/// Returns the scale that suits the means. It is logarithmic if all means are above zero and at
-/// least a third of them are below a fiftieth of the largest mean. Otherwise it is linear.
+/// Returns the scale that suits `means`, the means of a quantity over the profiles, one for each
+/// cell. It is logarithmic if all means are above zero and at least a third of them are below a
+/// fiftieth of the largest mean. Otherwise it is linear.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means
@@ -143,8 +144,9 @@ impl Grid {
     }
 
     /// Returns the quantities that the grid shows, in the order of the layers. If the regimes of
-    /// adhesion are known, they are added: the regime that follows from F_a(d=0) as the first
-    /// quantity, and the regime that follows from F_a(F=0) as the last quantity.
+    /// adhesion are known, they are added. The first quantity is then the regime that follows from
+    /// the adhesion force after first touch, F_a(d=0), and the last quantity is the regime that
+    /// follows from the adhesion force after zero force, F_a(F=0).
     pub fn quantities(&self) -> Vec<Quantity> {
         let [after_touch, after_zero_force] = Quantity::REGIMES;
         let mut quantities = Vec::with_capacity(self.layers.len() + 2);
@@ -194,9 +196,10 @@ impl Grid {
         })
     }
 
-    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is
-    /// true, a cell that is not computed yet gets the statistics of the computed cell that a map
-    /// shows in its place.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. An element is
+    /// `None` if the cell is not computed or the quantity has no value in it. If `whole` is true, a
+    /// cell that is not computed yet gets the statistics of the computed cell that a map shows in
+    /// its place.
     ///
     /// A regime is treated as a number: 0 (non-adhesive), ½ (pressure-sensitive) or 1
     /// (pressure-insensitive). The value of a cell is its most frequent regime. If fewer than three
@@ -217,10 +220,11 @@ impl Grid {
     }
 
     /// Returns the most frequent regime of each [cell](GridCell), row by row. The list is empty if
-    /// no regime is known in any cell. The regime follows from F_a(F=0) if `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity. If `whole` is
-    /// true, a cell that is not computed yet gets the regime of the computed cell that a map shows
-    /// in its place.
+    /// no regime is known in any cell. An element is `None` if the regime of the cell is not known.
+    /// The regime follows from the adhesion force after zero force, F_a(F=0), if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from the adhesion force after first touch, F_a(d=0),
+    /// for any other quantity. If `whole` is true, a cell that is not computed yet gets the regime
+    /// of the computed cell that a map shows in its place.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let mut regimes = Vec::new();
         for cell in self.each(whole) {
@@ -294,8 +298,9 @@ fn nearest_index(index: f64, count: usize) -> usize {
 }
 
 /// Returns the indices of the horizontal and the vertical axis of a grid. `free` are the indices of
-/// the axes that are not fixed. A free axis of H is horizontal, and a free axis of κ or e_el/γ is
-/// vertical. Otherwise the first free axis is horizontal. Returns `None` if no axis is free.
+/// the axes that are not fixed. A free axis of the Hurst exponent is horizontal, and a free axis of
+/// a roughness parameter (κ or e_el/γ) is vertical. Otherwise the first free axis is horizontal.
+/// Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let mut up = None;
     let mut across = None;

@@ -107,7 +107,7 @@ pub mod folders {
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes of a study, and the values of κ or e_el/γ (elastic energy ratio)
+/// Maps of results over two axes of a study, and the values of a roughness parameter (κ or e_el/γ)
 /// at which adhesion without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};

@@ -23,13 +23,17 @@ const VERY_MANY: u64 = 1 << 17;
 /// Resolution of a [`LiveMap`]: how many values each of its two axes has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// 5 values of κ or e_el/γ and 5 values of H.
+    /// 5 values on the axis of the roughness parameter (κ or e_el/γ), and 5 values of the Hurst
+    /// exponent.
     Coarse,
-    /// 9 values of κ or e_el/γ and 9 values of H.
+    /// 9 values on the axis of the roughness parameter (κ or e_el/γ), and 9 values of the Hurst
+    /// exponent.
     Medium,
-    /// 17 values of κ or e_el/γ and all values of H.
+    /// 17 values on the axis of the roughness parameter (κ or e_el/γ), and all values of the Hurst
+    /// exponent.
     Fine,
-    /// All values of κ or e_el/γ and all values of H.
+    /// All values on the axis of the roughness parameter (κ or e_el/γ), and all values of the Hurst
+    /// exponent.
     Whole,
 }
 
@@ -67,8 +71,9 @@ impl Level {
     }
 }
 
-/// Map of the results of a scene over two axes: κ or e_el/γ, and the Hurst exponent H. The map can
-/// be shown while it is computed.
+/// Map of the results of a scene over two axes: a roughness parameter (κ, or the ratio e_el/γ of
+/// elastic energy to work of adhesion), and the Hurst exponent H. The map can be shown while it is
+/// computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -93,7 +98,7 @@ impl LiveMap {
     }
 
     /// Returns the numbers of those [cells](Plan) that the map has at this resolution. Cells with
-    /// the same value of H form a group.
+    /// the same Hurst exponent form a group.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let parameters = level.places_on(plan, 0);
@@ -143,8 +148,9 @@ impl LiveMap {
     }
 
     /// Computes the missing [cells](Plan) of this map on the calling thread, first at the coarse
-    /// and then at the finer resolutions. After each value of H, `control` receives the map. If
-    /// `control` stops the computation, the map keeps the results computed so far.
+    /// and then at the finer resolutions. After each value of the Hurst exponent, `control`
+    /// receives the map. If `control` stops the computation, the map keeps the results computed so
+    /// far.
     pub fn compute(&mut self, simulation: &mut Simulation, mut control: Control<'_, LiveMap>) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, take(simulation), control.stop());
@@ -192,9 +198,9 @@ impl LiveMap {
         ControlFlow::Continue(())
     }
 
-    /// Returns the results computed so far as a [`Grid`]. Its horizontal axis is H, and its
-    /// vertical axis is κ or e_el/γ. If the scene has no H, the grid has only a horizontal axis, κ
-    /// or e_el/γ.
+    /// Returns the results computed so far as a [`Grid`]. Its horizontal axis is the Hurst
+    /// exponent, and its vertical axis is the roughness parameter (κ or e_el/γ). If the scene has
+    /// no Hurst exponent, the grid has only a horizontal axis, the roughness parameter.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid = self.results.grid(

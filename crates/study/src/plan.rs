@@ -78,9 +78,11 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
-    /// Smallest force of the range in units of E* h L, above zero.
+    /// Smallest force of the range, above zero. The unit is E* h L (effective modulus, rms height,
+    /// length of the profile).
     pub from: f64,
-    /// Largest force of the range in units of E* h L.
+    /// Largest force of the range. The unit is E* h L (effective modulus, rms height, length of the
+    /// profile).
     pub to: f64,
     /// Number of forces in the range, at least 2. Neighbouring forces have equal ratios.
     pub count: u64,

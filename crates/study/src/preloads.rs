@@ -29,8 +29,9 @@ impl Axis {
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
     /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the
-    /// number of preloads, and `log` for equal ratios of neighbouring preloads. Without the number
-    /// there are 64 preloads, and without `log` neighbouring preloads have equal differences.
+    /// number of preloads, and `log` for equal ratios of neighbouring preloads. If the number is
+    /// left out, there are 64 preloads. If `log` is left out, neighbouring preloads have equal
+    /// distances.
     ///
     /// # Errors
     /// Returns an error if the text has another form or if a number is not allowed.
@@ -91,9 +92,9 @@ impl Axis {
         }
     }
 
-    /// Creates an axis of `count` preloads in N. `ends` are the first and the last preload.
-    /// Neighbouring preloads have equal differences on a linear scale and equal ratios on a
-    /// logarithmic scale.
+    /// Creates an axis of `count` preloads in N. `ends` are the first and the last preload. The
+    /// preloads have equal distances on a linear scale, and equal ratios of neighbouring preloads
+    /// on a logarithmic scale.
     ///
     /// # Errors
     /// Returns an error if a preload or the number of preloads is not allowed.

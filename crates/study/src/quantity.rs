@@ -21,7 +21,8 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The quantity needs the profile and its governing parameters, such as κ, but no loading.
+    /// The quantity needs the profile and its governing parameters, such as the effective modulus
+    /// and the rms height, but no loading.
     Profile,
     /// The quantity needs statistics of the heights of the roughness, without the form of the body.
     Heights,
@@ -34,8 +35,8 @@ pub(super) enum Needs {
     /// The quantity needs the loading to the preload or, if the study has no preloads, the loading
     /// of the scene.
     Loading,
-    /// The quantity needs the force curve of the contact without adhesion, from which exponents
-    /// follow.
+    /// The quantity needs the force curve of the contact without adhesion. From it follow the
+    /// exponents with which the stiffness grows with the force, and the force with the indentation.
     Stiffness,
 }
 
@@ -201,8 +202,9 @@ quantities! {
 }
 
 impl Quantity {
-    /// Adhesion forces without a preload, F_a(d=0) and F_a(F=0), as quantities that are divided by
-    /// the ideal adhesion force F_a,max.
+    /// Adhesion forces without a preload, divided by the ideal adhesion force F_a,max. The first is
+    /// F_a(d=0) of a loading that turns at first touch, the second F_a(F=0) of a loading that turns
+    /// at zero force.
     pub const ADHESION_SHARES: [Quantity; 2] = [
         Quantity::FirstTouchAdhesionShare,
         Quantity::ZeroForceAdhesionShare,

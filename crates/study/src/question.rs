@@ -39,9 +39,9 @@ pub struct Question {
     pub quantity: Quantity,
     /// Target value of [`Question::quantity`] in the SI unit of the quantity.
     pub target: f64,
-    /// Smallest and largest value of the number that are tried, in SI units. If the number is zero
-    /// or negative in the scene, [`Question::new`] sets both to NaN, and the caller must set the
-    /// range before the question is answered.
+    /// Smallest and largest value of the sought number that are tried, in SI units. If the number
+    /// is zero or negative in the scene, [`Question::new`] sets both to NaN, and the caller must
+    /// set the range before the question is answered.
     pub searched: (f64, f64),
     /// Scale, linear or logarithmic, on which the values of the number are searched.
     scale: AxisScale,
@@ -52,7 +52,8 @@ pub struct Question {
 /// Way in which the quantity depends on the sought number. It determines the method of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
-    /// The quantity is monotonic in the number: it never falls, or it never rises.
+    /// The quantity is monotonic: as the sought number increases, it never falls, or it never
+    /// rises.
     OneWay,
     /// The quantity is the ratio F_a/F_n of adhesion force and preload, as a function of the
     /// preload F_n.
@@ -70,11 +71,11 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number, in SI units, at which the quantity crosses the target, or at
-    /// which it becomes equal to the target and stays equal. Each value has a relative error of at
-    /// most 1e-9. If only some values are allowed, such as whole numbers, the list has an allowed
-    /// value next to the crossing. This is the one at which the quantity is at least the target,
-    /// apart from rounding errors.
+    /// Ascending values of the sought number, in SI units, at which the quantity crosses the
+    /// target, or at which it becomes equal to the target and stays equal. The relative error of a
+    /// value is at most 1e-9. If only some values are allowed, such as whole numbers, the list has
+    /// an allowed value next to the crossing. This is the one at which the quantity is at least the
+    /// target, apart from rounding errors.
     pub crossings: Vec<f64>,
     /// True if there may be more crossings than [`Answer::crossings`], because the quantity comes
     /// close to the target between two numbers at which it was computed. Even the first crossing
@@ -157,10 +158,10 @@ impl Question {
     /// value? `path` may be `preload`. `condition` is the quantity and its wanted value in SI
     /// units. The question is for `profiles` random profiles of a checked scene.
     ///
-    /// Numbers from a hundredth to a hundred times the value in the scene are searched. If the
-    /// allowed range of the number is narrow, as for the Hurst exponent, nearly the whole allowed
-    /// range is searched. Preloads are searched from 0 N to a hundred times the largest force to
-    /// which the scene is loaded.
+    /// The searched values of the number are from a hundredth to a hundred times its value in the
+    /// scene. If the allowed range of the number is narrow, as for the Hurst exponent, nearly the
+    /// whole allowed range is searched. Preloads are searched from 0 N to a hundred times the
+    /// largest force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
@@ -198,7 +199,8 @@ impl Question {
         })
     }
 
-    /// Returns an error if the range of searched numbers is empty, or if one of its ends is NaN.
+    /// Returns an error if the range of searched values ([`Question::searched`]) is empty, or if
+    /// one of its ends is NaN.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let (from, to) = self.searched;
         // This comparison also refuses an end that is NaN.
@@ -305,8 +307,8 @@ impl Question {
         Allowed::of(&self.axis, &self.plan.scene)
     }
 
-    /// Returns the coordinates on which the search is done; `None` if the searched range contains
-    /// no allowed number.
+    /// Returns the scale on which the search divides the searched range, such as a logarithmic
+    /// scale; `None` if the range contains no allowed value of the sought number.
     pub(super) fn coordinates(&self) -> Option<Coordinates> {
         let (from, to) = self.searched;
         let is_of_preload = self.is_of_preload();
@@ -451,8 +453,9 @@ impl Sought {
 }
 
 impl Answer {
-    /// Returns the value that answers the question on this profile: the first crossing, or the
-    /// smallest preload that reaches the target.
+    /// Returns the value that answers the question on this profile: the smallest value of the
+    /// sought number at which the quantity crosses its target, or the smallest preload that reaches
+    /// the target. `None` if there is no such value in the searched range.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.seeks_least_preload() && self.reached[0];
         if already {

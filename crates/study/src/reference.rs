@@ -63,8 +63,8 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Smallest mean number of grid cells in contact with which profiles and square surfaces are
-    /// compared at a force.
+    /// Profiles and square surfaces are compared at a force only if at least this number of grid
+    /// cells of a square surface are in contact, as a mean over the square surfaces.
     pub const LEAST_CELLS: f64 = 20.0;
 
     /// Returns the relative error that the grid of the square surfaces causes in the indentation or
@@ -142,8 +142,8 @@ pub struct Reference {
     /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
     /// adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Comparison of the energy in J that the contact dissipates in the loop to the preload and
-    /// back; `None` for a scene without adhesion.
+    /// Comparison of the adhesion force F_a(d=0) in N of a loop that turns at first touch; `None`
+    /// for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
     /// Comparison of the energy in J that the contact loses in the loop to the preload and back;
     /// `None` for a scene without adhesion.
@@ -228,7 +228,8 @@ impl Reference {
     }
 
     /// Returns the comparison of the adhesion force, or of the indentation at the preload if the
-    /// scene has no adhesion.
+    /// scene has no adhesion. `None` if the scene has no adhesion and no force is compared, because
+    /// too few grid cells are in contact.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force
             .as_ref()

@@ -498,8 +498,8 @@ impl Results {
         })
     }
 
-    /// Returns the recorded quantities except regimes, each with the scale that suits its means in
-    /// the whole study.
+    /// Returns the recorded quantities except regimes. Each has the scale that suits its means over
+    /// the profiles in all cells of the study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self
             .plan
@@ -512,7 +512,7 @@ impl Results {
     }
 
     /// Returns a recorded quantity with its scale. If `scale` is `None`, the quantity gets the
-    /// scale that suits its means in the whole study.
+    /// scale that suits its means over the profiles in all cells of the study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means =
             (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));

@@ -44,14 +44,14 @@ pub struct Influence {
     pub value: f64,
     /// Smaller value of the number and then larger value of the number, each with the results for
     /// this value. The results are `None` if the scene does not allow the value. The values usually
-    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. The difference may be
-    /// another one for a wavelength or a whole number.
+    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. A wavelength or a whole
+    /// number may differ by another share.
     pub sides: [(f64, Option<Changed>); 2],
 }
 
 impl Influence {
-    /// Returns the change of the number divided by the magnitude of the unchanged number. `side` is
-    /// 0 for the smaller value and 1 for the larger value.
+    /// Returns the change of the number of the scene, divided by the magnitude of its unchanged
+    /// value. `side` is 0 for the smaller value and 1 for the larger value.
     pub fn step(&self, side: usize) -> f64 {
         (self.sides[side].0 - self.value) / self.value.abs()
     }
@@ -114,9 +114,10 @@ impl Sensitivity {
     ];
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
-    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene with κ
-    /// instead of a work of adhesion keeps κ when another number changes. If the length changes,
-    /// the same numbers of waves fit on it, so the wavelengths change in proportion.
+    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene that
+    /// states the roughness parameter κ instead of a work of adhesion keeps κ when another number
+    /// changes. If the length changes, the same numbers of waves fit on it, so the wavelengths
+    /// change in proportion.
     ///
     /// `control` reports the sensitivity over the profiles computed so far after each profile.
     ///
@@ -572,7 +573,9 @@ mod tests {
                     "{waves} {path} {side}"
                 );
             }
-            // If the length changes, the results are those of a scene that states modes.
+            // If the length changes, the waves are stretched with it. The results are therefore
+            // those of a scene that states its waves as modes (numbers of waves on the length)
+            // instead of wavelengths.
             let stretched = found
                 .influences
                 .iter()

@@ -76,8 +76,8 @@ impl Spectrum {
 ///
 /// Within a shell the variances are also multiplied by 1/|k|, where |k| is the wave number. The
 /// reason is that most waves of the first shells are shorter than the mode of their shell, and
-/// 1/|k| reduces their share. With this factor e_el of modes 1 to 8 exceeds that of the line by 4
-/// to 5 %, without it by 4 to 7 %.
+/// 1/|k| reduces their share. With this factor, the elastic energy that flattens modes 1 to 8
+/// exceeds that of the line by 4 to 5 %; without it, by 4 to 7 %.
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,

@@ -30,8 +30,8 @@ pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
-    /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. The
-    /// factor gives the square surfaces the same e_el/γ as the profiles.
+    /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. With
+    /// this factor, the square surfaces have the same elastic energy per area as the profiles.
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,

@@ -97,8 +97,9 @@ impl SquareLoops {
 
     /// Returns bands that show the force of the computed square surfaces as a function of the
     /// indentation. There is one band for loading, and a second band for unloading if the scene has
-    /// adhesion. A band is three curves: mean force minus standard deviation, mean force, and mean
-    /// force plus standard deviation.
+    /// adhesion. A band is three curves: the mean force minus the standard deviation, the mean
+    /// force, and the mean force plus the standard deviation. Mean and standard deviation are those
+    /// over the surfaces.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let loadings: Vec<Curve> = self.curves.iter().map(|curve| loading_of(curve)).collect();
         let unloadings: Vec<Curve> = self

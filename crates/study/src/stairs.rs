@@ -179,10 +179,10 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Finds the crossings of a quantity that is constant except where F_a jumps. Returns pairs of
-/// neighbouring preloads between which the quantity crosses the target. The second value is true if
-/// a pair may be missing. A pair may be missing if two jumps are closer together than the computed
-/// preloads.
+/// Finds the crossings of a quantity that is constant except where the adhesion force F_a jumps.
+/// Returns pairs of neighbouring preloads between which the quantity crosses the target. The second
+/// value is true if a pair may be missing. A pair may be missing if two jumps are closer together
+/// than the computed preloads.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,

@@ -7,7 +7,8 @@ use asperity_data::{
 use asperity_scene::Regime;
 use serde::Serialize;
 
-/// Probability with which a confidence interval contains the true mean.
+/// Probability with which a confidence interval of a mean over profiles contains the mean over
+/// infinitely many profiles.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
 /// Smallest share of the profiles in one regime with which this regime counts as that of all
@@ -49,22 +50,24 @@ pub struct Statistics {
     pub spread: Option<Spread>,
 }
 
-/// Spread of the values of a quantity over several random profiles, and confidence interval of the
-/// mean.
+/// Spread of the values of a quantity over several random profiles, and confidence interval of
+/// their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor `count − 1`.
     pub standard_deviation: f64,
-    /// Standard error of the mean: the standard deviation divided by the square root of the number
-    /// of values.
+    /// Standard error of the mean over the profiles: the standard deviation divided by the square
+    /// root of the number of values.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the
-    /// quantity has a bound, such as 0 for a force, the interval does not reach this bound.
+    /// Lower and upper end of the 95 % confidence interval of the mean over the profiles, by
+    /// Student's t. If the quantity has a bound, such as 0 for a force, the interval does not reach
+    /// this bound.
     ///
     /// The interval assumes that the mean of the values is normally distributed. If few of many
-    /// profiles make most of the mean, the interval is too narrow: for F_a(d=0) it contains the
-    /// mean in about 82 of 100 cases with 8 profiles, in 86 with 32 and in 92 with 64.
-    /// [`Statistics::median_interval`] has no such assumption.
+    /// profiles make most of the mean, the interval is too narrow: for the adhesion force after
+    /// first touch, F_a(d=0), it contains the mean of infinitely many profiles in about 82 of 100
+    /// cases with 8 profiles, in 86 with 32 and in 92 with 64. [`Statistics::median_interval`] has
+    /// no such assumption.
     pub confidence_interval: (f64, f64),
 }
 
@@ -179,13 +182,14 @@ impl Statistics {
         (least >= 0.0 && share.is_finite()).then_some(share)
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. If there is
-    /// only one value, both ends are the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean over the
+    /// profiles. If there is only one value, both ends are this value.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
 
-    /// Returns the 95 % confidence interval of the mean; `None` for a single value.
+    /// Returns the 95 % confidence interval of the mean over the profiles; `None` for a single
+    /// value.
     pub fn confidence_interval(&self) -> Option<(f64, f64)> {
         self.spread.map(|spread| spread.confidence_interval)
     }

@@ -152,8 +152,10 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes the value of the option in the selected row by a number of steps. A force changes by the
-/// same steps as the forces in a scene. Any other option gets its next value.
+/// Changes the value of the option in the selected row. A force changes by `steps` steps, which are
+/// as large as the steps of the explorer for a force in a scene, and larger if `coarse` is true. An
+/// option with a list of values gets the next value, or the previous one if `steps` is negative. A
+/// message appears if the option can only be typed.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
     let Some((option, measured)) = selected(app) else {

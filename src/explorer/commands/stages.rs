@@ -101,8 +101,9 @@ pub fn shift(app: &mut App, distance: isize) {
 }
 
 /// Changes the kind of the selected stage to the next kind that the loading allows, or to the
-/// previous kind if `forwards` is false. The number of the stage becomes the value that the stage
-/// reaches now. If no other kind is allowed, a message states why the last kind was refused.
+/// previous kind if `forwards` is false. The target value of the new kind, such as an indentation,
+/// is the value at which the stage ends now. If no other kind is allowed, a message states why the
+/// last kind was refused.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(selected) = selected(app) else {
         return;
@@ -185,8 +186,9 @@ fn pressing_force(app: &App) -> f64 {
 const USUAL_FORCE: f64 = 1e-5;
 
 /// Changes the value in the selected row by a number of steps. If the row is an option for reading
-/// the measured curve, the option gets its next value. A stage without a number, such as a
-/// separation, does not change, because a number would make it another kind of stage.
+/// the measured curve, the option changes as in [`measured::step_option`]. A stage without a target
+/// value, such as a separation, does not change, because a target value would make it another kind
+/// of stage.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;

@@ -185,7 +185,8 @@ impl Bindings {
     }
 
     /// Returns the command that has this name and is valid in the context. If the command needs a
-    /// pressed key, `name` also has the name of this key, as in `start-value 3`.
+    /// pressed key, `name` also has the name of this key, as in `start-value 3`. Returns `None` if
+    /// there is no such command.
     pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
         let (name, key) = match name.split_once(' ') {
             Some((name, key)) => (name, Key::named(key)),

@@ -20,7 +20,7 @@ pub struct PaneRow {
     /// Function that makes the content of the pane for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
     /// Function that makes the figure of the pane for an exported file. The figure may contain more
-    /// than the chart on the screen.
+    /// than the chart on the screen. The function returns `None` if the pane has no chart.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
     /// Function that makes the table or the JSON of the pane for an exported file, with the shell
     /// command that computes it. It returns `None` if there is no result yet, or if the curves of

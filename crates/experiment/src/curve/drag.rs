@@ -34,8 +34,8 @@ const DEVIATES: f64 = 3.5;
 const FOUND: [f64; 2] = [5.0, 3.0];
 /// Distance from first touch, in units of h₀, beyond which points are far from contact.
 const FAR: f64 = 1.0;
-/// Largest ratios between the coefficient from points far from contact and the coefficient from all
-/// points, with which the far points show the same drag: first on the approach, second on the
+/// The points far from contact count as showing the same drag as all points if the ratio of the two
+/// coefficients of drag, or its inverse, is at most this: first on the approach, second on the
 /// retraction.
 const ALIKE: [f64; 2] = [2.0, 3.0];
 /// Smallest significant coefficient of the approach, in standard errors, if it is computed from

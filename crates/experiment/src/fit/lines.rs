@@ -71,10 +71,11 @@ impl Lines {
         }
     }
 
-    /// Returns the residuals after a fit of the lines. Residuals and `noise` are in units of the
-    /// noise of the curve. In the fit, residuals in contact have the standard deviation `noise`,
-    /// and other residuals the standard deviation 1. Residuals above 5 standard deviations are
-    /// replaced by 5 standard deviations.
+    /// Fits the lines, which are contributions to the measured force such as the zero and the
+    /// drift, to the residuals, and returns what remains of the residuals. All numbers are in units
+    /// of the noise without contact. The fit assumes the standard deviation `noise` for a residual
+    /// in contact, and 1 for any other residual. A residual above 5 of its own standard deviations
+    /// enters the fit as 5 of them.
     pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
         let mut refined = residuals.to_vec();
         if self.columns.is_empty() {

@@ -129,10 +129,10 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns for each point of the curve whether the force of the model jumps there, and over
-    /// which range. The range is relative to the force of the model at the point, in N. Only jumps
-    /// of at least `least` N between the two neighbouring points count. The value is `None` for a
-    /// point without such a jump.
+    /// Returns for each point of the curve at which the force of the model jumps, how far the force
+    /// reaches below and above its value at the point, in N. A jump counts if it lies between the
+    /// previous and the next point and is at least `least` N. The element is `None` for a point
+    /// without such a jump.
     pub fn jumps(
         &mut self,
         values: &Values,

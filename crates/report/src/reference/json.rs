@@ -61,7 +61,9 @@ struct LoadedJson<V> {
     grid: Option<Option<f64>>,
 }
 
-/// Ratio of the means that the two models give.
+/// Ratio of two means of a result: the mean over random profiles divided by the mean over random
+/// square surfaces in three dimensions. `error` is the half-width of its 95 % interval, and `grid`
+/// the relative error due to the grid of the square surfaces.
 #[derive(Serialize)]
 struct RatioJson {
     value: f64,

@@ -43,9 +43,9 @@ fn error_sentence(reference: &Reference) -> String {
 }
 
 /// Returns in words the relative difference between the results with profiles and in three
-/// dimensions, with its 95 % interval: `line against three dimensions, +4 ± 45 %`. If the squares
-/// lack waves of the scene, the words also state which waves are compared. Returns `None` if the
-/// difference is unknown.
+/// dimensions, with its 95 % interval: `line against three dimensions, +4 ± 45 %`. The results in
+/// three dimensions belong to random square surfaces. If these surfaces lack waves of the scene,
+/// the words also state which waves are compared. Returns `None` if the difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
@@ -80,9 +80,9 @@ pub fn model_words(reference: &Reference) -> String {
     }
 }
 
-/// Returns in words which waves are compared if the squares lack waves of the scene; otherwise an
-/// empty text. The waves are given by their numbers of periods over the length, for example
-/// `, of waves 4 to 8 of 4 to 3 200`.
+/// Returns in words which waves are compared if the square surfaces of the model in three
+/// dimensions lack waves of the scene; otherwise an empty text. The waves are given by their
+/// numbers of periods over the length, for example `, of waves 4 to 8 of 4 to 3 200`.
 pub fn omitted_waves(reference: &Reference) -> String {
     let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
         return String::new();

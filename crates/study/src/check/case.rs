@@ -176,8 +176,8 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch of the springs in m, by eq. (10). A spring has this stretch at
-    /// the edge of a contact patch that is as long as the whole profile.
+    /// Returns the largest stretch of the springs in m, by eq. (10) of Popov and Filippov (2012). A
+    /// spring has this stretch at the edge of a contact patch that is as long as the whole profile.
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }

@@ -111,7 +111,8 @@ impl Comparison<'_> {
     }
 
     /// Computes the profiles. Their loops with adhesion come first, because the loading of the
-    /// square surfaces depends on the mean preload and the mean depth of these loops.
+    /// square surfaces depends on the preload and the depth of these loops, as means over the
+    /// profiles. The depth is the distance between the indentations at the preload and at pull-off.
     pub fn lines(
         &self,
         own: &OwnLoading,

@@ -163,7 +163,8 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Each polynomial learns a relation of second degree from the profiles of its half.
+    /// The random profiles are divided into two halves, and a polynomial is fitted to each half.
+    /// Both polynomials learn a relation of second degree.
     #[test]
     fn a_polynomial_of_second_degree_is_learned() {
         let mut generator = ChaCha8Rng::seed_from_u64(1);
