@@ -232,7 +232,7 @@ impl App {
     }
 
     pub(super) fn ask(&mut self, purpose: Purpose, text: &str) {
-        self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
+        self.prompt = Some(Prompt::new(purpose, text, &self.edit));
     }
 
     /// Returns the governing parameters of the present scene. They are known if the profile and the

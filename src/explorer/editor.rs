@@ -2,10 +2,10 @@
 
 use super::curve_options;
 use super::measured::Measured;
-use super::parameters::{Parameter, parameters};
+use super::parameters::{Parameter, Rows};
 use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use std::mem::replace;
 use std::path::Path;
@@ -61,13 +61,22 @@ pub struct Editor {
     left: BTreeMap<String, Document>,
     pub generation: u64,
     pub parameters: Vec<Parameter>,
+    /// Parameters without a row in the list, because the scene leaves them at their defaults. A
+    /// search finds them as well.
+    absent: Vec<Parameter>,
+    /// Paths of the parameters that got a row because the user has chosen them in a search.
+    pub revealed: BTreeSet<&'static str>,
     pub selected: usize,
 }
 
 impl Editor {
     pub fn new(document: Document) -> Self {
+        let revealed = BTreeSet::new();
+        let rows = Rows::of(&document, None, &revealed);
         let mut editor = Editor {
-            parameters: parameters(&document, None),
+            parameters: rows.listed,
+            absent: rows.absent,
+            revealed,
             measured: None,
             scene: scene_of(&document),
             document,
@@ -217,10 +226,37 @@ impl Editor {
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
-        self.parameters = parameters(&self.document, self.measured.as_ref());
+        self.list();
         self.scene = scene_of(&self.document);
         self.select(self.row_of(&selected));
         self.generation += 1;
+    }
+
+    /// Updates the list of parameters.
+    fn list(&mut self) {
+        let rows = Rows::of(&self.document, self.measured.as_ref(), &self.revealed);
+        self.parameters = rows.listed;
+        self.absent = rows.absent;
+    }
+
+    /// Returns the parameters that a search can find: the rows of the list, followed by the
+    /// parameters without a row.
+    pub fn searchable(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().chain(&self.absent)
+    }
+
+    /// Selects the parameter with this index among those that a search can find. A parameter
+    /// without a row gets one.
+    pub fn reveal(&mut self, index: usize) {
+        let Some(absent) = index.checked_sub(self.parameters.len()) else {
+            return self.select(index);
+        };
+        if let Some(Parameter { field, .. }) = self.absent.get(absent) {
+            let path = field.path;
+            self.revealed.insert(path);
+            self.list();
+            self.select(self.row_of(path));
+        }
     }
 
     pub fn is_unsaved(&self) -> bool {

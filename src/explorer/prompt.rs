@@ -2,15 +2,16 @@
 //! user; and the help.
 
 use super::action::OutputFile;
+use super::editor::Editor;
 use super::keys::bindings::{Binding, Context, Row};
 use super::openable::Openable;
 use super::opening::CurveQuestion;
 use super::pane::Pane;
 use super::parameters::Parameter;
-use super::search::{corrected, find};
+use super::search::{Search, find};
 use super::text_line::TextLine;
 use asperity_scene::{Document, Preset};
-use std::path::is_separator;
+use std::path::{Path, is_separator};
 
 /// Line below the panes in which the user types a text or answers a question. While the prompt is
 /// open, it receives all keys.
@@ -22,9 +23,10 @@ pub struct Prompt {
     pub found: Vec<usize>,
     /// Index in `found` of the selected entry.
     pub selected: usize,
-    /// Words of the list that are similar to the typed words, as a corrected search. `None` if the
-    /// list contains the typed words.
+    /// Words for which the list was searched, if a misspelt word has been corrected.
     pub corrected: Option<String>,
+    /// Typed words that the list does not contain.
+    pub unknown: Vec<String>,
     /// Paths that begin with the typed path, if there are several.
     pub paths: Vec<String>,
     pub refused: Option<String>,
@@ -62,6 +64,17 @@ pub enum Purpose {
     Leave,
 }
 
+/// Name of the list of commands.
+pub const COMMANDS: &str = "Commands";
+
+/// Version of the program, and what to cite.
+const ABOUT: &str = concat!(
+    "version ",
+    env!("CARGO_PKG_VERSION"),
+    "; CITATION.cff is the reference of the program, and V. L. Popov, A. E. Filippov: Physical \
+     Mesomechanics 15 (2012) that of the model",
+);
+
 /// Entry in the help, or in the list of commands, parameters or scenes.
 #[derive(Clone, Debug)]
 pub struct Topic {
@@ -79,8 +92,9 @@ pub struct Topic {
 pub enum Aim {
     Nothing,
     Command(&'static Row),
-    /// Selects the parameter in the row with this index.
+    /// Selects the parameter with this index among the parameters that a search can find.
     Parameter(usize),
+    Show(Pane),
     Open(String),
 }
 
@@ -93,6 +107,23 @@ impl Topic {
             text: text.to_owned(),
             words: String::new(),
             aim: Aim::Nothing,
+        }
+    }
+
+    /// Creates the entry that names the version of the program and what to cite.
+    pub fn about() -> Self {
+        Topic {
+            words: "version about cite citation reference licence license author".to_owned(),
+            ..Topic::read_only("Asperity", ABOUT)
+        }
+    }
+
+    /// Creates an entry that shows a pane.
+    pub fn of_pane(pane: Pane, name: &str, text: &str) -> Self {
+        Topic {
+            section: "Panes",
+            aim: Aim::Show(pane),
+            ..Topic::read_only(name, text)
         }
     }
 
@@ -113,7 +144,11 @@ impl Topic {
             section: "Parameters of this scene",
             name: parameter.name(),
             text: parameter.field.meaning.to_owned(),
-            words: parameter.texts()[..3].join(" "),
+            words: format!(
+                "{} {}",
+                parameter.texts()[..3].join(" "),
+                parameter.field.words
+            ),
             aim: Aim::Parameter(row),
         }
     }
@@ -134,7 +169,7 @@ impl Topic {
 
     /// Returns the texts in which a search looks for words: each key, the name, the everyday words,
     /// the description and the section.
-    fn texts(&self) -> Vec<String> {
+    pub fn texts(&self) -> Vec<String> {
         let mut texts: Vec<String> = self.name.split(' ').map(str::to_owned).collect();
         texts.push(self.name.clone());
         texts.push(self.words.clone());
@@ -145,10 +180,10 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt whose line contains this text. `parameters` are the parameters of the
-    /// scene. If the text is a value or the name of a file, the first character that the user types
-    /// replaces the text.
-    pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
+    /// Creates a prompt whose line contains this text. `edit` has the parameters of the scene. If
+    /// the text is a value or the name of a file, the first character that the user types replaces
+    /// the text.
+    pub fn new(purpose: Purpose, text: &str, edit: &Editor) -> Self {
         let is_replaced = matches!(
             purpose,
             Purpose::Value | Purpose::Save { .. } | Purpose::Export
@@ -164,10 +199,11 @@ impl Prompt {
             found: Vec::new(),
             selected: 0,
             corrected: None,
+            unknown: Vec::new(),
             paths: Vec::new(),
             refused: None,
         };
-        prompt.search(parameters);
+        prompt.search(edit);
         prompt
     }
 
@@ -186,31 +222,32 @@ impl Prompt {
     }
 
     /// Finds the list entries that match the typed line, and selects the best one.
-    pub fn search(&mut self, parameters: &[Parameter]) {
+    pub fn search(&mut self, edit: &Editor) {
         let query = self.line.text();
-        self.selected = 0;
-        self.found = match &self.purpose {
-            // A text with a separator is a path, so it is not compared with names.
-            Purpose::Open(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Open(entries) => {
-                let entries = entries.iter().enumerate();
-                find(entries.map(|(index, entry)| entry.texts(index)), query)
+        let search = match &self.purpose {
+            Purpose::Open(entries) => Search {
+                found: found_openables(entries, query),
+                ..Search::default()
+            },
+            // Without words, the list has only the rows that it also has without a search.
+            Purpose::Parameter { .. } if query.trim().is_empty() => Search {
+                found: (0..edit.parameters.len()).collect(),
+                ..Search::default()
+            },
+            Purpose::Parameter { .. } => {
+                let texts: Vec<_> = edit.searchable().map(Parameter::texts).collect();
+                Search::new(&texts, query)
             }
-            Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
             Purpose::Topics { topics, .. } => {
-                let found = find(topics.iter().map(Topic::texts), query);
-                self.corrected = if found.is_empty() {
-                    corrected(topics.iter().map(Topic::texts), query)
-                } else {
-                    None
-                };
-                match &self.corrected {
-                    Some(words) => find(topics.iter().map(Topic::texts), words),
-                    None => found,
-                }
+                let texts: Vec<_> = topics.iter().map(Topic::texts).collect();
+                Search::new(&texts, query)
             }
-            _ => Vec::new(),
+            _ => Search::default(),
         };
+        self.selected = 0;
+        self.found = search.found;
+        self.unknown = search.unknown;
+        self.corrected = search.corrected;
     }
 
     pub fn choice(&self) -> Option<usize> {
@@ -224,5 +261,32 @@ impl Prompt {
         } else {
             None
         }
+    }
+}
+
+/// Returns the indices of the entries that match a typed text, the best first.
+fn found_openables(entries: &[Openable], typed: &str) -> Vec<usize> {
+    // A text with a separator is a path, so it is not compared with names.
+    if typed.contains(is_separator) {
+        return Vec::new();
+    }
+    let texts = entries.iter().enumerate().map(|(index, entry)| {
+        let mut texts = entry.texts(index);
+        // The name of a file is compared only with names. Otherwise a scene whose title contains
+        // the name would be opened in place of the file.
+        if is_file_name(typed) {
+            texts.truncate(2);
+        }
+        texts
+    });
+    find(texts, typed)
+}
+
+/// Returns true if a text is the name of a file with an extension.
+fn is_file_name(text: &str) -> bool {
+    let has_blank = text.trim().contains(char::is_whitespace);
+    match Path::new(text.trim()).extension() {
+        Some(extension) => !has_blank && !extension.is_empty(),
+        None => false,
     }
 }

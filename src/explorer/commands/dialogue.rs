@@ -10,7 +10,7 @@ use crate::explorer::openable::Openable;
 use crate::explorer::opening::CurveQuestion;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
-use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
+use crate::explorer::prompt::{Aim, COMMANDS, Prompt, Purpose, Topic};
 use crate::explorer::text::on_one_line;
 use asperity_scene::library::typed_path;
 use asperity_scene::presets;
@@ -35,7 +35,7 @@ pub fn open_library(app: &mut App) {
 pub fn listed(app: &mut App, entries: Vec<Openable>) {
     if let Some(prompt) = &mut app.prompt {
         prompt.purpose = Purpose::Open(entries);
-        prompt.search(&app.edit.parameters);
+        prompt.search(&app.edit);
     }
 }
 
@@ -64,12 +64,18 @@ pub fn open_help(app: &mut App) {
 /// Opens a list of all commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
     let mut topics: Vec<Topic> = app.config.bindings.listed().map(Topic::of).collect();
-    for (row, parameter) in app.edit.parameters.iter().enumerate() {
+    for (row, parameter) in app.edit.searchable().enumerate() {
         topics.push(Topic::of_parameter(row, parameter));
     }
+    for pane in Pane::ALL.iter().filter(|pane| !pane.is_large()) {
+        for (name, text) in panes::row(*pane).help {
+            topics.push(Topic::of_pane(*pane, name, text));
+        }
+    }
     topics.extend(presets().iter().map(Topic::of_preset));
+    topics.push(Topic::about());
     let commands = Purpose::Topics {
-        name: "Commands",
+        name: COMMANDS,
         topics,
         is_typed: true,
     };
@@ -223,8 +229,9 @@ fn accept_curve_option(app: &mut App, question: &CurveQuestion, typed: &str) -> 
     Ok(())
 }
 
+/// Selects the parameter with this index among the parameters that a search can find.
 fn show_parameter(app: &mut App, row: usize) {
-    app.edit.select(row);
+    app.edit.reveal(row);
     app.show(Pane::Parameters);
 }
 
@@ -233,6 +240,7 @@ fn accept_topic(app: &mut App, topic: &Topic) {
         Aim::Nothing => {}
         Aim::Command(row) => choose(app, KeyCommand { row, key: None }),
         Aim::Parameter(row) => show_parameter(app, *row),
+        Aim::Show(pane) => app.show(*pane),
         Aim::Open(name) => app.effects.push(Task::Open(name.clone())),
     }
 }

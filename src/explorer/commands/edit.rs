@@ -115,7 +115,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
     prompt.refused = None;
     prompt.paths.clear();
-    prompt.search(&app.edit.parameters);
+    prompt.search(&app.edit);
     match prompt.purpose {
         Purpose::Value => preview(app),
         Purpose::Target => app.effects.push(Task::Study),

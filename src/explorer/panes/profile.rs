@@ -30,7 +30,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Profile",
         "rigid profile below, elastic surface above; ■ contact, [ ] the part in the pane Patch. On the right the \
-         distribution of heights, and dotted a normal distribution",
+         histogram of heights, and dotted a normal distribution",
     )],
     ..PaneRow::EMPTY
 };

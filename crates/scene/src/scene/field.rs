@@ -31,6 +31,8 @@ pub struct Field {
     pub default: &'static str,
     /// Meaning of the field in one line.
     pub meaning: &'static str,
+    /// Other words of tribology and everyday words for the field, by which a search finds it.
+    pub words: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,
     /// Where a scene stores the value of the field.
@@ -96,6 +98,7 @@ pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field
         step,
         default: "",
         meaning: "",
+        words: "",
         read,
         place,
     }
@@ -131,6 +134,10 @@ impl Field {
 
     pub(super) const fn meaning(self, meaning: &'static str) -> Field {
         Field { meaning, ..self }
+    }
+
+    pub(super) const fn words(self, words: &'static str) -> Field {
+        Field { words, ..self }
     }
 
     pub(super) const fn read(self, read: Read) -> Field {
