@@ -44,6 +44,12 @@ pub enum Message {
     Error(String),
     /// The value that the user gave the selected parameter was refused for this reason.
     Refused(String),
+    /// The median answer of an inverse question has become a value of the scene. The message also
+    /// states the median that this quantity then has, as soon as it is computed.
+    Taken {
+        name: String,
+        quantity: Quantity,
+    },
 }
 
 #[derive(Clone, Debug)]
@@ -54,6 +60,9 @@ pub struct View {
     /// place.
     pub large: Option<Pane>,
     pub zoomed: bool,
+    /// Index of the shown page of a pane that has several pages in a small window. An index beyond
+    /// the last page means the last page.
+    pub page: usize,
     pub size: (u16, u16),
     pub appearance: Appearance,
     pub close_up: CloseUpTarget,
@@ -120,6 +129,7 @@ impl App {
                 pane: Pane::Force,
                 large: None,
                 zoomed: false,
+                page: 0,
                 size,
                 appearance,
                 close_up: CloseUpTarget::WHOLE,
@@ -164,6 +174,7 @@ impl App {
         let mut done = None;
         match self.message.take() {
             Some(Message::Done(text)) => done = Some(text),
+            Some(Message::Taken { .. }) => {}
             Some(Message::Error(text) | Message::Refused(text)) => error = Some(text),
             None => {}
         }
@@ -422,6 +433,7 @@ impl App {
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
+            self.view.page = 0;
         }
         self.view.pane = selected;
     }

@@ -186,7 +186,7 @@ impl Prompt {
     pub fn new(purpose: Purpose, text: &str, edit: &Editor) -> Self {
         let is_replaced = matches!(
             purpose,
-            Purpose::Value | Purpose::Save { .. } | Purpose::Export
+            Purpose::Value | Purpose::Target | Purpose::Save { .. } | Purpose::Export
         );
         let line = if is_replaced {
             TextLine::selected(text)

@@ -40,7 +40,7 @@ mod work_precision;
 pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
 pub use event::event;
-pub use find::{FindReport, found_in_words};
+pub use find::{AnswerPart, FindReport, found_briefly, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport, RowWarning};
 pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};

@@ -5,11 +5,12 @@ use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::bindings::{Context, KeyCommand, Row};
-use crate::explorer::layout::Layout;
+use crate::explorer::layout::{Layout, inside};
 use crate::explorer::openable::Openable;
 use crate::explorer::opening::CurveQuestion;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
+use crate::explorer::panes::trust;
 use crate::explorer::prompt::{Aim, COMMANDS, Prompt, Purpose, Topic};
 use crate::explorer::text::on_one_line;
 use asperity_scene::library::typed_path;
@@ -112,8 +113,9 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     select(app, rows);
 }
 
-/// Moves the selection by a page, in the list of a prompt or in the list of parameters. A page has
-/// half as many entries as the window has rows, because an entry may take two rows.
+/// Moves the selection by a page, in the list of a prompt or in the list of parameters, or shows the
+/// next or previous page of the selected pane. A page of a list has half as many entries as the
+/// window has rows, because an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
     let rows = if key.code == KeyCode::PageUp {
@@ -123,9 +125,25 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     };
     if app.prompt.is_some() {
         select(app, rows)
+    } else if app.view.pane == Pane::Trust {
+        turn_page(app, rows > 0)
     } else {
         edit::move_selection(app, rows)
     }
+}
+
+/// Shows the next or the previous page of the pane of accuracy.
+fn turn_page(app: &mut App, is_next: bool) {
+    let Some(area) = Layout::of(app).pane(Pane::Trust) else {
+        return;
+    };
+    let last = trust::count_pages(app, inside(area).as_size()) - 1;
+    let page = app.view.page.min(last);
+    app.view.page = if is_next {
+        (page + 1).min(last)
+    } else {
+        page.saturating_sub(1)
+    };
 }
 
 /// Accepts the typed line or the selected row, or answers a question with yes. If a line is

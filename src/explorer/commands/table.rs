@@ -209,7 +209,7 @@ static TABLE: &[Entry] = &[
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),
-    row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which solve"),
+    row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 20 %", PARAMETERS).words("inverse question goal reach required which solve"),
     row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch form, roughness, adhesion or unloading on or off", PARAMETERS).words("effect"),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance of F_a, such as 0.1 %, from which the number of springs follows", PARAMETERS).words("accuracy precision error convergence springs faster slow performance resolution"),

@@ -2,6 +2,7 @@
 
 use super::row::{PaneRow, outcome};
 use crate::explorer::app::{App, Message};
+use crate::explorer::commands::target;
 use crate::explorer::curve_options;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
@@ -79,9 +80,14 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
         Some(index) => meaning_of_parameter(app, index),
         None => Line::styled(not_listed(app), app.style(Meaning::Quiet)),
     };
+    let most = usual.max(size.height / 2);
+    if let Some(mut lines) = target::answer_lines(app, size.width) {
+        lines.truncate(most.into());
+        lines.resize(lines.len().max(usual.into()), Line::default());
+        return lines;
+    }
     // Two texts must not be cut, and may therefore take rows of the list: the reason of a refusal,
     // and the statements on the preparation of a measured curve.
-    let most = usual.max(size.height / 2);
     if refusal(app).is_some() {
         return wrapped_within(&text, size.width, most);
     }

@@ -57,6 +57,10 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     match &app.message {
         Some(Message::Error(why) | Message::Refused(why)) => refusal(app, why, width, rows),
         Some(Message::Done(text)) => done(app, text, width, rows),
+        Some(Message::Taken { name, quantity }) => {
+            let text = target::taken_in_words(app, name, *quantity);
+            done(app, &text, width, rows)
+        }
         None if app.prompt.is_none() => match searching(app) {
             Some(progress) => vec![Line::raw(progress)],
             None => vec![headline(app, width.into())],
@@ -93,13 +97,27 @@ fn status_of_prompt(
         }
         _ => {
             let mut lines = vec![prompted(app, prompt, width)];
-            if let Some(answer) = target::answer(app) {
-                let answer = Line::styled(answer, app.style(Meaning::Title));
-                lines.extend(wrapped_within(&answer, width, rows - 1));
-            }
+            lines.extend(answer(app, width).filter(|_| rows > 1));
             Some(lines)
         }
     }
+}
+
+/// Returns the answer to the typed target, as much of it as fits into one line; `None` if the user
+/// is typing no target.
+fn answer(app: &App, width: u16) -> Option<Line<'static>> {
+    let style = app.style(Meaning::Title);
+    let mut parts = Vec::new();
+    for text in target::answer(app)? {
+        parts.push(vec![Span::styled(text, style)]);
+    }
+    let first = parts.first().cloned().unwrap_or_default();
+    let line = first_line(parts, " · ", width.into());
+    if line.spans.is_empty() {
+        // Not even the first part fits, so its beginning is shown.
+        return wrapped_within(&Line::from(first), width, 1).pop();
+    }
+    Some(line)
 }
 
 /// Returns the reason why a typed text is refused and, if there is room, the typed text below it.
@@ -154,7 +172,8 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
 /// text.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let label = Span::raw(label(app, prompt, width));
-    let meaning = typed::understood(app).map_or_else(String::new, |text| format!("→ {text}"));
+    let meaning = typed::understood(app).or_else(|| target::understood(app));
+    let meaning = meaning.map_or_else(String::new, |text| format!(" → {text}"));
     let meaning = Span::styled(meaning, app.style(Meaning::Title));
     let room = usize::from(width).saturating_sub(label.width() + meaning.width());
     let mut spans = vec![label];
@@ -169,8 +188,7 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
-        Purpose::Target if is_narrow => "For: ".to_owned(),
-        Purpose::Target => format!("Find {} for: ", target::name(app)),
+        Purpose::Target => format!("{} for ", target::name(app)),
         Purpose::Force => format!("Go to the force ({}): ", typed::unit_of_force(app)),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
