@@ -558,7 +558,7 @@ impl App {
                 "roughness.rms_gradient" => governing.amplitude?.rms_gradient,
                 _ => return None,
             },
-            Setting::Heading | Setting::CurveOption(_) => return None,
+            Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => return None,
         };
         Some(ron_float(value))
     }

@@ -5,6 +5,7 @@ use super::measured::Measured;
 use super::parameters::{Parameter, Rows};
 use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
+use asperity_study::Ensemble;
 use std::collections::{BTreeMap, BTreeSet};
 
 use std::mem::replace;
@@ -18,6 +19,8 @@ const UNDO_DEPTH: usize = 1000;
 pub struct Edited {
     pub document: Document,
     pub measured: Option<Measured>,
+    /// Number of random profiles.
+    pub profiles: u64,
 }
 
 /// Returns true if a row of the list of parameters has this path. A loading stage with a number is
@@ -32,6 +35,7 @@ impl Edited {
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
             || self.curve_source() != other.curve_source()
+            || self.profiles != other.profiles
     }
 
     /// Returns the file of the measured curve, and the options with which the curve was read.
@@ -47,6 +51,8 @@ pub struct Editor {
     pub document: Document,
     /// The measured curve that is compared with the scene.
     pub measured: Option<Measured>,
+    /// Number of random profiles that the user wants. A scene with a fixed profile has one.
+    pub profiles: u64,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.
     pub scene: Arc<CheckedScene>,
@@ -72,8 +78,10 @@ pub struct Editor {
 impl Editor {
     pub fn new(document: Document) -> Self {
         let revealed = BTreeSet::new();
-        let rows = Rows::of(&document, None, &revealed);
+        let profiles = Ensemble::PROFILES;
+        let rows = Rows::of(&document, None, profiles, &revealed);
         let mut editor = Editor {
+            profiles,
             parameters: rows.listed,
             absent: rows.absent,
             revealed,
@@ -137,7 +145,7 @@ impl Editor {
     pub fn adopt(&mut self, document: Document) {
         self.adopt_all(Edited {
             document,
-            measured: self.measured.clone(),
+            ..self.edited()
         });
     }
 
@@ -154,18 +162,22 @@ impl Editor {
         self.renew();
     }
 
-    fn edited(&self) -> Edited {
+    /// Returns what the user explores: the present document, the present curve and the number of
+    /// profiles.
+    pub fn edited(&self) -> Edited {
         Edited {
             document: self.document.clone(),
             measured: self.measured.clone(),
+            profiles: self.profiles,
         }
     }
 
-    /// Replaces the present document and the present curve, and returns the previous ones.
-    fn exchange(&mut self, Edited { document, measured }: Edited) -> Edited {
+    /// Replaces the document, the curve and the number of profiles, and returns the previous ones.
+    fn exchange(&mut self, edited: Edited) -> Edited {
         Edited {
-            document: replace(&mut self.document, document),
-            measured: replace(&mut self.measured, measured),
+            document: replace(&mut self.document, edited.document),
+            measured: replace(&mut self.measured, edited.measured),
+            profiles: replace(&mut self.profiles, edited.profiles),
         }
     }
 
@@ -204,6 +216,9 @@ impl Editor {
             before.measured.as_ref(),
             self.measured.as_ref(),
         ));
+        if before.profiles != self.profiles {
+            changes.push(format!("profiles {} → {}", before.profiles, self.profiles));
+        }
         self.renew();
         Some(changes.join(", "))
     }
@@ -234,7 +249,12 @@ impl Editor {
 
     /// Updates the list of parameters.
     fn list(&mut self) {
-        let rows = Rows::of(&self.document, self.measured.as_ref(), &self.revealed);
+        let rows = Rows::of(
+            &self.document,
+            self.measured.as_ref(),
+            self.profiles,
+            &self.revealed,
+        );
         self.parameters = rows.listed;
         self.absent = rows.absent;
     }
@@ -296,6 +316,12 @@ impl Editor {
                 self.left.insert(name, document.clone());
             }
         }
+    }
+
+    /// Sets the number of profiles that the user named when starting the explorer.
+    pub fn begin_with_profiles(&mut self, profiles: u64) {
+        self.profiles = profiles;
+        self.renew();
     }
 
     /// Adds the measured curve that the user named when starting the explorer. Undo does not remove

@@ -2,6 +2,7 @@
 
 use super::curve_options;
 use super::measured::Measured;
+use super::profiles;
 use super::text::on_one_line;
 use asperity_contact::Move;
 use asperity_data::{format_quantity, grouped};
@@ -9,6 +10,7 @@ use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field
 use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
+use asperity_study::Ensemble;
 use std::collections::BTreeSet;
 
 /// Groups in the order in which the list shows them. The groups that users change most often come
@@ -87,6 +89,8 @@ pub enum Setting {
     /// Option for reading the measured curve. The number is its index in
     /// [`curve_options::OPTIONS`].
     CurveOption(usize),
+    /// The row is the number of random profiles of the explorer.
+    Profiles,
 }
 
 impl Parameter {
@@ -147,7 +151,7 @@ impl Parameter {
                 "roughness.wavelengths" => Some("the modes"),
                 path => Some(field(replaced_by(path)?, None)?.symbol),
             },
-            Setting::Heading | Setting::CurveOption(_) => None,
+            Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => None,
         }
     }
 
@@ -224,11 +228,13 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Returns the parameters for a scene and a measured curve. The fields with the paths
+    /// Returns the parameters for a scene, a measured curve and a number of random profiles. The
+    /// number has a row only if the profile of the scene is random. The fields with the paths
     /// `revealed` have a row in any case.
     pub fn of(
         document: &Document,
         measured: Option<&Measured>,
+        profiles: u64,
         revealed: &BTreeSet<&'static str>,
     ) -> Rows {
         let mut listed = Vec::new();
@@ -248,6 +254,14 @@ impl Rows {
         }
         add_other_adhesion(&mut listed);
         absent.retain(|row| !ADHESION.contains(&row.field.path));
+        if Ensemble::profiles_of(document.scene()) > 1 {
+            listed.push(Parameter {
+                written: profiles.to_string(),
+                shown: profiles.to_string(),
+                setting: Setting::Profiles,
+                ..Parameter::new(&profiles::FIELD, profiles::PATH)
+            });
+        }
         if let Some(measured) = measured {
             listed.extend(curve_rows(measured));
         }

@@ -291,7 +291,13 @@ impl Explorer {
             assert_eq!(again.scene(), document.scene());
             assert_eq!(
                 app.edit.parameters,
-                Rows::of(document, app.edit.measured.as_ref(), &app.edit.revealed).listed
+                Rows::of(
+                    document,
+                    app.edit.measured.as_ref(),
+                    app.edit.profiles,
+                    &app.edit.revealed
+                )
+                .listed
             );
             assert!(!app.is_refused(), "a changed scene is not refused");
         }

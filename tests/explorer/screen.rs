@@ -21,6 +21,7 @@ mod panes;
 mod parameters;
 mod play;
 pub mod preloads;
+mod profiles;
 mod saving;
 mod sensitivity;
 mod sizes;

@@ -1,6 +1,6 @@
 //! Commands of prompts: opening, editing, accepting and cancelling them.
 
-use super::{accuracy, edit, files, measured, movement, target};
+use super::{accuracy, edit, files, measured, movement, profiles, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -176,6 +176,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
     match &prompt.purpose {
         Purpose::Value if measured::is_option(app) => measured::accept_option(app, typed),
+        Purpose::Value if profiles::is_selected(app) => profiles::accept(app, typed),
         Purpose::Value => edit::accept_value(app, typed),
         Purpose::Target => target::accept(app, typed),
         Purpose::Force => movement::accept_force(app, typed),

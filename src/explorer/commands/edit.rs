@@ -8,10 +8,11 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
+use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
-use crate::explorer::studies::ensemble_key;
+use crate::explorer::studies::{ensemble_key, profiles_key};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;
@@ -246,8 +247,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
 /// refused. For a loading stage, the user may type a stage of any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
-    if let Setting::CurveOption(_) = parameter.setting {
-        return Err("an option of reading is no part of the scene".to_owned());
+    if let Setting::CurveOption(_) | Setting::Profiles = parameter.setting {
+        return Err("this row is no part of the scene".to_owned());
     }
     let typed = &typed::with_unit(app, parameter, typed);
     if let Some(leg) = parameter.leg {
@@ -305,7 +306,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let changed = match selected.setting {
-        Setting::Field | Setting::Heading | Setting::CurveOption(_) => {
+        Setting::Field | Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => {
             with_field(document, &selected.path, written)
         }
         Setting::WorkOfAdhesion => {
@@ -539,9 +540,10 @@ fn after_edit(app: &mut App) {
     app.progress = Some(0);
     app.map.moving = false;
     let live_map = app.map.key(&app.edit.scene).unwrap_or_default();
-    let profiles = ensemble_key(&app.edit.scene);
+    let squares = profiles_key(&app.edit.scene);
+    let profiles = ensemble_key(profiles::count(&app.edit), &app.edit.scene);
     let preview = app.edit.document.text();
-    app.studies.keep(&[&live_map, preview, &profiles]);
+    app.studies.keep(&[&live_map, preview, &profiles, &squares]);
     // Manual loading ends, because it belongs to the profile and the contact before the edit.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

@@ -5,6 +5,7 @@ use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::command_line::{command_line, curve_arguments};
 use crate::explorer::measured::Measured;
+use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
 use asperity_report::{Format, check_extension};
@@ -126,7 +127,8 @@ pub fn copy_command(app: &mut App) {
         None => String::new(),
     };
     let document = &app.edit.document;
-    let program = format!("asperity{measured}");
+    let profiles = profiles::argument(&app.edit);
+    let program = format!("asperity{profiles}{measured}");
     let command = command_line(&program, document.name(), document.overrides());
     // If the user pasted the command into a shell, control characters in it would act on the
     // terminal.

@@ -209,6 +209,7 @@ fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
     Ok(Edited {
         document: document.map_err(|errors| errors.to_string())?,
         measured: Some(measured),
+        ..app.edit.edited()
     })
 }
 

@@ -10,6 +10,7 @@ pub mod map;
 pub mod measured;
 pub mod movement;
 pub mod opening;
+pub mod profiles;
 pub mod stages;
 pub mod table;
 pub mod target;

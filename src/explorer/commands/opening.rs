@@ -25,9 +25,13 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
         study_map,
         ghost,
         measured,
+        profiles,
     } = opening;
     let mut app = App::new(document, size, appearance, config);
     app.ghosts.extend(ghost);
+    if let Some(profiles) = profiles {
+        app.edit.begin_with_profiles(profiles);
+    }
     if let Some(study_map) = study_map {
         show_study(&mut app, study_map);
     }
@@ -113,13 +117,12 @@ fn show_measured(
         Ok(document) => (document, None),
         Err(errors) => (app.edit.document.clone(), Some(errors)),
     };
-    edit::adopt_all(
-        app,
-        Edited {
-            document,
-            measured: Some(measured),
-        },
-    );
+    let edited = Edited {
+        document,
+        measured: Some(measured),
+        ..app.edit.edited()
+    };
+    edit::adopt_all(app, edited);
     match wrong {
         None => {
             let instrument = instrument.map_or_else(String::new, |text| format!(". {text}"));

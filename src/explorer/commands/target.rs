@@ -6,6 +6,7 @@ use crate::explorer::action::Task;
 use crate::explorer::advice;
 use crate::explorer::app::{App, Message};
 use crate::explorer::parameters::{Parameter, Setting};
+use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use crate::explorer::text::wrapped;
@@ -49,7 +50,7 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
     let is_value = !matches!(
         parameter.setting,
-        Setting::Heading | Setting::CurveOption(_)
+        Setting::Heading | Setting::CurveOption(_) | Setting::Profiles
     );
     if is_value && parameter.takes_number() {
         Some(&parameter.path)
@@ -166,11 +167,11 @@ pub fn study(app: &App) -> Option<Study> {
         Arc::clone(&app.edit.scene),
         sought(app.edit.parameter()?)?.to_owned(),
     );
+    let profiles = profiles::count(&app.edit);
     Some(Study::new(
         key.clone(),
         false,
         move |simulation, control| {
-            let profiles = Ensemble::profiles_of(&scene);
             let found = Question::new(&scene, &path, condition, profiles, simulation)
                 .and_then(|question| Found::of(question, simulation, control.of_part()));
             Ok::<_, Infallible>(Sought {

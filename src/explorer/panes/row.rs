@@ -3,6 +3,7 @@
 use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
+use crate::explorer::profiles;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use asperity_plot::Figure;
@@ -77,5 +78,6 @@ pub fn outcome(app: &App) -> Exported<'_> {
         deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
         wording: advice::row,
     };
-    Some(("asperity run".into(), Box::new(report)))
+    let command = format!("asperity run{}", profiles::argument(&app.edit));
+    Some((command.into(), Box::new(report)))
 }

@@ -124,20 +124,12 @@ impl Field {
         }
     }
 
-    pub(super) const fn step(self, step: Step) -> Field {
-        Field { step, ..self }
-    }
-
     pub(super) const fn default(self, default: &'static str) -> Field {
         Field { default, ..self }
     }
 
     pub(super) const fn meaning(self, meaning: &'static str) -> Field {
         Field { meaning, ..self }
-    }
-
-    pub(super) const fn words(self, words: &'static str) -> Field {
-        Field { words, ..self }
     }
 
     pub(super) const fn read(self, read: Read) -> Field {
@@ -160,6 +152,16 @@ impl Field {
     /// Returns this description with this SI unit.
     pub const fn in_unit(self, unit: &'static str) -> Field {
         Field { unit, ..self }
+    }
+
+    /// Returns this description with this step of the arrow keys.
+    pub const fn step(self, step: Step) -> Field {
+        Field { step, ..self }
+    }
+
+    /// Returns this description with other words by which a search finds the field.
+    pub const fn words(self, words: &'static str) -> Field {
+        Field { words, ..self }
     }
 
     /// Returns the allowed values of this field in words, with the unit: `from 1 to 1e13 Pa`.
