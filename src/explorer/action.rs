@@ -87,6 +87,8 @@ pub enum WriteFailure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Scene,
+    /// The plan of the live map.
+    Plan,
     /// The selected pane in this format: a format for pictures gives the figure of the pane, a
     /// format for data its numbers. The text format gives the text of all panes.
     Pane(Format),

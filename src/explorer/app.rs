@@ -352,7 +352,8 @@ impl App {
         }
         let mut axes = self
             .map
-            .plan(self.edit.document.scene())?
+            .plan(self.edit.document.scene())
+            .ok()?
             .axes
             .into_iter()
             .rev();

@@ -72,6 +72,8 @@ pub struct Editor {
     absent: Vec<Parameter>,
     /// Paths of the parameters that got a row because the user has chosen them in a search.
     pub revealed: BTreeSet<&'static str>,
+    /// Paths of the rows that the user has edited, each once, the last edited one at the end.
+    pub edited_rows: Vec<String>,
     pub selected: usize,
 }
 
@@ -85,6 +87,7 @@ impl Editor {
             parameters: rows.listed,
             absent: rows.absent,
             revealed,
+            edited_rows: Vec::new(),
             measured: None,
             scene: scene_of(&document),
             document,
@@ -137,6 +140,15 @@ impl Editor {
                 return self.selected;
             };
             path = group;
+        }
+    }
+
+    /// Stores the selected row as the row that the user has edited last.
+    pub fn note_edited_row(&mut self) {
+        if let Some(Parameter { path, .. }) = self.parameter() {
+            let path = path.clone();
+            self.edited_rows.retain(|edited| *edited != path);
+            self.edited_rows.push(path);
         }
     }
 

@@ -38,6 +38,8 @@ pub enum Purpose {
     Force,
     /// Target of an inverse question: a quantity and the value that it is to have.
     Target,
+    /// Quantity and two numbers of the scene, over which it is mapped.
+    Map,
     /// Relative error that is to be reached by the choice of the number of springs.
     Tolerance,
     /// Names of the parameters to be fitted to the measured curve.
@@ -46,6 +48,8 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
+    /// File for the plan of the live map.
+    SavePlan,
     /// Words of a search in this list of what can be opened, or a path.
     Open(Vec<Openable>),
     /// Value of an option without which a measured curve cannot be read.
@@ -186,7 +190,12 @@ impl Prompt {
     pub fn new(purpose: Purpose, text: &str, edit: &Editor) -> Self {
         let is_replaced = matches!(
             purpose,
-            Purpose::Value | Purpose::Target | Purpose::Save { .. } | Purpose::Export
+            Purpose::Value
+                | Purpose::Target
+                | Purpose::Map
+                | Purpose::Save { .. }
+                | Purpose::SavePlan
+                | Purpose::Export
         );
         let line = if is_replaced {
             TextLine::selected(text)

@@ -2,10 +2,12 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
+use super::commands::map_over::plan;
 use super::commands::stages::with_path;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::{Exported, OPEN_COMMAND};
+use super::profiles;
 use super::theme::Theme;
 use super::view;
 use crate::explorer::command_line::command_line;
@@ -24,12 +26,12 @@ use std::io::Write;
 use std::path::{Path, is_separator};
 
 /// Writes a regular file; its path is relative to `folder`. Pipes are refused, because writing
-/// could wait for ever. A scene file without an extension gets the extension `.ron`, unless its
+/// could wait for ever. A scene or a plan without an extension gets the extension `.ron`, unless its
 /// path leads to something other than a file, such as a folder. Returns the file with its final
 /// name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
-    let is_scene = file.content == Content::Scene;
-    if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
+    let is_ron = matches!(file.content, Content::Scene | Content::Plan);
+    if is_ron && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
         file.path.set_extension("ron");
     }
     let result = write_file(app, folder, &file).map_err(|error| match error {
@@ -65,6 +67,10 @@ fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteEr
 fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
     match content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
+        Content::Plan => {
+            let plan = plan(app, profiles::count(&app.edit)).map_err(io::Error::other)?;
+            out.write_all(plan.to_ron().as_bytes())
+        }
         Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
         Content::Pane(format) => write_pane(out, app, path, format),
     }

@@ -14,6 +14,7 @@ mod library;
 mod look;
 mod manual;
 mod map;
+mod map_over;
 mod measured;
 mod mouse;
 mod palette;

@@ -1,6 +1,6 @@
 //! Commands of prompts: opening, editing, accepting and cancelling them.
 
-use super::{accuracy, edit, files, measured, movement, profiles, target};
+use super::{accuracy, edit, files, map_over, measured, movement, profiles, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -132,6 +132,11 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     }
 }
 
+/// Returns true if a list is open, or if the selected pane has several pages.
+pub fn has_pages(app: &App) -> bool {
+    app.prompt.is_some() || app.view.pane == Pane::Trust
+}
+
 /// Shows the next or the previous page of the pane of accuracy.
 fn turn_page(app: &mut App, is_next: bool) {
     let Some(area) = Layout::of(app).pane(Pane::Trust) else {
@@ -179,6 +184,8 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Value if profiles::is_selected(app) => profiles::accept(app, typed),
         Purpose::Value => edit::accept_value(app, typed),
         Purpose::Target => target::accept(app, typed),
+        Purpose::Map => map_over::accept(app, typed),
+        Purpose::SavePlan => files::save_plan(app, typed_path(typed)),
         Purpose::Force => movement::accept_force(app, typed),
         Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
         Purpose::Fit => measured::accept_fit(app, typed),
@@ -309,7 +316,9 @@ fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
     match prompt.purpose {
-        Purpose::Save { .. } | Purpose::Export | Purpose::Open(_) => Some(text.to_owned()),
+        Purpose::Save { .. } | Purpose::SavePlan | Purpose::Export | Purpose::Open(_) => {
+            Some(text.to_owned())
+        }
         Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
             let path = text.rsplit('"').next().unwrap_or(text);
             let path = app.edit.document.resolve(path);
@@ -320,11 +329,21 @@ fn typed_in_line(app: &App) -> Option<String> {
 }
 
 pub fn can_complete(app: &App) -> bool {
-    typed_in_line(app).is_some()
+    is_map(app) || typed_in_line(app).is_some()
 }
 
-/// Requests the paths that begin with the typed path, as a task.
+/// Returns true if the user is typing the axes of a map, whose rows can be changed.
+fn is_map(app: &App) -> bool {
+    let prompt = app.prompt.as_ref();
+    prompt.is_some_and(|prompt| matches!(prompt.purpose, Purpose::Map))
+}
+
+/// Requests the paths that begin with the typed path, as a task. In the prompt of a map, goes to the
+/// next row.
 pub fn complete(app: &mut App) {
+    if is_map(app) {
+        return map_over::next_row(app);
+    }
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));
     }

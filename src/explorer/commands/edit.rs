@@ -239,6 +239,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     {
         return Err(why.to_owned());
     }
+    app.edit.note_edited_row();
     apply(app, Ok(document));
     Ok(())
 }
@@ -295,7 +296,10 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
 /// Sets the selected parameter to a value, which is written as in the scene file.
 pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
-        Ok(document) => apply(app, Ok(document)),
+        Ok(document) => {
+            app.edit.note_edited_row();
+            apply(app, Ok(document))
+        }
         Err(why) => refuse(app, why),
     }
 }

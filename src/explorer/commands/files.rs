@@ -5,6 +5,7 @@ use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::command_line::{command_line, curve_arguments};
 use crate::explorer::measured::Measured;
+use crate::explorer::pane::Pane;
 use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
@@ -13,7 +14,14 @@ use asperity_scene::Document;
 use asperity_scene::text::quoted;
 use std::path::{Path, PathBuf};
 
+/// Asks for the name of a file for the scene. If a live map is selected, asks for the name of a file
+/// for its plan instead.
 pub fn ask_save(app: &mut App, then_quit: bool) {
+    let is_map = app.view.pane == Pane::Map && app.map.shown_study().is_none();
+    if is_map && !then_quit && app.map.plan(app.edit.document.scene()).is_ok() {
+        let file = format!("{}-map.ron", stem(app));
+        return app.ask(Purpose::SavePlan, &file);
+    }
     let name = app.edit.document.name();
     let extension = Path::new(name).extension();
     let file = if extension.is_some_and(|extension| extension == "ron") {
@@ -27,6 +35,19 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
 pub fn save(app: &mut App, path: PathBuf, then_quit: bool) -> Result<(), String> {
     check_extension(&path, &["ron"])?;
     write(app, path, Content::Scene, then_quit)
+}
+
+pub fn save_plan(app: &mut App, path: PathBuf) -> Result<(), String> {
+    check_extension(&path, &["ron"])?;
+    write(app, path, Content::Plan, false)
+}
+
+/// Returns the name of the scene without folders and extension.
+fn stem(app: &App) -> String {
+    match Path::new(app.edit.document.name()).file_stem() {
+        Some(stem) => stem.to_string_lossy().into_owned(),
+        None => "scene".to_owned(),
+    }
 }
 
 fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Result<(), String> {
@@ -56,12 +77,7 @@ pub fn save_before_leaving(app: &mut App) {
 }
 
 pub fn ask_export(app: &mut App) {
-    let name = Path::new(app.edit.document.name());
-    let stem = match name.file_stem() {
-        Some(stem) => stem.to_string_lossy(),
-        None => "scene".into(),
-    };
-    let file = format!("{stem}-{}.csv", app.view.pane.file_name());
+    let file = format!("{}-{}.csv", stem(app), app.view.pane.file_name());
     app.ask(Purpose::Export, &file);
 }
 
@@ -84,6 +100,12 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     let path = file.path.display();
     let is_scene = file.content == Content::Scene;
     match result {
+        Ok(()) if file.content == Content::Plan => {
+            app.set_done(format!(
+                "plan saved to {path}; y copies the command of its study"
+            ));
+            app.map.plan_file = Some(file.path);
+        }
         Ok(()) => {
             let how = if is_scene { "saved" } else { "exported" };
             app.set_done(format!("{how} to {path}"));
@@ -100,6 +122,8 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 Purpose::Save {
                     then_quit: file.then_quit,
                 }
+            } else if file.content == Content::Plan {
+                Purpose::SavePlan
             } else {
                 Purpose::Export
             };
@@ -118,8 +142,17 @@ pub fn ask_quit(app: &mut App) {
 }
 
 /// Copies to the clipboard the command that opens the scene with its changes and the measured
-/// curve.
+/// curve. If a map over chosen axes is selected, copies the command that computes its study.
 pub fn copy_command(app: &mut App) {
+    let is_map = app.view.pane == Pane::Map && app.map.shown_study().is_none();
+    if is_map && let Some(file) = &app.map.plan_file {
+        let plan = quoted(file);
+        let study = quoted(file.with_extension(""));
+        return copy(app, format!("asperity sweep {plan} -o {study}"));
+    }
+    if is_map && app.map.chosen.is_some() {
+        return app.set_error("the command needs a file: s saves the plan of this map");
+    }
     let measured = match &app.edit.measured {
         Some(Measured { path, options, .. }) => {
             format!(" --measured={}{}", quoted(path), curve_arguments(options))
@@ -130,6 +163,10 @@ pub fn copy_command(app: &mut App) {
     let profiles = profiles::argument(&app.edit);
     let program = format!("asperity{profiles}{measured}");
     let command = command_line(&program, document.name(), document.overrides());
+    copy(app, command);
+}
+
+fn copy(app: &mut App, command: String) {
     // If the user pasted the command into a shell, control characters in it would act on the
     // terminal.
     if command.contains(is_control) {

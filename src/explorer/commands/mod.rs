@@ -7,6 +7,7 @@ pub mod dialogue;
 pub mod edit;
 pub mod files;
 pub mod map;
+pub mod map_over;
 pub mod measured;
 pub mod movement;
 pub mod opening;

@@ -2,8 +2,8 @@
 //! the list of commands, the configuration, the demo and docs/keys.md all follow from this table.
 
 use super::{
-    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
-    view,
+    accuracy, compare, crosshair, dialogue, edit, files, map, map_over, measured, movement, stages,
+    target, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -88,8 +88,15 @@ const HELP: &[Context] = &[Context::Help];
 const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const LINE: &[Context] = &[Context::Line];
-/// Contexts in which a list is open: prompts with a list, and the help.
-const LISTS: &[Context] = &[Context::List, Context::Help];
+/// Contexts with lists or panes of several pages: prompts with a list, the help, and all panes
+/// except the map, whose pages are the preloads of a study.
+const PAGED: &[Context] = &[
+    Context::Explore,
+    Context::Crosshair,
+    Context::Parameters,
+    Context::List,
+    Context::Help,
+];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
 
@@ -200,7 +207,6 @@ static TABLE: &[Entry] = &[
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
     row("Home End g G", LIST, "parameter-at-end", Key(edit::go_to_end), "", "select the first or the last parameter", PARAMETERS).unlisted(),
-    row("PageDown PageUp", LIST, "page-parameters", Key(dialogue::page), "", "go down or up a page", PARAMETERS).unlisted(),
     row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
@@ -252,14 +258,15 @@ static TABLE: &[Entry] = &[
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
     row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ", MAP).words("phase diagram regime").rank(2),
-    row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value of H or κ", MAP).merges().unlisted(),
+    row("M", EXPLORE, "map-over", Do(map_over::ask), "", "map a quantity over two rows, such as F_a/F_a,max over E × h", MAP).words("study sweep parametric two axes diagram plan"),
+    row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value on an axis", MAP).merges().unlisted(),
     row("Shift+← Shift+→ Shift+↓ Shift+↑ H L J K", MAP_PANE, "move-scene-coarse", Key(map::step), "", "move the scene by four values", MAP).merges().unlisted(),
     row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity", MAP),
-    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the study, or the map of the scene", MAP),
+    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "back to the map over H and κ; show the map of the study, or the map of the scene", MAP),
     row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "next or previous preload of the study, or value of a further axis", MAP),
 
     row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load file preset example measured recent surface curve import read").rank(2),
-    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).words("write file store store keep").rank(2),
+    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file, or the plan of the selected map", SCENE).words("write file store store keep").rank(2),
     row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane as a table, a figure or text", SCENE).words("figure picture print image table data csv pdf save as png svg json report paper publication plot chart screenshot width"),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens this scene", SCENE).words("share link reproduce shell clipboard"),
     row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_commands), "commands", "find a command, a parameter or a scene by words", SCENE).rank(2).unlisted(),
@@ -271,7 +278,7 @@ static TABLE: &[Entry] = &[
     row("/", HELP, "search-help", Do(dialogue::search_help), "find", "search the help by words", TEXT),
     row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
     row("↓ ↑ Ctrl+n Ctrl+p Home End", SEARCHED, "select-row", Key(dialogue::select_by), "select", "select the next, previous, first or last row", TEXT),
-    row("PageDown PageUp", LISTS, "page-rows", Key(dialogue::page), "page", "go down or up a page", TEXT),
+    row("PageDown PageUp", PAGED, "page", Key(dialogue::page), "page", "go down or up a page of a list, of the parameters or of Trust", TEXT).unlisted().shown_if(dialogue::has_pages),
     row("Enter", TYPED, "accept", Do(dialogue::accept), "accept", "accept the text or the selected row", TEXT),
     row("Tab", TYPED, "complete", Do(dialogue::complete), "complete", "complete the typed path", TEXT).shown_if(dialogue::can_complete),
     row("Esc Ctrl+c", TYPED, "cancel", Do(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),

@@ -356,7 +356,7 @@ pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
 
 /// Returns the index of the stage to the largest force. If several stages have this force, returns
 /// the last of them.
-fn pressing_stage(loading: &[Move]) -> Option<usize> {
+pub fn pressing_stage(loading: &[Move]) -> Option<usize> {
     let mut pressing: Option<(usize, f64)> = None;
     for (index, stage) in loading.iter().enumerate() {
         if let Move::ToForce(force) = stage

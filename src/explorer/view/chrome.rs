@@ -4,7 +4,7 @@ use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
 use crate::explorer::commands::table::footer as footer_keys;
-use crate::explorer::commands::target;
+use crate::explorer::commands::{map_over, target};
 
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
@@ -98,6 +98,10 @@ fn status_of_prompt(
         _ => {
             let mut lines = vec![prompted(app, prompt, width)];
             lines.extend(answer(app, width).filter(|_| rows > 1));
+            if let Some(answer) = map_over::answer(app) {
+                let answer = Line::styled(answer, app.style(Meaning::Title));
+                lines.extend(wrapped_within(&answer, width, rows - 1));
+            }
             Some(lines)
         }
     }
@@ -189,6 +193,9 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
         Purpose::Target => format!("{} for ", target::name(app)),
+        Purpose::Map => "Map ".to_owned(),
+        Purpose::SavePlan if is_narrow => "Plan: ".to_owned(),
+        Purpose::SavePlan => "Save the plan of this map as: ".to_owned(),
         Purpose::Force => format!("Go to the force ({}): ", typed::unit_of_force(app)),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
