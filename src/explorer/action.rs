@@ -73,6 +73,8 @@ pub struct CurveRequest {
 pub struct OutputFile {
     pub path: PathBuf,
     pub content: Content,
+    /// Width of a figure in µm; `None` for the usual width.
+    pub width: Option<u32>,
     pub overwrite: bool,
     pub then_quit: bool,
 }

@@ -19,7 +19,7 @@ use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
 use asperity_contact::{LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_report::{LoopQuantities, Section, counted_texts, percent, warning_texts};
+use asperity_report::{Format, LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
@@ -35,6 +35,23 @@ pub struct CurveLook {
     pub normalised: bool,
     /// True if the area that represents the dissipated energy is shaded.
     pub loss: bool,
+}
+
+/// Kind of an exported file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExportKind {
+    pub format: Format,
+    /// Width of a figure in µm; `None` for the usual width.
+    pub width: Option<u32>,
+}
+
+impl Default for ExportKind {
+    fn default() -> Self {
+        ExportKind {
+            format: Format::Pdf,
+            width: None,
+        }
+    }
 }
 
 /// Message to the user, shown below the panes.
@@ -78,6 +95,8 @@ pub struct View {
     /// True if computing times are shown. A demo hides them, because they differ from one
     /// computation to the next.
     pub shows_times: bool,
+    /// What the user exported last, which the next export proposes.
+    pub export: ExportKind,
     /// Text that a demo shows instead of the keys, which have no effect while its script plays.
     pub demo: Option<&'static str>,
 }
@@ -139,6 +158,7 @@ impl App {
                 squares: false,
                 crosshair: None,
                 shows_times: true,
+                export: ExportKind::default(),
                 demo: None,
             },
             solved: None,

@@ -13,7 +13,7 @@ use super::view;
 use crate::explorer::command_line::command_line;
 use asperity_data::{Table, WriteError, write_new_file};
 use asperity_plot::{Figure, Palette, screen_svg, screen_text};
-use asperity_report::{Format, Json, Report, scene_provenance};
+use asperity_report::{Format, Json, Report, printed_pixels, scene_provenance};
 use asperity_scene::Scene;
 use asperity_scene::library::own_folder;
 use ratatui::Terminal;
@@ -59,25 +59,23 @@ fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteEr
             reason,
         })?;
     }
-    write_new_file(&path, file.overwrite, |out| {
-        write_content(out, app, &file.path, file.content)
-    })
+    write_new_file(&path, file.overwrite, |out| write_content(out, app, file))
 }
 
-fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
-    match content {
+fn write_content(out: &mut dyn Write, app: &App, file: &OutputFile) -> io::Result<()> {
+    match file.content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
         Content::Plan => {
             let plan = plan(app, profiles::count(&app.edit)).map_err(io::Error::other)?;
             out.write_all(plan.to_ron().as_bytes())
         }
         Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
-        Content::Pane(format) => write_pane(out, app, path, format),
+        Content::Pane(format) => write_pane(out, app, file, format),
     }
 }
 
 /// Writes the content of the selected pane, and the command that computes this content.
-fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io::Result<()> {
+fn write_pane(out: &mut dyn Write, app: &App, file: &OutputFile, format: Format) -> io::Result<()> {
     let Some((command, report)) = exported(app, format) else {
         let why = "the selected pane has nothing yet to export";
         return Err(io::Error::other(why));
@@ -91,7 +89,7 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
     let document = opened.as_ref().unwrap_or(&app.edit.document);
     let command = command_line(&command, document.name(), document.overrides());
     let folder = document.resolve("");
-    let destination = path.parent().unwrap_or(Path::new(""));
+    let destination = file.path.parent().unwrap_or(Path::new(""));
     let provenance = scene_provenance(&command, document.scene(), &folder, destination)
         .map_err(io::Error::other)?;
     if format == Format::Json && report.json().is_none() {
@@ -100,6 +98,16 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
             table: &*report,
         };
         return asperity_report::write(out, &table, format, &provenance);
+    }
+    if format.is_picture()
+        && let Some(width) = file.width
+        && let Some(figure) = report.figure()
+    {
+        let figure = Figure {
+            width: Some(printed_pixels(1e-6 * f64::from(width))),
+            ..figure
+        };
+        return asperity_report::write(out, &figure, format, &provenance);
     }
     asperity_report::write(out, &*report, format, &provenance)
 }

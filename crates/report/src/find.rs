@@ -80,7 +80,7 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         _ => format!(" on {number} of {count}"),
     };
     let name = &words.name;
-    let searched = format!("{name} {}", words.searched);
+    let searched = format!("searched: {name} {}", words.searched);
     let values = format!("{} {}", words.quantity, words.reachable);
     let mut parts = Vec::new();
     if anywhere == count && found.question.seeks_least_preload() {
@@ -89,7 +89,7 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
     }
     if anywhere == count {
         let text = format!("always above {}", words.target);
-        return vec![AnswerPart::new(text, format!("{values}, with {searched}"))];
+        return vec![AnswerPart::new(text, format!("{values}, {searched}"))];
     }
     match found.quantile(0.5) {
         _ if with_value == 0 && anywhere > 0 => {
@@ -98,7 +98,7 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         }
         _ if with_value == 0 => {
             let text = format!("{} never", words.target);
-            parts.push(AnswerPart::new(text, format!("{values}, with {searched}")));
+            parts.push(AnswerPart::new(text, format!("{values}, {searched}")));
             return parts;
         }
         None => {

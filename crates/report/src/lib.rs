@@ -15,6 +15,7 @@ mod map;
 mod measured_face;
 mod parameters;
 mod preloads;
+mod printed_size;
 mod provenance;
 mod reference;
 mod report;
@@ -47,6 +48,7 @@ pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_ch
 pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
 pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+pub use printed_size::{LEAST_HEIGHT, LEAST_WIDTH, parse_printed_length, printed_pixels};
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance,
     scenes_provenance,

@@ -190,7 +190,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
         Purpose::Fit => measured::accept_fit(app, typed),
         Purpose::Save { then_quit } => files::save(app, typed_path(typed), *then_quit),
-        Purpose::Export => files::export(app, typed_path(typed)),
+        Purpose::Export => files::export(app, typed),
         Purpose::Open(_) => accept_openable(app, prompt),
         Purpose::Curve(question) => accept_curve_option(app, question, typed),
         Purpose::Parameter { .. } => {

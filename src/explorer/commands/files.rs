@@ -2,15 +2,16 @@
 
 use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
-use crate::explorer::app::App;
+use crate::explorer::app::{App, ExportKind};
 use crate::explorer::command_line::{command_line, curve_arguments};
 use crate::explorer::measured::Measured;
 use crate::explorer::pane::Pane;
 use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
-use asperity_data::is_control;
-use asperity_report::{Format, check_extension};
+use asperity_data::{is_control, parse_quantity};
+use asperity_report::{Format, LEAST_WIDTH, check_extension, parse_printed_length};
 use asperity_scene::Document;
+use asperity_scene::library::typed_path;
 use asperity_scene::text::quoted;
 use std::path::{Path, PathBuf};
 
@@ -54,9 +55,11 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     if path.as_os_str().is_empty() {
         return Err("type the name of a file".to_owned());
     }
+    let is_figure = matches!(content, Content::Pane(format) if format.is_picture());
     app.effects.push(Task::Write(OutputFile {
         path,
         content,
+        width: app.view.export.width.filter(|_| is_figure),
         overwrite: false,
         then_quit,
     }));
@@ -77,12 +80,58 @@ pub fn save_before_leaving(app: &mut App) {
 }
 
 pub fn ask_export(app: &mut App) {
-    let file = format!("{}-{}.csv", stem(app), app.view.pane.file_name());
+    let ExportKind { format, width } = app.view.export;
+    let name = format!("{}-{}", stem(app), app.view.pane.file_name());
+    let width = match width.filter(|_| format.is_picture()) {
+        Some(width) => format!(" {}mm", f64::from(width) / MICROMETRES_IN_MM),
+        None => String::new(),
+    };
+    let file = format!("{name}.{}{width}", format.extension());
     app.ask(Purpose::Export, &file);
 }
 
-/// Exports the selected pane to a file. The extension of the file name determines the format.
-pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
+const MICROMETRES_IN_MM: f64 = 1e3;
+
+/// File and width of a figure, as the user has typed them.
+struct TypedExport<'a> {
+    file: &'a str,
+    /// Width in µm; `None` for the usual width.
+    width: Option<u32>,
+}
+
+impl TypedExport<'_> {
+    /// Takes a width such as `85mm` or `85 mm` off the end of a typed text. A file name that
+    /// contains blanks stays whole.
+    fn read(typed: &str) -> Result<TypedExport<'_>, String> {
+        let whole = TypedExport {
+            file: typed,
+            width: None,
+        };
+        let mut places = typed.rmatch_indices(' ').map(|(place, _)| place);
+        let width = places.by_ref().take(2).find_map(|place| {
+            let (file, width) = typed.split_at(place);
+            let is_length = parse_quantity(width.trim(), "m").is_ok();
+            is_length.then_some((file.trim_end(), width.trim()))
+        });
+        let Some((file, width)) = width else {
+            return Ok(whole);
+        };
+        // A number alone is no width: `figure 2` is the name of a file.
+        if width.ends_with(|last: char| last.is_ascii_digit()) {
+            return Ok(whole);
+        }
+        let length = parse_printed_length(width, LEAST_WIDTH)
+            .map_err(|why| format!("width {width}: {why}"))?;
+        let width = Some((1e6 * length).round() as u32);
+        Ok(TypedExport { file, width })
+    }
+}
+
+/// Exports the selected pane to a file. The extension of the file name determines the format. A
+/// figure may have a width after its name, as in `loop.pdf 85mm`.
+pub fn export(app: &mut App, typed: &str) -> Result<(), String> {
+    let TypedExport { file, width } = TypedExport::read(typed)?;
+    let path = typed_path(file);
     let extensions = EXPORTS.map(Format::extension);
     let Some(place) = check_extension(&path, &extensions)? else {
         let extensions = extensions.map(|extension| format!(".{extension}"));
@@ -91,7 +140,12 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
             extensions.join(", ")
         ));
     };
-    write(app, path, Content::Pane(EXPORTS[place]), false)
+    let format = EXPORTS[place];
+    if width.is_some() && !format.is_picture() {
+        return Err(format!("a .{} file has no width", format.extension()));
+    }
+    app.view.export = ExportKind { format, width };
+    write(app, path, Content::Pane(format), false)
 }
 
 /// Shows whether a file has been written, and continues with the next step, which may be a question

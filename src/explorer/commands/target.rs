@@ -230,7 +230,7 @@ pub fn answer_lines(app: &App, width: u16) -> Option<Vec<Line<'static>>> {
         let text = if part.detail.is_empty() {
             part.text
         } else {
-            format!("{} ({})", part.text, part.detail)
+            format!("{}, {}", part.text, part.detail)
         };
         lines.extend(wrapped(&Line::raw(text), width));
     }

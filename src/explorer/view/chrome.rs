@@ -177,7 +177,7 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let label = Span::raw(label(app, prompt, width));
     let meaning = typed::understood(app).or_else(|| target::understood(app));
-    let meaning = meaning.map_or_else(String::new, |text| format!(" → {text}"));
+    let meaning = meaning.map_or_else(String::new, |text| format!("→ {text}"));
     let meaning = Span::styled(meaning, app.style(Meaning::Title));
     let room = usize::from(width).saturating_sub(label.width() + meaning.width());
     let mut spans = vec![label];
@@ -204,7 +204,7 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
         Purpose::Export if is_narrow => "Export to: ".to_owned(),
         Purpose::Export => {
             let extensions = EXPORTS.map(|format| format!(".{}", format.extension()));
-            format!("Export to ({}): ", extensions.join(" "))
+            format!("Export to ({}; 85mm: width): ", extensions.join(" "))
         }
         Purpose::Open(_) => "Search: ".to_owned(),
         Purpose::Curve(question) => format!("{}: ", question.option().field.name),

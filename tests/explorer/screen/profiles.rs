@@ -80,7 +80,7 @@ fn the_number_of_profiles_is_a_row_and_an_edit() {
 
 #[test]
 fn the_row_is_found_by_everyday_words() {
-    for words in ["number of profiles", "realisations", "sample"] {
+    for words in ["number of profiles", "realisations", "ensemble"] {
         let mut driver = pressed("/");
         driver.type_text(words);
         driver.press("Enter");
