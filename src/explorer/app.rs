@@ -15,6 +15,7 @@ use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, ManualState, Preview, SolvedScene};
 use super::studies::Findings;
+use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
 use asperity_contact::{LegRecord, Mark};
@@ -25,6 +26,7 @@ use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
 use asperity_study::{Axis, Ensemble, Quantity};
 use ratatui::style::Style;
+use ratatui::text::Span;
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -99,6 +101,42 @@ pub struct View {
     pub export: ExportKind,
     /// Text that a demo shows instead of the keys, which have no effect while its script plays.
     pub demo: Option<&'static str>,
+}
+
+/// Texts of the title line.
+pub struct SceneTitle {
+    /// Title of the scene or, if it has none, its name.
+    pub name: String,
+    pub is_changed: bool,
+    /// Notes on the scene; empty if there are none.
+    pub notice: String,
+}
+
+impl SceneTitle {
+    /// Returns the sign for unsaved changes, with a blank before it; empty without changes.
+    pub fn sign(&self) -> &'static str {
+        if self.is_changed { " [changed]" } else { "" }
+    }
+
+    /// Returns the notice with blanks before it; empty if there is none.
+    pub fn notice_apart(&self) -> String {
+        if self.notice.is_empty() {
+            String::new()
+        } else {
+            format!("  {}", self.notice)
+        }
+    }
+
+    /// Returns the number of columns of the whole title on one line.
+    pub fn columns(&self) -> usize {
+        Span::raw(format!(
+            "{}{}{}",
+            self.name,
+            self.sign(),
+            self.notice_apart()
+        ))
+        .width()
+    }
 }
 
 /// State of the contact for which the screen waits: the generation of the scene, the requested
@@ -211,6 +249,32 @@ impl App {
             self.set_error(text);
         } else {
             self.set_done(text);
+        }
+    }
+
+    /// Returns what the title line shows. If the scene has changed and its notice has not, the
+    /// notice is left out, because it may be wrong now.
+    pub fn title(&self) -> SceneTitle {
+        let document = &self.edit.document;
+        let scene = document.scene();
+        let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
+        let name = if has_title {
+            &scene.title
+        } else {
+            document.name()
+        };
+        let is_changed = self.edit.is_unsaved();
+        let saved = self.edit.saved.get(document.name());
+        let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
+        let notice = if is_changed && is_saved_notice {
+            String::new()
+        } else {
+            on_one_line(&scene.notice)
+        };
+        SceneTitle {
+            name: name.to_owned(),
+            is_changed,
+            notice,
         }
     }
 

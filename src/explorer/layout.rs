@@ -26,7 +26,9 @@ impl Layout {
         // In a small window, the lines around the panes are left out first, and panes only if this
         // is not enough.
         let has_footer = height >= 6;
-        let top = if height >= 32 {
+        // A second line of the title is for a notice that does not fit into the first one.
+        let has_second = height >= 32 && app.title().columns() > width.into();
+        let top = if has_second {
             2
         } else {
             u16::from(height >= 8)

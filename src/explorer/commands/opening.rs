@@ -50,6 +50,8 @@ pub fn open(app: &mut App, opened: Opened) {
         Opened::Scene(opening) => {
             edit::open(app, opening.document);
             if let Some(study_map) = opening.study_map {
+                // The curve was measured on another contact than the scenes of the study.
+                close_measured(app);
                 show_study(app, study_map);
             }
         }
@@ -59,6 +61,18 @@ pub fn open(app: &mut App, opened: Opened) {
             app.ask_again(Purpose::Curve(*question), "", &reason);
         }
         Opened::Surface(path) => set_roughness(app, &path),
+    }
+}
+
+fn close_measured(app: &mut App) {
+    if let Some(Measured { name, .. }) = &app.edit.measured {
+        let closed = format!("{name} is closed; u shows it again");
+        let edited = Edited {
+            measured: None,
+            ..app.edit.edited()
+        };
+        edit::adopt_all(app, edited);
+        app.set_done(closed);
     }
 }
 

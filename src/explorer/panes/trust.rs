@@ -4,12 +4,14 @@
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
 use crate::explorer::app::App;
+use crate::explorer::measured::fitted;
 use crate::explorer::panel::{Panel, entries};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_rounded, grouped, per_cent};
+use asperity_experiment::Grade;
 use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Sign, Span};
 use asperity_report::{CostReport, error_rows, theory_rows, work_precision};
 use asperity_scene::Estimate;
@@ -243,7 +245,7 @@ fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     if let Some(reference) = reference {
         budget = budget.with_model(reference.budget.model);
     }
-    error_rows(
+    let mut rows = error_rows(
         &computed.scene,
         outcome,
         estimate,
@@ -251,7 +253,24 @@ fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
         ensemble,
         reference,
         advice::row,
-    )
+    );
+    if let Some(misfit) = refuted(app)
+        && let Some((_, model)) = rows.iter_mut().find(|(name, _)| *name == "model")
+    {
+        *model = format!("not known: the scene does not describe the measured curve, {misfit}");
+    }
+    rows
+}
+
+/// Returns the misfit of the scene to the measured curve in words, if it is so large that the model
+/// does not describe the curve; otherwise `None`.
+fn refuted(app: &App) -> Option<String> {
+    let fit = fitted(&app.studies)?;
+    app.edit.measured.as_ref()?;
+    match fit.grade {
+        Grade::No => Some(format!("misfit {}", format_rounded(fit.misfit, 3, "1"))),
+        _ => None,
+    }
 }
 
 /// Returns rows of names and texts as lines of this width. The names have a column of their own,

@@ -9,7 +9,7 @@ use crate::explorer::commands::{map_over, target};
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text::{Part, filled, on_one_line, wrapped_within};
+use crate::explorer::text::{Part, filled, wrapped_within};
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, format_range, format_rounded, grouped};
@@ -22,28 +22,15 @@ use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
 /// Returns the lines of the title: the name of the scene, a sign for unsaved changes, and the
-/// notice of the scene. If the scene has changed and its notice has not, the notice is left out,
-/// because it may be wrong now.
+/// notice of the scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
-    let document = &app.edit.document;
-    let scene = document.scene();
-    let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
-    let name = if has_title {
-        &scene.title
-    } else {
-        document.name()
-    };
-    let mut spans = vec![Span::styled(name.to_owned(), app.style(Meaning::Title))];
-    if app.edit.is_unsaved() {
-        spans.push(Span::styled(" [changed]", app.style(Meaning::Title)));
-    }
-    let saved = app.edit.saved.get(document.name());
-    let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
-    if !app.edit.is_unsaved() || !is_saved_notice {
-        let notice = format!("  {}", on_one_line(&scene.notice));
-        spans.push(Span::styled(notice, app.style(Meaning::Quiet)));
-    }
-    wrapped_within(&Line::from(spans), width, rows)
+    let title = app.title();
+    let heading = format!("{}{}", title.name, title.sign());
+    let line = Line::from_iter([
+        Span::styled(heading, app.style(Meaning::Title)),
+        Span::styled(title.notice_apart(), app.style(Meaning::Quiet)),
+    ]);
+    wrapped_within(&line, width, rows)
 }
 
 /// Returns the status lines below the panes, at most `rows`: the main results of the scene, a
@@ -168,7 +155,12 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     }
     let mut line = Line::raw(format!("{text}  "));
     let room = usize::from(width).saturating_sub(line.width());
-    line.extend(headline(app, room));
+    let beside = headline(app, room);
+    // The results and the warnings matter more than the keys, whose row the message then takes.
+    if beside.spans.is_empty() && rows > 1 {
+        return vec![Line::raw(text.to_owned()), headline(app, width.into())];
+    }
+    line.extend(beside);
     vec![line]
 }
 
@@ -224,8 +216,11 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     }
     let facts = facts(app, width);
     let full = line_of_facts(app, &facts, width, str::to_owned);
-    // Shorter names of the regimes may leave room for more facts.
-    let short = line_of_facts(app, &facts, width, |text| text.replace("pressure-", ""));
+    // A shorter name of the regime may leave room for more facts.
+    let short = line_of_facts(app, &facts, width, |text| {
+        text.replace("pressure-", "press.-")
+            .replace(" (d=0, F=0)", "")
+    });
     if short.spans.len() > full.spans.len() {
         short
     } else {

@@ -71,7 +71,7 @@ fn a_map_has_the_selected_row_and_the_row_edited_before() {
 fn the_rows_and_the_quantity_of_a_map_are_typed() {
     let mut driver = with_maps(rough());
     for (typed, title) in [
-        ("F_a over F_n × γ", "Map of F_a over F_n, γ"),
+        ("F_a over F_n × γ", "Map of F_a over force of stage 1, γ"),
         ("dissipated_energy over hurst, length", "over H, L"),
         ("contact_fraction over ν x k", "over ν, k"),
         (
@@ -98,6 +98,14 @@ fn the_rows_and_the_quantity_of_a_map_are_typed() {
             .count();
         assert!(computed > grid.cells.len() / 2, "{typed}: {computed}");
     }
+    // The mark moves along works of adhesion of a scene that states κ.
+    driver.press("M Ctrl+u `F_a over L × γ` Enter Up");
+    assert!(
+        driver.document().scene().adhesion.unwrap().work().is_some(),
+        "{}",
+        driver.text()
+    );
+    driver.press("u");
     for (typed, why) in [
         ("F_a", "two rows"),
         ("F_b over E × h", "no quantity"),
