@@ -3,6 +3,7 @@
 use super::curve_options;
 use super::measured::Measured;
 use super::parameters::{Parameter, Rows};
+use super::profiles;
 use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
 use asperity_study::Ensemble;
@@ -328,6 +329,17 @@ impl Editor {
                 self.left.insert(name, document.clone());
             }
         }
+    }
+
+    /// Returns the number of random profiles that are computed for the present scene.
+    pub fn count_profiles(&self) -> u64 {
+        profiles::count(self.profiles, &self.scene)
+    }
+
+    /// Returns the option of the command line for the number of profiles, with a blank before it;
+    /// empty for the usual number.
+    pub fn profiles_argument(&self) -> String {
+        profiles::argument(self.profiles, &self.scene)
     }
 
     /// Sets the number of profiles that the user named when starting the explorer.

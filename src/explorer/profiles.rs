@@ -1,7 +1,7 @@
 //! The number of random profiles over which the explorer takes medians and quartiles. It belongs to
 //! the explorer and not to the scene, so a scene file does not contain it.
 
-use super::editor::Editor;
+use asperity_scene::Scene;
 use asperity_scene::fields::{Field, Range, Step};
 use asperity_study::Ensemble;
 use std::ops::RangeInclusive;
@@ -18,32 +18,28 @@ pub static FIELD: Field = Field::beside(
     PATH,
     "profiles",
     Range::Whole(*ALLOWED.start(), *ALLOWED.end()),
-    "random profiles of medians, quartiles and answers, from the seed of the scene on; of the \
-     explorer, not of the scene file (--profiles)",
+    "random profiles of medians, quartiles and answers, from the seed of the scene on; i and Y have \
+     16. Of the explorer, not of the scene file (--profiles)",
 )
 .step(Step::Doubling)
 .words("number of profiles realisations realizations ensemble sample statistics median seeds");
 
-/// Returns the number of random profiles that are computed for the present scene: 1 if its profile
-/// is fixed, otherwise the number that the user has chosen.
-pub fn count(edit: &Editor) -> u64 {
-    edit.profiles.min(most(edit))
-}
-
-fn most(edit: &Editor) -> u64 {
-    if Ensemble::profiles_of(&edit.scene) == 1 {
+/// Returns the number of random profiles that are computed for a scene if the user wants this
+/// number: 1 if the profile of the scene is fixed.
+pub fn count(wanted: u64, scene: &Scene) -> u64 {
+    if Ensemble::profiles_of(scene) == 1 {
         1
     } else {
-        *ALLOWED.end()
+        wanted
     }
 }
 
-/// Returns the option of the command line for the number of profiles, with a blank before it; empty
+/// Returns the option of the command line for a number of profiles, with a blank before it; empty
 /// for the usual number.
-pub fn argument(edit: &Editor) -> String {
-    if count(edit) == Ensemble::profiles_of(&edit.scene) {
+pub fn argument(wanted: u64, scene: &Scene) -> String {
+    if count(wanted, scene) == Ensemble::profiles_of(scene) {
         String::new()
     } else {
-        format!(" --profiles={}", edit.profiles)
+        format!(" --profiles={wanted}")
     }
 }

@@ -7,7 +7,6 @@ use super::commands::stages::with_path;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::{Exported, OPEN_COMMAND};
-use super::profiles;
 use super::theme::Theme;
 use super::view;
 use crate::explorer::command_line::command_line;
@@ -66,7 +65,7 @@ fn write_content(out: &mut dyn Write, app: &App, file: &OutputFile) -> io::Resul
     match file.content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
         Content::Plan => {
-            let plan = plan(app, profiles::count(&app.edit)).map_err(io::Error::other)?;
+            let plan = plan(app, app.edit.count_profiles()).map_err(io::Error::other)?;
             out.write_all(plan.to_ron().as_bytes())
         }
         Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),

@@ -53,6 +53,19 @@ fn hursts() -> Vec<f64> {
     hursts
 }
 
+/// Returns true if neighbouring values have equal ratios, apart from their rounding to a few digits.
+fn have_equal_ratios(values: &[f64]) -> bool {
+    const ROUNDING: f64 = 0.02;
+    let ratios: Vec<f64> = values.windows(2).map(|pair| pair[1] / pair[0]).collect();
+    let Some(first) = ratios.first() else {
+        return false;
+    };
+    values[0] > 0.0
+        && ratios
+            .iter()
+            .all(|ratio| (ratio / first - 1.0).abs() < ROUNDING)
+}
+
 /// Returns the error of a scene for which no map can be made.
 fn refused(found: &str, allowed: &str) -> StudyError {
     StudyError::refused(Some("no map"), found, allowed)
@@ -191,9 +204,9 @@ impl Plan {
         scene.numerics.edges = Edges::SubCell;
         let mut made = Vec::new();
         for (path, values) in axes {
-            let mut axis = Axis::new(path, Spacing::Logarithmic, values.to_vec(), &scene)?;
-            if axis.is_whole() {
-                axis.spacing = Spacing::List;
+            let mut axis = Axis::new(path, Spacing::List, values.to_vec(), &scene)?;
+            if !axis.is_whole() && have_equal_ratios(values) {
+                axis.spacing = Spacing::Logarithmic;
             }
             made.push(axis);
         }

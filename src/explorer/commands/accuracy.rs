@@ -6,7 +6,6 @@ use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
 use crate::explorer::panes;
-use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Study, ensemble_key, profiles_key};
@@ -81,7 +80,7 @@ fn preview(document: &Document) -> Study {
 /// shows in its status line; `None` if the scene has a fixed profile.
 fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     let scene = Arc::clone(&app.edit.scene);
-    let profiles = profiles::count(&app.edit);
+    let profiles = app.edit.count_profiles();
     let key = ensemble_key(profiles, &scene);
     let is_random = Ensemble::profiles_of(&scene) > 1;
     is_random.then(|| {

@@ -8,7 +8,6 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
-use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
@@ -545,7 +544,7 @@ fn after_edit(app: &mut App) {
     app.map.moving = false;
     let live_map = app.map.key(&app.edit.scene).unwrap_or_default();
     let squares = profiles_key(&app.edit.scene);
-    let profiles = ensemble_key(profiles::count(&app.edit), &app.edit.scene);
+    let profiles = ensemble_key(app.edit.count_profiles(), &app.edit.scene);
     let preview = app.edit.document.text();
     app.studies.keep(&[&live_map, preview, &profiles, &squares]);
     // Manual loading ends, because it belongs to the profile and the contact before the edit.

@@ -6,7 +6,6 @@ use crate::explorer::app::{App, ExportKind};
 use crate::explorer::command_line::{command_line, curve_arguments};
 use crate::explorer::measured::Measured;
 use crate::explorer::pane::Pane;
-use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use asperity_data::{is_control, parse_quantity};
 use asperity_report::{Format, LEAST_WIDTH, check_extension, parse_printed_length};
@@ -214,7 +213,7 @@ pub fn copy_command(app: &mut App) {
         None => String::new(),
     };
     let document = &app.edit.document;
-    let profiles = profiles::argument(&app.edit);
+    let profiles = app.edit.profiles_argument();
     let program = format!("asperity{profiles}{measured}");
     let command = command_line(&program, document.name(), document.overrides());
     copy(app, command);

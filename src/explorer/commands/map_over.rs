@@ -40,6 +40,14 @@ pub fn ask(app: &mut App) {
     let is_number = |path: &str| rows.iter().any(|row| row.path == path);
     let mut paths: Vec<&str> = Vec::new();
     paths.extend(selected.map(|row| row.path.as_str()));
+    // The heading of the loading and a separation have no number. The preload is meant then.
+    let preload = pressing_stage(&app.edit.document.scene().loading);
+    let preload = rows
+        .iter()
+        .find(|row| row.leg.is_some() && row.leg == preload);
+    if selected.is_some_and(|row| row.group == "loading") {
+        paths.extend(preload.map(|row| row.path.as_str()));
+    }
     paths.extend(app.edit.edited_rows.iter().rev().map(String::as_str));
     paths.extend(PROPOSED);
     paths.retain(|path| is_number(path));
@@ -275,6 +283,15 @@ pub fn answer(app: &App) -> Option<String> {
         let ends = (axis.values[0], axis.values[axis.values.len() - 1]);
         let range = format_range(ends, 3, axis.unit);
         parts.push(format!("{} {range}", axis.symbol_or_name()));
+    }
+    let adhesion = app.edit.document.scene().adhesion;
+    if let Some((stated, _)) = adhesion.and_then(|adhesion| adhesion.parameter())
+        && !plan
+            .axes
+            .iter()
+            .any(|axis| axis.path.starts_with("adhesion."))
+    {
+        parts.push(format!("{} stays", stated.symbol()));
     }
     parts.push("Enter".to_owned());
     Some(parts.join(" · "))

@@ -6,7 +6,6 @@ use crate::explorer::action::Task;
 use crate::explorer::advice;
 use crate::explorer::app::{App, Message};
 use crate::explorer::parameters::{Parameter, Setting};
-use crate::explorer::profiles;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use crate::explorer::text::wrapped;
@@ -167,7 +166,7 @@ pub fn study(app: &App) -> Option<Study> {
         Arc::clone(&app.edit.scene),
         sought(app.edit.parameter()?)?.to_owned(),
     );
-    let profiles = profiles::count(&app.edit);
+    let profiles = app.edit.count_profiles();
     Some(Study::new(
         key.clone(),
         false,
@@ -217,15 +216,15 @@ pub fn answer(app: &App) -> Option<Vec<String>> {
     })
 }
 
-/// Returns the answer to the inverse question in as many lines of this width as it needs, with a
-/// strip of the values on all profiles; `None` if the user is typing no target, or if there is no
-/// answer yet.
-pub fn answer_lines(app: &App, width: u16) -> Option<Vec<Line<'static>>> {
+/// Returns the answer to the inverse question in as many lines of this width as it needs. If there
+/// are at most `rows` lines, a strip of the values on all profiles comes first. `None` if the user
+/// is typing no target, or if there is no answer yet.
+pub fn answer_lines(app: &App, width: u16, rows: usize) -> Option<Vec<Line<'static>>> {
     let condition = condition_text(typed(app)?);
     let Some(Ok(known)) = found(app, &condition) else {
         return None;
     };
-    let mut lines = strip(known, width.into());
+    let mut lines = Vec::new();
     for part in found_briefly(known) {
         let text = if part.detail.is_empty() {
             part.text
@@ -241,6 +240,11 @@ pub fn answer_lines(app: &App, width: u16) -> Option<Vec<Line<'static>>> {
             "Enter takes it"
         };
         lines.push(Line::raw(taken));
+    }
+    let mut strip = strip(known, width.into());
+    if strip.len() + lines.len() <= rows {
+        strip.append(&mut lines);
+        return Some(strip);
     }
     Some(lines)
 }

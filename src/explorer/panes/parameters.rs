@@ -81,7 +81,7 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
         None => Line::styled(not_listed(app), app.style(Meaning::Quiet)),
     };
     let most = usual.max(size.height / 2);
-    if let Some(mut lines) = target::answer_lines(app, size.width) {
+    if let Some(mut lines) = target::answer_lines(app, size.width, most.into()) {
         lines.truncate(most.into());
         lines.resize(lines.len().max(usual.into()), Line::default());
         return lines;

@@ -3,7 +3,6 @@
 use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
-use crate::explorer::profiles;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use asperity_plot::Figure;
@@ -78,6 +77,6 @@ pub fn outcome(app: &App) -> Exported<'_> {
         deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
         wording: advice::row,
     };
-    let command = format!("asperity run{}", profiles::argument(&app.edit));
+    let command = format!("asperity run{}", app.edit.profiles_argument());
     Some((command.into(), Box::new(report)))
 }

@@ -206,7 +206,7 @@ fn an_answer_has_one_line_in_a_small_window_and_a_strip_in_a_large_one() {
             assert!(answer.ends_with("· Enter"), "{answer}");
         }
         // One dot for each profile with a value, in two rows at most, above the ends of the axis.
-        let lines = answer_lines(&driver.app, 40).unwrap();
+        let lines = answer_lines(&driver.app, 40, 20).unwrap();
         let texts: Vec<String> = lines.iter().map(ToString::to_string).collect();
         assert!(
             texts[1].contains('●') && texts[2].contains("──"),
