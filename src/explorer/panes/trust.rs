@@ -33,9 +33,9 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Trust",
         "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver. An \
-         error is the largest at half, once and twice the load; ◆ is the scene. PageDown: the next page in a small window. Below the chart the errors of F_a by their sources, and what other theories say",
+         error is the largest at half, once and twice the load; ◆ is the scene. PageDown: the next page in a \
+         small window. Below the chart the errors of F_a by their sources, and what other theories say",
     )],
-    ..PaneRow::EMPTY
 };
 
 /// Time limit of the whole measurement of errors and times. It is equal to the default of
