@@ -10,6 +10,7 @@ use crate::explorer::config::{Config, default_path};
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::Measured;
 use crate::explorer::opening::{Opening, OpeningError};
+use crate::explorer::profiles::ALLOWED;
 use crate::explorer::recognition::{no_curve, no_scene};
 use crate::explorer::session::Options;
 use crate::explorer::theme::{Marker, Theme};
@@ -38,6 +39,11 @@ pub struct ExploreArguments {
     /// Compare with this scene: its curve is shown as a ghost
     #[arg(long, value_name = "OTHER", conflicts_with = "restore")]
     pub compare: Option<String>,
+    /// Show medians over COUNT random profiles; default: 16, or 1 for a fixed profile
+    ///
+    /// The row `profiles` of the explorer changes it.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(ALLOWED), verbatim_doc_comment)]
+    pub profiles: Option<u64>,
     #[command(flatten)]
     pub look: LookArguments,
     /// Open the unsaved changes of a session that was interrupted
@@ -225,6 +231,7 @@ fn opening(
         error => error.into(),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
+    opening.profiles = arguments.profiles;
     if let Some(other) = &arguments.compare {
         let document = open_scene(other)?;
         let outcome = compute(&document, document.scene())?.into();

@@ -3,11 +3,12 @@
 use super::error::CliError;
 use super::typed::TYPED;
 use crate::explorer::theme::Appearance;
-use asperity_data::{check_writable, parse_quantity, path_name, write_new};
+use asperity_data::{check_writable, path_name, write_new};
 use asperity_plot::{Figure, Palette, figure_text};
 use asperity_report::{
-    Format, Report, alternatives, check_extension, entries, files_provenance, parameter_lines,
-    scene_provenance, scenes_provenance,
+    Format, LEAST_HEIGHT, LEAST_WIDTH, Report, alternatives, check_extension, entries,
+    files_provenance, parameter_lines, parse_printed_length, printed_pixels, scene_provenance,
+    scenes_provenance,
 };
 use asperity_scene::text::quoted;
 use asperity_scene::{Document, Scene};
@@ -26,13 +27,6 @@ pub(super) const WITHOUT_PICTURE: &[Format] =
 /// Formats of a result that is neither a table nor a picture: text and JSON.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Smallest width and smallest height in mm of a printed figure.
-const LEAST: [u32; 2] = [50, 30];
-/// Largest width, and also largest height, in mm of a printed figure.
-const MOST: u32 = 500;
-/// Number of px (1/96 inch) in a metre of a printed figure.
-const PX: f64 = 96.0 / 0.0254;
-
 /// Format of results, a file for them in place of standard output, and the look of figures.
 #[derive(Args, Clone, Debug, Default)]
 #[command(group(ArgGroup::new("written").multiple(true)))]
@@ -47,10 +41,10 @@ pub struct OutputArguments {
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<Format>,
     /// Width of a printed figure: 85mm, 170mm; letters keep their size
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[0]))]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| parse_printed_length(text, LEAST_WIDTH))]
     pub width: Option<f64>,
     /// Height of a printed figure: 60mm; default: what its panels need
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[1]))]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| parse_printed_length(text, LEAST_HEIGHT))]
     pub height: Option<f64>,
     /// Draw only these panels of a figure: a, or a,c
     #[arg(long, value_name = "LETTERS")]
@@ -82,19 +76,8 @@ pub(super) fn only_formats(formats: &'static [Format]) -> impl Fn(Arg) -> Arg {
     }
 }
 
-/// Parses a length and returns it in m. The length must be from `least` mm to [`MOST`] mm.
-fn length(text: &str, least: u32) -> Result<f64, String> {
-    let length = parse_quantity(text, "m").map_err(|error| error.to_string())?;
-    let range = 1e-3 * f64::from(least)..=1e-3 * f64::from(MOST);
-    if range.contains(&length) {
-        Ok(length)
-    } else {
-        Err(format!("allowed: from {least}mm to {MOST}mm"))
-    }
-}
-
-/// Origin of a result: the scene or the files from which it was computed. It is written into the
-/// file of the result, so that the result can be computed again.
+/// Origin of results. The origin is written into the files of the results, so that they can be
+/// computed again.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
     /// A scene, and the document from which it was read. Paths in the scene are relative to the
@@ -144,8 +127,7 @@ impl OutputArguments {
 
     /// Returns the figure with the width, height, panels and title that the user has requested.
     fn looked(&self, figure: Figure) -> Result<Figure, CliError> {
-        let [width, height] =
-            [self.width, self.height].map(|length| length.map(|length| PX * length));
+        let [width, height] = [self.width, self.height].map(|length| length.map(printed_pixels));
         let figure = Figure {
             width,
             height,

@@ -73,6 +73,8 @@ pub struct CurveRequest {
 pub struct OutputFile {
     pub path: PathBuf,
     pub content: Content,
+    /// Width of a figure in µm; `None` for the usual width.
+    pub width: Option<u32>,
     pub overwrite: bool,
     pub then_quit: bool,
 }
@@ -88,8 +90,10 @@ pub enum WriteFailure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Scene,
-    /// Export of the selected pane in this format. A format for pictures gives the figure of the
-    /// pane, and a format for data gives its numbers. The text format gives the text of all panes.
+    /// The plan of the live map.
+    Plan,
+    /// The selected pane in this format: a format for pictures gives the figure of the pane, a
+    /// format for data its numbers. The text format gives the text of all panes.
     Pane(Format),
 }
 

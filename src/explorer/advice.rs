@@ -39,7 +39,7 @@ pub fn row(remedy: &Remedy) -> String {
         Remedy::FreeIn(range) => return format!("asperity fit --free {range} searches beyond"),
         Remedy::ManyProfiles => "asperity fit compares the curve with many of them",
         Remedy::Profiles(count) => return format!("{count} profiles"),
-        Remedy::MoreProfiles => "asperity run --profiles",
+        Remedy::MoreProfiles => "the row profiles",
         Remedy::NoProfiles => "a fit of the profile of the scene",
         Remedy::RoughnessErrors => "asperity fit takes them into account",
         Remedy::NoRoughnessErrors => "no errors of the roughness",

@@ -16,16 +16,18 @@ use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, FollowedPath, Preview, SolvedScene};
 use super::studies::Findings;
+use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
 use asperity_contact::{LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_report::{LoopQuantities, Section, counted_texts, percent, warning_texts};
+use asperity_report::{Format, LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
 use asperity_study::{Axis, Ensemble, Quantity};
 use ratatui::style::Style;
+use ratatui::text::Span;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -37,6 +39,23 @@ pub struct CurveLook {
     pub normalised: bool,
 }
 
+/// Kind of an exported file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExportKind {
+    pub format: Format,
+    /// Width of a figure in µm; `None` for the usual width.
+    pub width: Option<u32>,
+}
+
+impl Default for ExportKind {
+    fn default() -> Self {
+        ExportKind {
+            format: Format::Pdf,
+            width: None,
+        }
+    }
+}
+
 /// Message to the user, shown below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Message {
@@ -45,6 +64,12 @@ pub enum Message {
     /// The explorer has refused the value that the user gave the selected parameter. The text is
     /// the reason.
     Refused(String),
+    /// The median answer of an inverse question has become a value of the scene. The message also
+    /// states the median that this quantity then has, as soon as it is computed.
+    Taken {
+        name: String,
+        quantity: Quantity,
+    },
 }
 
 #[derive(Clone, Debug)]
@@ -57,6 +82,9 @@ pub struct View {
     pub zoomed: bool,
     /// True if the list of events takes the place of the results.
     pub lists_events: bool,
+    /// Index of the shown page of a pane that has several pages in a small window. An index beyond
+    /// the last page means the last page.
+    pub page: usize,
     pub size: (u16, u16),
     pub appearance: Appearance,
     pub close_up: CloseUpTarget,
@@ -73,9 +101,46 @@ pub struct View {
     /// True if computing times are shown. A demo hides them, because they differ from one
     /// computation to the next.
     pub shows_times: bool,
-    /// Text that a demo shows instead of the keys, which have no effect while its script plays;
-    /// `None` outside a demo.
+    /// What the user exported last, which the next export proposes.
+    pub export: ExportKind,
+    /// Text that a demo shows instead of the keys, which have no effect while its script plays.
     pub demo: Option<&'static str>,
+}
+
+/// Texts of the title line.
+pub struct SceneTitle {
+    /// Title of the scene or, if it has none, its name.
+    pub name: String,
+    pub is_changed: bool,
+    /// Notes on the scene; empty if there are none.
+    pub notice: String,
+}
+
+impl SceneTitle {
+    /// Returns the sign for unsaved changes, with a blank before it; empty without changes.
+    pub fn sign(&self) -> &'static str {
+        if self.is_changed { " [changed]" } else { "" }
+    }
+
+    /// Returns the notice with blanks before it; empty if there is none.
+    pub fn notice_apart(&self) -> String {
+        if self.notice.is_empty() {
+            String::new()
+        } else {
+            format!("  {}", self.notice)
+        }
+    }
+
+    /// Returns the number of columns of the whole title on one line.
+    pub fn columns(&self) -> usize {
+        Span::raw(format!(
+            "{}{}{}",
+            self.name,
+            self.sign(),
+            self.notice_apart()
+        ))
+        .width()
+    }
 }
 
 /// State of the contact for which the screen waits.
@@ -140,6 +205,7 @@ impl App {
                 large: None,
                 zoomed: false,
                 lists_events: false,
+                page: 0,
                 size,
                 appearance,
                 close_up: CloseUpTarget::WHOLE,
@@ -149,6 +215,7 @@ impl App {
                 squares: false,
                 crosshair: None,
                 shows_times: true,
+                export: ExportKind::default(),
                 demo: None,
             },
             solved: None,
@@ -186,6 +253,7 @@ impl App {
         let mut done = None;
         match self.message.take() {
             Some(Message::Done(text)) => done = Some(text),
+            Some(Message::Taken { .. }) => {}
             Some(Message::Error(text) | Message::Refused(text)) => error = Some(text),
             None => {}
         }
@@ -202,6 +270,32 @@ impl App {
             self.set_error(text);
         } else {
             self.set_done(text);
+        }
+    }
+
+    /// Returns what the title line shows. If the scene has changed and its notice has not, the
+    /// notice is left out, because it may be wrong now.
+    pub fn title(&self) -> SceneTitle {
+        let document = &self.edit.document;
+        let scene = document.scene();
+        let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
+        let name = if has_title {
+            &scene.title
+        } else {
+            document.name()
+        };
+        let is_changed = self.edit.is_unsaved();
+        let saved = self.edit.saved.get(document.name());
+        let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
+        let notice = if is_changed && is_saved_notice {
+            String::new()
+        } else {
+            on_one_line(&scene.notice)
+        };
+        SceneTitle {
+            name: name.to_owned(),
+            is_changed,
+            notice,
         }
     }
 
@@ -256,7 +350,7 @@ impl App {
     }
 
     pub(super) fn ask(&mut self, purpose: Purpose, text: &str) {
-        self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
+        self.prompt = Some(Prompt::new(purpose, text, &self.edit));
     }
 
     /// Returns the governing parameters of the present scene, such as the effective modulus and the
@@ -366,7 +460,8 @@ impl App {
         }
         let mut axes = self
             .map
-            .plan(self.edit.document.scene())?
+            .plan(self.edit.document.scene())
+            .ok()?
             .axes
             .into_iter()
             .rev();
@@ -459,6 +554,7 @@ impl App {
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
+            self.view.page = 0;
         }
         self.view.pane = selected;
     }
@@ -649,7 +745,7 @@ impl App {
                 "roughness.rms_gradient" => governing.amplitude?.rms_gradient,
                 _ => return None,
             },
-            Setting::Heading | Setting::CurveOption(_) => return None,
+            Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => return None,
         };
         Some(ron_float(value))
     }

@@ -3,11 +3,13 @@
 use super::curve_options;
 use super::manual_path::{ManualPath, change_in_words};
 use super::measured::Measured;
-use super::parameters::{Parameter, parameters};
+use super::parameters::{Parameter, Rows};
+use super::profiles;
 use asperity_contact::Direction;
 use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
-use std::collections::BTreeMap;
+use asperity_study::Ensemble;
+use std::collections::{BTreeMap, BTreeSet};
 
 use std::mem::replace;
 use std::path::Path;
@@ -21,6 +23,8 @@ pub struct Edited {
     pub document: Document,
     pub measured: Option<Measured>,
     pub path: Option<Arc<ManualPath>>,
+    /// Number of random profiles.
+    pub profiles: u64,
 }
 
 /// Returns true if a row of the list of parameters has this path. A loading stage with a number is
@@ -40,6 +44,7 @@ impl Edited {
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
             || self.curve_source() != other.curve_source()
+            || self.profiles != other.profiles
     }
 
     /// Returns the file of the measured curve, and the options with which the curve was read.
@@ -71,6 +76,8 @@ pub struct Editor {
     series: Option<Direction>,
     /// The last move, as long as the solver may still refuse it and nothing has followed it.
     tried: Option<TriedMove>,
+    /// Number of random profiles that the user wants. A scene with a fixed profile has one.
+    pub profiles: u64,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.
     pub scene: Arc<CheckedScene>,
@@ -86,13 +93,27 @@ pub struct Editor {
     left: BTreeMap<String, Document>,
     pub generation: u64,
     pub parameters: Vec<Parameter>,
+    /// Parameters without a row in the list, because the scene leaves them at their defaults. A
+    /// search finds them as well.
+    absent: Vec<Parameter>,
+    /// Paths of the parameters that got a row because the user has chosen them in a search.
+    pub revealed: BTreeSet<&'static str>,
+    /// Paths of the rows that the user has edited, each once, the last edited one at the end.
+    pub edited_rows: Vec<String>,
     pub selected: usize,
 }
 
 impl Editor {
     pub fn new(document: Document) -> Self {
+        let revealed = BTreeSet::new();
+        let profiles = Ensemble::PROFILES;
+        let rows = Rows::of(&document, None, profiles, &revealed);
         let mut editor = Editor {
-            parameters: parameters(&document, None),
+            profiles,
+            parameters: rows.listed,
+            absent: rows.absent,
+            revealed,
+            edited_rows: Vec::new(),
             measured: None,
             path: None,
             series: None,
@@ -149,6 +170,15 @@ impl Editor {
                 return self.selected;
             };
             path = group;
+        }
+    }
+
+    /// Stores the selected row as the row that the user has edited last.
+    pub fn note_edited_row(&mut self) {
+        if let Some(Parameter { path, .. }) = self.parameter() {
+            let path = path.clone();
+            self.edited_rows.retain(|edited| *edited != path);
+            self.edited_rows.push(path);
         }
     }
 
@@ -239,15 +269,18 @@ impl Editor {
         Some(typed)
     }
 
+    /// Returns what the user explores: the present document, the present curve and the number of
+    /// profiles.
     pub fn edited(&self) -> Edited {
         Edited {
             document: self.document.clone(),
             measured: self.measured.clone(),
             path: self.path.clone(),
+            profiles: self.profiles,
         }
     }
 
-    /// Replaces the present scene, curve and path, and returns the previous ones.
+    /// Replaces the present scene, curve, path and number of profiles, and returns the previous ones.
     fn exchange(&mut self, edited: Edited) -> Edited {
         self.series = None;
         self.tried = None;
@@ -255,6 +288,7 @@ impl Editor {
             document: replace(&mut self.document, edited.document),
             measured: replace(&mut self.measured, edited.measured),
             path: replace(&mut self.path, edited.path),
+            profiles: replace(&mut self.profiles, edited.profiles),
         }
     }
 
@@ -299,8 +333,11 @@ impl Editor {
             before.measured.as_ref(),
             self.measured.as_ref(),
         ));
+        if before.profiles != self.profiles {
+            changes.push(format!("profiles {} → {}", before.profiles, self.profiles));
+        }
         // Moves of the body change no scene, and the solver needs not compute it again.
-        if is_other_scene {
+        if is_other_scene || before.profiles != self.profiles {
             self.renew();
         }
         Some(changes.join(", "))
@@ -324,10 +361,42 @@ impl Editor {
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
-        self.parameters = parameters(&self.document, self.measured.as_ref());
+        self.list();
         self.scene = scene_of(&self.document);
         self.select(self.row_of(&selected));
         self.generation += 1;
+    }
+
+    /// Updates the list of parameters.
+    fn list(&mut self) {
+        let rows = Rows::of(
+            &self.document,
+            self.measured.as_ref(),
+            self.profiles,
+            &self.revealed,
+        );
+        self.parameters = rows.listed;
+        self.absent = rows.absent;
+    }
+
+    /// Returns the parameters that a search can find: the rows of the list, followed by the
+    /// parameters without a row.
+    pub fn searchable(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().chain(&self.absent)
+    }
+
+    /// Selects the parameter with this index among those that a search can find. A parameter
+    /// without a row gets one.
+    pub fn reveal(&mut self, index: usize) {
+        let Some(absent) = index.checked_sub(self.parameters.len()) else {
+            return self.select(index);
+        };
+        if let Some(Parameter { field, .. }) = self.absent.get(absent) {
+            let path = field.path;
+            self.revealed.insert(path);
+            self.list();
+            self.select(self.row_of(path));
+        }
     }
 
     pub fn is_unsaved(&self) -> bool {
@@ -367,6 +436,23 @@ impl Editor {
                 self.left.insert(name, document.clone());
             }
         }
+    }
+
+    /// Returns the number of random profiles that are computed for the present scene.
+    pub fn count_profiles(&self) -> u64 {
+        profiles::count(self.profiles, &self.scene)
+    }
+
+    /// Returns the option of the command line for the number of profiles, with a blank before it;
+    /// empty for the usual number.
+    pub fn profiles_argument(&self) -> String {
+        profiles::argument(self.profiles, &self.scene)
+    }
+
+    /// Sets the number of profiles that the user named when starting the explorer.
+    pub fn begin_with_profiles(&mut self, profiles: u64) {
+        self.profiles = profiles;
+        self.renew();
     }
 
     /// Adds the measured curve that the user named when starting the explorer. Undo does not remove

@@ -26,7 +26,9 @@ impl Layout {
         // In a small window, the lines around the panes are left out first, and panes only if this
         // is not enough.
         let has_footer = height >= 6;
-        let top = if height >= 32 {
+        // A second line of the title is for a notice that does not fit into the first one.
+        let has_second = height >= 32 && app.title().columns() > width.into();
+        let top = if has_second {
             2
         } else {
             u16::from(height >= 8)
@@ -110,6 +112,9 @@ pub fn has_title(area: Rect) -> bool {
 
 /// Smallest width in columns of a window with the list of parameters at the right side.
 const WITH_LIST: u16 = 60;
+/// Smallest width in columns of a window with the selected pane of accuracy and the list of
+/// parameters.
+const WITH_TRUST: u16 = 100;
 /// Smallest width in columns of the list of parameters at the side.
 const NARROWEST_LIST: u16 = 32;
 /// Largest width in columns of the list of parameters at the side.
@@ -130,7 +135,9 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
         return Vec::new();
     }
     let selected = app.view.pane;
-    if app.view.zoomed {
+    // The pane of accuracy has tables and a chart, which need the whole width of a small window.
+    let is_whole = selected == Pane::Trust && body.width < WITH_TRUST;
+    if app.view.zoomed || is_whole {
         return vec![(selected, body)];
     }
     if body.width < WITH_LIST {

@@ -3,7 +3,8 @@
 
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};
-use asperity_study::{Plan, Quantity};
+use asperity_study::{Plan, Quantity, StudyError};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -11,8 +12,11 @@ pub struct MapState {
     /// Quantity that the user has chosen. If the map does not contain it, the first quantity of the
     /// map is shown.
     pub quantity: Quantity,
-    /// The finished study that the user has opened; `None` if the user has opened none. It stays
-    /// open until the user opens another study.
+    /// Axes that the user has chosen for the live map; `None` for a map over H and κ.
+    pub chosen: Option<ChosenAxes>,
+    /// File to which the plan of the live map was written; `None` if it was not.
+    pub plan_file: Option<PathBuf>,
+    /// A finished study. It stays open until another study is opened.
     pub study: Option<OpenStudy>,
     /// True if the map of the study is shown instead of the live map, which the explorer computes
     /// for the present scene.
@@ -20,6 +24,22 @@ pub struct MapState {
     /// True if the last edit moved the mark on the map. If the mark moves again, both moves are one
     /// edit.
     pub moving: bool,
+}
+
+/// Two numbers of the scene over which the live map is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenAxes {
+    pub across: ChosenAxis,
+    pub up: ChosenAxis,
+    /// Quantity that the map records in addition to the usual ones.
+    pub quantity: Quantity,
+}
+
+/// Number of the scene, and the values that it has on an axis of the live map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenAxis {
+    pub path: String,
+    pub values: Vec<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +60,8 @@ impl Default for MapState {
     fn default() -> Self {
         MapState {
             quantity: Quantity::Regime,
+            chosen: None,
+            plan_file: None,
             study: None,
             of_study: false,
             moving: false,
@@ -85,14 +107,27 @@ impl MapState {
         self.study.as_ref().filter(|_| self.of_study)
     }
 
-    pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {
-        Plan::of_map(scene).ok()
+    /// Returns the plan of the live map of a scene.
+    ///
+    /// # Errors
+    /// Returns the reason if the scene has no live map.
+    pub fn plan(&self, scene: &Scene) -> Result<Plan, StudyError> {
+        let Some(ChosenAxes {
+            across,
+            up,
+            quantity,
+        }) = &self.chosen
+        else {
+            return Plan::of_map(scene);
+        };
+        let axes = [up, across].map(|axis| (axis.path.as_str(), &axis.values[..]));
+        Plan::of_map_over(scene, &axes, *quantity)
     }
 
     /// Returns a text that identifies the live map of a scene, which the explorer computes for this
     /// scene. The text does not depend on the roughness parameter κ and the Hurst exponent, because
     /// they are the axes of the map. Returns `None` if the scene has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
-        self.plan(scene).map(|plan| format!("{plan:?}"))
+        self.plan(scene).ok().map(|plan| format!("{plan:?}"))
     }
 }

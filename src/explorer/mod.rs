@@ -38,6 +38,7 @@ pub mod panel;
 pub mod panes;
 pub mod parameters;
 pub mod player;
+pub mod profiles;
 pub mod prompt;
 pub mod recognition;
 pub mod request;

@@ -26,6 +26,8 @@ pub struct Opening {
     pub study_map: Option<Arc<StudyMap>>,
     pub ghost: Option<Ghost>,
     pub measured: Option<Measured>,
+    /// Number of random profiles; `None` for the usual number.
+    pub profiles: Option<u64>,
 }
 
 #[derive(Debug, Error)]
@@ -50,6 +52,7 @@ impl From<Document> for Opening {
             study_map: None,
             ghost: None,
             measured: None,
+            profiles: None,
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::curve_options;
 use super::measured::Measured;
+use super::profiles;
 use super::text::on_one_line;
 use asperity_contact::Move;
 use asperity_data::{format_quantity, grouped};
@@ -10,6 +11,8 @@ use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field
 use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
+use asperity_study::Ensemble;
+use std::collections::BTreeSet;
 
 /// Groups in the order in which the list shows them. The groups that users change most often come
 /// first: adhesion, loading and roughness. Form and material are usually chosen once. The measured
@@ -25,15 +28,14 @@ const GROUPS: [&str; 8] = [
     curve_options::GROUP,
 ];
 
-/// Fields of the scene file that have no row in the list. `numerics.edges` is among them because
-/// the choice of springs for a tolerance sets it together with the number of springs.
-const HIDDEN: [&str; 5] = [
-    "version",
-    "observe",
-    "numerics.samples",
-    "numerics.edges",
-    "numerics.solver",
-];
+/// Fields of the scene file that never have a row in the list. They change nothing that the
+/// explorer shows.
+const HIDDEN: [&str; 2] = ["version", "observe"];
+
+/// Fields that have a row in the list only if the user has searched for them. `numerics.edges` is
+/// among them because the choice of springs for a tolerance sets it together with the number of
+/// springs.
+const ON_SEARCH: [&str; 3] = ["numerics.samples", "numerics.edges", "numerics.solver"];
 
 /// Three ways to state the adhesion. Each value determines the other two.
 const ADHESION: [&str; 3] = [
@@ -90,6 +92,8 @@ pub enum Setting {
     /// The row is an option for reading the measured curve. The number is the index of the option
     /// in [`curve_options::OPTIONS`].
     CurveOption(usize),
+    /// The row is the number of random profiles of the explorer.
+    Profiles,
 }
 
 impl Parameter {
@@ -151,7 +155,7 @@ impl Parameter {
                 "roughness.wavelengths" => Some("the modes"),
                 path => Some(field(replaced_by(path)?, None)?.symbol),
             },
-            Setting::Heading | Setting::CurveOption(_) => None,
+            Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => None,
         }
     }
 
@@ -170,6 +174,7 @@ impl Parameter {
             spelled(symbol),
             self.path.replace(['.', '_'], " "),
             self.name(),
+            self.field.words.to_owned(),
             self.field.meaning.to_owned(),
         ]
     }
@@ -219,28 +224,70 @@ pub fn replaced_by(path: &str) -> Option<&'static str> {
     }
 }
 
-/// Returns the rows for a scene and for the measured curve that is compared with the scene.
-pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Parameter> {
-    let mut parameters = Vec::new();
-    for field in document.fields() {
-        if HIDDEN.iter().any(|hidden| field.path.starts_with(hidden)) {
-            continue;
+/// The parameters of a scene and of the measured curve that is compared with the scene.
+pub struct Rows {
+    /// Rows of the list.
+    pub listed: Vec<Parameter>,
+    /// Parameters that have no row unless the user searches for them.
+    pub absent: Vec<Parameter>,
+}
+
+impl Rows {
+    /// Returns the parameters for a scene, a measured curve and a number of random profiles. The
+    /// number has a row only if the profile of the scene is random. The fields with the paths
+    /// `revealed` have a row in any case.
+    pub fn of(
+        document: &Document,
+        measured: Option<&Measured>,
+        profiles: u64,
+        revealed: &BTreeSet<&'static str>,
+    ) -> Rows {
+        let mut listed = Vec::new();
+        let mut absent = Vec::new();
+        for field in document.fields() {
+            if HIDDEN.contains(&field.path) {
+                continue;
+            }
+            match row_of_field(document, field) {
+                Some(row) => listed.push(row),
+                None if revealed.contains(field.path) => listed.extend(plain_row(document, field)),
+                None => absent.extend(plain_row(document, field)),
+            }
+            if field.path == "loading" {
+                listed.extend(stage_rows(&document.scene().loading));
+            }
         }
-        parameters.extend(row_of_field(document, field));
-        if field.path == "loading" {
-            parameters.extend(stage_rows(&document.scene().loading));
+        add_other_adhesion(&mut listed);
+        absent.retain(|row| !ADHESION.contains(&row.field.path));
+        if Ensemble::profiles_of(document.scene()) > 1 {
+            listed.push(Parameter {
+                written: profiles.to_string(),
+                shown: profiles.to_string(),
+                setting: Setting::Profiles,
+                ..Parameter::new(&profiles::FIELD, profiles::PATH)
+            });
         }
+        if let Some(measured) = measured {
+            listed.extend(curve_rows(measured));
+        }
+        listed.sort_by_key(|parameter| {
+            let group = GROUPS.iter().position(|group| *group == parameter.group);
+            let first = FIRST.iter().position(|path| *path == parameter.path);
+            (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
+        });
+        Rows { listed, absent }
     }
-    add_other_adhesion(&mut parameters);
-    if let Some(measured) = measured {
-        parameters.extend(curve_rows(measured));
-    }
-    parameters.sort_by_key(|parameter| {
-        let group = GROUPS.iter().position(|group| *group == parameter.group);
-        let first = FIRST.iter().position(|path| *path == parameter.path);
-        (group, !parameter.is_head(), first.unwrap_or(FIRST.len()))
-    });
-    parameters
+}
+
+/// Returns the row of a field with its value as the scene states it; `None` if the scene cannot
+/// have the field.
+fn plain_row(document: &Document, field: &'static Field) -> Option<Parameter> {
+    let written = document.value(field.path)?;
+    Some(Parameter {
+        written: written.to_owned(),
+        shown: shown(field, written),
+        ..Parameter::new(field, field.path)
+    })
 }
 
 /// Returns the row of a field of the scene; `None` if the list has no row for the field in this
@@ -253,6 +300,9 @@ fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter>
             setting: Setting::Heading,
             ..row
         });
+    }
+    if ON_SEARCH.iter().any(|path| field.path.starts_with(path)) {
+        return None;
     }
     let written = document.value(field.path)?;
     // If the instrument is rigid, its stiffness has a row only if a stage prescribes the

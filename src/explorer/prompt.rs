@@ -2,15 +2,16 @@
 //! the user; or the help.
 
 use super::action::OutputFile;
+use super::editor::Editor;
 use super::keys::bindings::{Binding, Context, Row};
 use super::openable::Openable;
 use super::opening::CurveQuestion;
 use super::pane::Pane;
 use super::parameters::Parameter;
-use super::search::{corrected, find};
+use super::search::{Search, find};
 use super::text_line::TextLine;
 use asperity_scene::{Document, Preset};
-use std::path::is_separator;
+use std::path::{Path, is_separator};
 
 /// Line below the panes in which the user types a text or answers a question. While the prompt is
 /// open, it receives all keys.
@@ -25,7 +26,9 @@ pub struct Prompt {
     /// Corrected search: the typed words, replaced by similar words of the list. `None` if the list
     /// contains the typed words.
     pub corrected: Option<String>,
-    /// Paths that begin with the typed path. Empty unless there are several such paths.
+    /// Typed words that the list does not contain.
+    pub unknown: Vec<String>,
+    /// Paths that begin with the typed path, if there are several.
     pub paths: Vec<String>,
     pub refused: Option<String>,
 }
@@ -37,8 +40,9 @@ pub enum Purpose {
     Move,
     /// Target of an inverse question: a quantity and the value that it is to have.
     Target,
-    /// Relative error of the result. The explorer then chooses the number of springs so that the
-    /// error is at most this large.
+    /// Quantity and two numbers of the scene, over which it is mapped.
+    Map,
+    /// Relative error that is to be reached by the choice of the number of springs.
     Tolerance,
     /// Names of the parameters to be fitted to the measured curve.
     Fit,
@@ -46,8 +50,9 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
-    /// Path of a file to open, or words of a search in the contained list of what the user can
-    /// open.
+    /// File for the plan of the live map.
+    SavePlan,
+    /// Words of a search in this list of what can be opened, or a path.
     Open(Vec<Openable>),
     /// Value of an option that is necessary to read a measured curve.
     Curve(CurveQuestion),
@@ -65,7 +70,18 @@ pub enum Purpose {
     Leave,
 }
 
-/// Entry in the help, or in the list of commands, parameters or scenes, that a search can find.
+/// Name of the list of commands.
+pub const COMMANDS: &str = "Commands";
+
+/// Version of the program, and what to cite.
+const ABOUT: &str = concat!(
+    "version ",
+    env!("CARGO_PKG_VERSION"),
+    "; CITATION.cff is the reference of the program, and V. L. Popov, A. E. Filippov: Physical \
+     Mesomechanics 15 (2012) that of the model",
+);
+
+/// Entry in the help, or in the list of commands, parameters or scenes.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
@@ -82,8 +98,9 @@ pub struct Topic {
 pub enum Aim {
     Nothing,
     Command(&'static Row),
-    /// Selects the parameter in the row with this index.
+    /// Selects the parameter with this index among the parameters that a search can find.
     Parameter(usize),
+    Show(Pane),
     Open(String),
 }
 
@@ -96,6 +113,23 @@ impl Topic {
             text: text.to_owned(),
             words: String::new(),
             aim: Aim::Nothing,
+        }
+    }
+
+    /// Creates the entry that names the version of the program and what to cite.
+    pub fn about() -> Self {
+        Topic {
+            words: "version about cite citation reference licence license author".to_owned(),
+            ..Topic::read_only("Asperity", ABOUT)
+        }
+    }
+
+    /// Creates an entry that shows a pane.
+    pub fn of_pane(pane: Pane, name: &str, text: &str) -> Self {
+        Topic {
+            section: "Panes",
+            aim: Aim::Show(pane),
+            ..Topic::read_only(name, text)
         }
     }
 
@@ -117,7 +151,11 @@ impl Topic {
             section: "Parameters of this scene",
             name: parameter.name(),
             text: parameter.field.meaning.to_owned(),
-            words: parameter.texts()[..3].join(" "),
+            words: format!(
+                "{} {}",
+                parameter.texts()[..3].join(" "),
+                parameter.field.words
+            ),
             aim: Aim::Parameter(row),
         }
     }
@@ -138,7 +176,7 @@ impl Topic {
 
     /// Returns the texts in which a search looks for words: each key, the name, the everyday words,
     /// the description and the section.
-    fn texts(&self) -> Vec<String> {
+    pub fn texts(&self) -> Vec<String> {
         let mut texts: Vec<String> = self.name.split(' ').map(str::to_owned).collect();
         texts.push(self.name.clone());
         texts.push(self.words.clone());
@@ -149,13 +187,18 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt whose line contains `text`. `parameters` are the parameters of the scene.
-    /// If `text` is a value or the name of a file, the first character that the user types replaces
-    /// it.
-    pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
+    /// Creates a prompt whose line contains this text. `edit` has the parameters of the scene. If
+    /// the text is a value or the name of a file, the first character that the user types replaces
+    /// the text.
+    pub fn new(purpose: Purpose, text: &str, edit: &Editor) -> Self {
         let is_replaced = matches!(
             purpose,
-            Purpose::Value | Purpose::Save { .. } | Purpose::Export
+            Purpose::Value
+                | Purpose::Target
+                | Purpose::Map
+                | Purpose::Save { .. }
+                | Purpose::SavePlan
+                | Purpose::Export
         );
         let line = if is_replaced {
             TextLine::selected(text)
@@ -168,10 +211,11 @@ impl Prompt {
             found: Vec::new(),
             selected: 0,
             corrected: None,
+            unknown: Vec::new(),
             paths: Vec::new(),
             refused: None,
         };
-        prompt.search(parameters);
+        prompt.search(edit);
         prompt
     }
 
@@ -190,31 +234,32 @@ impl Prompt {
     }
 
     /// Finds the list entries that match the typed line, and selects the best one.
-    pub fn search(&mut self, parameters: &[Parameter]) {
+    pub fn search(&mut self, edit: &Editor) {
         let query = self.line.text();
-        self.selected = 0;
-        self.found = match &self.purpose {
-            // A text with a separator is a path, so it is not compared with names.
-            Purpose::Open(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Open(entries) => {
-                let entries = entries.iter().enumerate();
-                find(entries.map(|(index, entry)| entry.texts(index)), query)
+        let search = match &self.purpose {
+            Purpose::Open(entries) => Search {
+                found: found_openables(entries, query),
+                ..Search::default()
+            },
+            // Without words, the list has only the rows that it also has without a search.
+            Purpose::Parameter { .. } if query.trim().is_empty() => Search {
+                found: (0..edit.parameters.len()).collect(),
+                ..Search::default()
+            },
+            Purpose::Parameter { .. } => {
+                let texts: Vec<_> = edit.searchable().map(Parameter::texts).collect();
+                Search::new(&texts, query)
             }
-            Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
             Purpose::Topics { topics, .. } => {
-                let found = find(topics.iter().map(Topic::texts), query);
-                self.corrected = if found.is_empty() {
-                    corrected(topics.iter().map(Topic::texts), query)
-                } else {
-                    None
-                };
-                match &self.corrected {
-                    Some(words) => find(topics.iter().map(Topic::texts), words),
-                    None => found,
-                }
+                let texts: Vec<_> = topics.iter().map(Topic::texts).collect();
+                Search::new(&texts, query)
             }
-            _ => Vec::new(),
+            _ => Search::default(),
         };
+        self.selected = 0;
+        self.found = search.found;
+        self.unknown = search.unknown;
+        self.corrected = search.corrected;
     }
 
     pub fn choice(&self) -> Option<usize> {
@@ -229,5 +274,32 @@ impl Prompt {
         } else {
             None
         }
+    }
+}
+
+/// Returns the indices of the entries that match a typed text, the best first.
+fn found_openables(entries: &[Openable], typed: &str) -> Vec<usize> {
+    // A text with a separator is a path, so it is not compared with names.
+    if typed.contains(is_separator) {
+        return Vec::new();
+    }
+    let texts = entries.iter().enumerate().map(|(index, entry)| {
+        let mut texts = entry.texts(index);
+        // The name of a file is compared only with names. Otherwise a scene whose title contains
+        // the name would be opened in place of the file.
+        if is_file_name(typed) {
+            texts.truncate(2);
+        }
+        texts
+    });
+    find(texts, typed)
+}
+
+/// Returns true if a text is the name of a file with an extension.
+fn is_file_name(text: &str) -> bool {
+    let has_blank = text.trim().contains(char::is_whitespace);
+    match Path::new(text.trim()).extension() {
+        Some(extension) => !has_blank && !extension.is_empty(),
+        None => false,
     }
 }

@@ -1,6 +1,5 @@
 //! Search for words in lists of parameters, commands and scenes.
 
-use super::text::on_one_line;
 use asperity_scene::text::nearest;
 
 /// Largest length of a query in bytes. Every word of a query is searched in all texts, so that a
@@ -41,28 +40,93 @@ fn cost(texts: &[String], word: &str) -> Option<usize> {
     None
 }
 
-/// Returns the query with corrected words: each word that no candidate contains is replaced by the
-/// most similar word of the candidates. `None` if nothing has to be corrected, or if there is no
-/// similar word.
-pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
-    if query.len() > LONGEST_QUERY {
-        return None;
-    }
-    let texts: Vec<String> = candidates.into_iter().flatten().collect();
-    let mut corrected = Vec::new();
-    for word in query.split_whitespace() {
-        let is_known = texts.iter().any(|text| rank(text, word).is_some());
-        corrected.push(if is_known {
-            word
+/// Words without a meaning of their own. A search leaves them out, unless the query has no others.
+const FILLERS: [&str; 18] = [
+    "a", "an", "and", "as", "by", "for", "how", "i", "in", "into", "my", "of", "on", "show", "the",
+    "to", "what", "with",
+];
+
+/// Result of a search for the words of the user.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Search {
+    /// Indices of the candidates that contain all known words, the best first.
+    pub found: Vec<usize>,
+    /// Words that no candidate contains and that resemble no word of the candidates.
+    pub unknown: Vec<String>,
+    /// The words for which candidates were searched, if they differ from the typed words by the
+    /// correction of a misspelt word.
+    pub corrected: Option<String>,
+}
+
+impl Search {
+    /// Searches the candidates for the words of a query. A word that no candidate contains is
+    /// corrected if it is clearly a misspelling, otherwise it is left out and reported as unknown.
+    /// A wrong guess would be worse than none, because it hides that nothing was found.
+    pub fn new(candidates: &[Vec<String>], query: &str) -> Search {
+        if query.len() > LONGEST_QUERY {
+            return Search::default();
+        }
+        let texts = || candidates.iter().flatten();
+        let mut words = Vec::new();
+        let mut unknown = Vec::new();
+        let mut is_corrected = false;
+        for word in without_fillers(query) {
+            let is_known = texts().any(|text| rank(text, word).is_some());
+            if is_known {
+                words.push(word);
+                continue;
+            }
+            match misspelt(word, candidates) {
+                Some(near) => {
+                    words.push(near);
+                    is_corrected = true;
+                }
+                None => unknown.push(word.to_owned()),
+            }
+        }
+        let words = words.join(" ");
+        let has_no_known_word = words.is_empty() && !unknown.is_empty();
+        let found = if has_no_known_word {
+            Vec::new()
         } else {
-            nearest(word, words_of(&texts))?
-        });
+            find(candidates.iter().cloned(), &words)
+        };
+        Search {
+            found,
+            unknown,
+            corrected: is_corrected.then_some(words),
+        }
     }
-    let corrected = corrected.join(" ");
-    if corrected.is_empty() || corrected == on_one_line(query) {
+}
+
+/// Returns the words of a query without the words in [`FILLERS`], or all its words if it has no
+/// others. A filler of one letter may be a symbol or a key, so it is kept if it is alone.
+fn without_fillers(query: &str) -> Vec<&str> {
+    let all: Vec<&str> = query.split_whitespace().collect();
+    let mut words = all.clone();
+    words.retain(|word| !FILLERS.contains(&word.to_lowercase().as_str()));
+    if words.is_empty() { all } else { words }
+}
+
+/// Fewest letters of a word that is corrected. Shorter words resemble too many others.
+const FEWEST_LETTERS: usize = 6;
+
+/// Returns the word of the candidates that the user has clearly misspelt; `None` if there is none.
+/// Such a word begins with the same letter and is at most one letter longer or shorter.
+fn misspelt<'a>(word: &str, candidates: &'a [Vec<String>]) -> Option<&'a str> {
+    let letters = word.chars().count();
+    if letters < FEWEST_LETTERS {
         return None;
     }
-    Some(corrected)
+    let mut near = Vec::new();
+    for texts in candidates {
+        near.extend(words_of(texts).filter(|near| {
+            let has_same_start =
+                near.to_lowercase().chars().next() == word.to_lowercase().chars().next();
+            has_same_start && near.chars().count().abs_diff(letters) <= 1
+        }));
+    }
+    nearest(word, near)
 }
 
 fn words_of(texts: &[String]) -> impl Iterator<Item = &str> {
@@ -102,7 +166,7 @@ mod tests {
     #[test]
     fn starts_of_words_come_first_and_names_before_prose() {
         let candidates = || {
-            [
+            vec![
                 texts(&["a", "b", "A smooth SPHERE"]),
                 texts(&["b", "The sphere"]),
                 texts(&["rough-sphere"]),
@@ -120,12 +184,30 @@ mod tests {
         );
         assert_eq!(find(candidates(), " "), [0, 1, 2, 3, 4, 5]);
         assert!(find(candidates(), &"a".repeat(300)).is_empty());
-        let near = |query: &str| corrected(candidates(), query);
-        assert_eq!(near("shpere rough"), Some("SPHERE rough".to_owned()));
+        let search = |query: &str| Search::new(&candidates(), query);
+        assert_eq!(search("shpere rough").corrected.unwrap(), "SPHERE rough");
+        assert_eq!(search("shpere rough").found, [2, 3]);
+        assert_eq!(search("the rough of a sphere").found, [2, 3]);
+        assert_eq!(search("a").found.len(), 6, "a filler alone is a word");
+        let unknown = search("qqqqqq sphere");
         assert_eq!(
-            (near("sphere"), near("qqqqqq"), near("")),
-            (None, None, None)
+            (unknown.unknown, unknown.found.len()),
+            (vec!["qqqqqq".to_owned()], 6)
         );
+        for (query, found) in [
+            ("sphere", 6),
+            ("qqqqqq", 0),
+            ("spher", 6),
+            ("sfere", 0),
+            ("", 6),
+        ] {
+            let search = search(query);
+            assert_eq!(
+                (search.corrected, search.found.len()),
+                (None, found),
+                "{query}"
+            );
+        }
         let symbols = || ["h", "H"].map(|symbol| texts(&[symbol]));
         assert_eq!(
             (find(symbols(), "h"), find(symbols(), "H")),

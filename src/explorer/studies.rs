@@ -109,16 +109,21 @@ impl Study {
     }
 }
 
-/// Returns the key for studies (background computations) on random profiles of a scene. The key
-/// does not depend on the texts of the scene, such as its title.
-pub fn ensemble_key(scene: &Scene) -> String {
+/// Returns the key for studies (background computations) on random profiles of a scene. It does not
+/// depend on the texts of the scene, such as its title.
+pub fn profiles_key(scene: &Scene) -> String {
     let scene = Scene {
         title: String::new(),
         notice: String::new(),
         observe: Vec::new(),
         ..scene.clone()
     };
-    format!("ensemble of {scene:?}")
+    format!("profiles of {scene:?}")
+}
+
+/// Returns the key of the study (background computation) of a number of random profiles of a scene.
+pub fn ensemble_key(profiles: u64, scene: &Scene) -> String {
+    format!("{profiles} {}", profiles_key(scene))
 }
 
 /// Message from a study (background computation): its intermediate value, or the result with which

@@ -53,7 +53,7 @@ fn apply(app: &mut App, action: Action) {
     // repeated in the new list.
     let has_other_rows = app.edit.parameters.len() != rows;
     if has_other_rows && let Some(prompt) = &mut app.prompt {
-        prompt.search(&app.edit.parameters);
+        prompt.search(&app.edit);
     }
 }
 

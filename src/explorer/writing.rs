@@ -3,6 +3,7 @@
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
 use super::commands::manual::with_path;
+use super::commands::map_over::plan;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::{Exported, OPEN_COMMAND};
@@ -10,7 +11,7 @@ use super::view;
 use crate::explorer::command_line::command_line;
 use asperity_data::{Table, WriteError, write_new_file};
 use asperity_plot::{Colours, Figure, screen_svg, screen_text};
-use asperity_report::{Format, Json, Report, scene_provenance};
+use asperity_report::{Format, Json, Report, printed_pixels, scene_provenance};
 use asperity_scene::Scene;
 use asperity_scene::library::own_folder;
 use ratatui::Terminal;
@@ -27,8 +28,8 @@ use std::path::{Path, is_separator};
 /// the extension `.ron`, unless its path leads to something other than a file, such as a folder.
 /// Returns the action that reports the final name of the file and whether it was written.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
-    let is_scene = file.content == Content::Scene;
-    if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
+    let is_ron = matches!(file.content, Content::Scene | Content::Plan);
+    if is_ron && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
         file.path.set_extension("ron");
     }
     let result = write_file(app, folder, &file).map_err(|error| match error {
@@ -56,21 +57,23 @@ fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteEr
             reason,
         })?;
     }
-    write_new_file(&path, file.overwrite, |out| {
-        write_content(out, app, &file.path, file.content)
-    })
+    write_new_file(&path, file.overwrite, |out| write_content(out, app, file))
 }
 
-fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
-    match content {
+fn write_content(out: &mut dyn Write, app: &App, file: &OutputFile) -> io::Result<()> {
+    match file.content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
+        Content::Plan => {
+            let plan = plan(app, app.edit.count_profiles()).map_err(io::Error::other)?;
+            out.write_all(plan.to_ron().as_bytes())
+        }
         Content::Pane(Format::Text) => out.write_all(text_of(app).as_bytes()),
-        Content::Pane(format) => write_pane(out, app, path, format),
+        Content::Pane(format) => write_pane(out, app, file, format),
     }
 }
 
 /// Writes the content of the selected pane, and the command that computes this content.
-fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io::Result<()> {
+fn write_pane(out: &mut dyn Write, app: &App, file: &OutputFile, format: Format) -> io::Result<()> {
     let Some((command, report)) = exported(app, format) else {
         let why = "the selected pane has nothing yet to export";
         return Err(io::Error::other(why));
@@ -84,7 +87,7 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
     let document = opened.as_ref().unwrap_or(&app.edit.document);
     let command = command_line(&command, document.name(), document.overrides());
     let folder = document.resolve("");
-    let destination = path.parent().unwrap_or(Path::new(""));
+    let destination = file.path.parent().unwrap_or(Path::new(""));
     let provenance = scene_provenance(&command, document.scene(), &folder, destination)
         .map_err(io::Error::other)?;
     if format == Format::Json && report.json().is_none() {
@@ -93,6 +96,16 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
             table: &*report,
         };
         return asperity_report::write(out, &table, format, &provenance);
+    }
+    if format.is_picture()
+        && let Some(width) = file.width
+        && let Some(figure) = report.figure()
+    {
+        let figure = Figure {
+            width: Some(printed_pixels(1e-6 * f64::from(width))),
+            ..figure
+        };
+        return asperity_report::write(out, &figure, format, &provenance);
     }
     asperity_report::write(out, &*report, format, &provenance)
 }

@@ -8,7 +8,7 @@ use super::common::study::{PLAN, merged};
 use asperity::explorer::action::{Action, Gesture, Mouse, Task};
 use asperity::explorer::keys::bindings::KeyCommand;
 use asperity::explorer::opening::Opening;
-use asperity::explorer::parameters::parameters;
+use asperity::explorer::parameters::Rows;
 use asperity::explorer::snapshot::Reply;
 use asperity::explorer::update::{request, update};
 use asperity::explorer::view;
@@ -291,7 +291,13 @@ impl Explorer {
             assert_eq!(again.scene(), document.scene());
             assert_eq!(
                 app.edit.parameters,
-                parameters(document, app.edit.measured.as_ref())
+                Rows::of(
+                    document,
+                    app.edit.measured.as_ref(),
+                    app.edit.profiles,
+                    &app.edit.revealed
+                )
+                .listed
             );
             assert!(!app.is_refused(), "a changed scene is not refused");
         }

@@ -52,6 +52,106 @@ pub fn found_in_words(found: &Found) -> String {
     }
 }
 
+/// Part of an answer in few words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AnswerPart {
+    pub text: String,
+    /// Words that a reader with more room also wants; empty if there are none.
+    pub detail: String,
+}
+
+impl AnswerPart {
+    fn new(text: String, detail: String) -> Self {
+        AnswerPart { text, detail }
+    }
+}
+
+/// Returns the answer of a search in few words, the most important part first: the median over the
+/// profiles with the quartiles, such as `12.44 µN (6.71 to 17.3)`, then the number of profiles
+/// without such a value.
+pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
+    let words = SearchWords::new(found);
+    let count = found.answers.len();
+    let with_value = count - found.unreached();
+    let anywhere = found.answers.iter().filter(|one| reaches_everywhere(one));
+    let anywhere = anywhere.count();
+    let of_profiles = |number: usize| match count {
+        1 => String::new(),
+        _ => format!(" on {number} of {count}"),
+    };
+    let name = &words.name;
+    let searched = format!("searched: {name} {}", words.searched);
+    let values = format!("{} {}", words.quantity, words.reachable);
+    let mut parts = Vec::new();
+    if anywhere == count && found.question.seeks_least_preload() {
+        let text = format!("any {name} will do");
+        return vec![AnswerPart::new(text, values)];
+    }
+    if anywhere == count {
+        let text = format!("always above {}", words.target);
+        return vec![AnswerPart::new(text, format!("{values}, {searched}"))];
+    }
+    match found.quantile(0.5) {
+        _ if with_value == 0 && anywhere > 0 => {
+            let text = format!("always above {}{}", words.target, of_profiles(anywhere));
+            parts.push(AnswerPart::new(text, searched));
+        }
+        _ if with_value == 0 => {
+            let text = format!("{} never", words.target);
+            parts.push(AnswerPart::new(text, format!("{values}, {searched}")));
+            return parts;
+        }
+        None => {
+            let range = found.range().unwrap_or_default();
+            let range = format_range(range, 3, found.question.axis.unit);
+            let text = format!("{range} on {with_value} of {count}, no median");
+            parts.push(AnswerPart::new(text, searched));
+        }
+        Some(median) => parts.push(AnswerPart::new(median_briefly(found, median), searched)),
+    }
+    if anywhere > 0 && with_value > 0 {
+        let any = format!("any {name}{}", of_profiles(anywhere));
+        parts.push(AnswerPart::new(any, String::new()));
+    }
+    let never = found.answers.iter().filter(|one| reaches_nowhere(one));
+    let largest = never
+        .clone()
+        .filter_map(|one| one.reachable)
+        .map(|(_, most)| most);
+    if let Some(largest) = largest.reduce(f64::max) {
+        let text = format!("never{}", of_profiles(never.count()));
+        let most = values_in_words(found.question.quantity, (largest, largest));
+        parts.push(AnswerPart::new(text, format!("at most {most}")));
+    }
+    let missed = found.answers.iter().filter(|one| one.may_miss).count();
+    if missed > 0 {
+        let text = format!("crossings may be missed{}", of_profiles(missed));
+        parts.push(AnswerPart::new(text, String::new()));
+    }
+    parts
+}
+
+/// Returns the median and, for several profiles, the quartiles: `12.44 µN (6.71 to 17.3)`. The unit
+/// is written once, if it is the same.
+fn median_briefly(found: &Found, median: f64) -> String {
+    let unit = found.question.axis.unit;
+    let median = format_quantity(median, unit);
+    if found.answers.len() == 1 {
+        return median;
+    }
+    let quartile = |share| match found.quantile(share) {
+        Some(value) => format_rounded(value, 3, unit),
+        None => "beyond".to_owned(),
+    };
+    let quartiles = one_unit([quartile(0.25), quartile(0.75)]);
+    let unit = match median.split_once(' ') {
+        Some((_, unit)) => format!(" {unit}"),
+        None => String::new(),
+    };
+    let quartiles = quartiles.strip_suffix(&unit).unwrap_or(&quartiles);
+    format!("{median} ({quartiles})")
+}
+
 /// Returns true if the quantity is larger than the target at all numbers of the searched range.
 fn reaches_everywhere(answer: &Answer) -> bool {
     answer.crossings.is_empty() && answer.reached == [true; 2]

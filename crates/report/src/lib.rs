@@ -16,6 +16,7 @@ mod map;
 mod measured_face;
 mod parameters;
 mod preloads;
+mod printed_size;
 mod provenance;
 mod reference;
 mod report;
@@ -42,13 +43,14 @@ pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
 pub use event::event;
 pub use events::{EventsReport, event_words, events_table};
-pub use find::{FindReport, found_in_words};
+pub use find::{AnswerPart, FindReport, found_briefly, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport, RowWarning};
 pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
 pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
 pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+pub use printed_size::{LEAST_HEIGHT, LEAST_WIDTH, parse_printed_length, printed_pixels};
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance,
     scenes_provenance,

@@ -3,6 +3,7 @@
 
 use super::axis::{Axis, Spacing};
 use super::error::StudyError;
+use super::place::scene_with;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use asperity_contact::Edges;
@@ -25,6 +26,8 @@ const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
 /// Values of κ and H in the scene of the plan. Each cell of the map replaces them by its own
 /// values.
 const ANY: (f64, f64) = (1.0, 0.5);
+/// Work of adhesion in the scene of a plan with an axis of works of adhesion.
+const ANY_WORK: f64 = 0.05;
 
 /// Number of values of κ on the map: four for each factor of two, from 1/8 to 32.
 const KAPPAS: u32 = 33;
@@ -48,6 +51,19 @@ fn hursts() -> Vec<f64> {
         hursts.push(f64::from(index) * 5.0 / 100.0);
     }
     hursts
+}
+
+/// Returns true if neighbouring values have equal ratios, apart from their rounding to a few digits.
+fn have_equal_ratios(values: &[f64]) -> bool {
+    const ROUNDING: f64 = 0.02;
+    let ratios: Vec<f64> = values.windows(2).map(|pair| pair[1] / pair[0]).collect();
+    let Some(first) = ratios.first() else {
+        return false;
+    };
+    values[0] > 0.0
+        && ratios
+            .iter()
+            .all(|ratio| (ratio / first - 1.0).abs() < ROUNDING)
 }
 
 /// Returns the error of a scene for which no map can be made.
@@ -139,6 +155,88 @@ impl Plan {
             axes,
             ..Plan::of_scene(&scene, lines, &MAP_RECORD)
         })
+    }
+}
+
+impl Plan {
+    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene over numbers of
+    /// the scene. Each of the `axes` is the path of a number and its values in SI units. The map has
+    /// the first axis upwards and the second axis across. `quantity` is recorded in addition to
+    /// [`MAP_RECORD`].
+    ///
+    /// # Errors
+    /// Returns an error if the scene has no such number, or if two axes set the same number.
+    ///
+    /// ```
+    /// use asperity_study::{Plan, Quantity};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?;
+    /// let axes: [(&str, &[f64]); 2] = [
+    ///     ("roughness.rms_height", &[1e-7, 2e-7]),
+    ///     ("material.youngs_modulus", &[1e6, 2e6, 4e6]),
+    /// ];
+    /// let plan = Plan::of_map_over(scene.scene(), &axes, Quantity::DissipatedEnergy)?;
+    /// assert_eq!((plan.cells(), plan.lines), (6, Plan::PROFILES_OF_MAP));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_map_over(
+        scene: &Scene,
+        axes: &[(&str, &[f64])],
+        quantity: Quantity,
+    ) -> Result<Plan, StudyError> {
+        let mut scene = scene.clone();
+        scene.strip();
+        let is_axis = |path: &str| axes.iter().any(|(of_axis, _)| *of_axis == path);
+        if let Some(adhesion) = scene.adhesion
+            && adhesion.parameter().is_some()
+            && is_axis("adhesion.work")
+        {
+            scene.adhesion = Some(adhesion.with_work(ANY_WORK));
+        }
+        if !is_axis("numerics.points") {
+            let waves = scene.spectrum().map_or(0, |spectrum| spectrum.last);
+            let wanted = waves
+                .saturating_mul(SPRINGS_PER_WAVE)
+                .clamp(SPRINGS.0, SPRINGS.1);
+            let wanted = wanted.max(waves.saturating_mul(2));
+            scene.numerics.points = wanted.min(scene.numerics.points);
+        }
+        scene.numerics.solver = Solver::Exact;
+        scene.numerics.edges = Edges::SubCell;
+        let mut made = Vec::new();
+        for (path, values) in axes {
+            let mut axis = Axis::new(path, Spacing::List, values.to_vec(), &scene)?;
+            if !axis.is_whole() && have_equal_ratios(values) {
+                axis.spacing = Spacing::Logarithmic;
+            }
+            made.push(axis);
+        }
+        // The key of a map is its plan. It must not depend on the numbers of the axes, because the
+        // user moves along them.
+        let first = made
+            .iter()
+            .filter_map(|axis| Some((axis, *axis.values.first()?)));
+        let scene = scene_with(&scene, first)
+            .map_err(|error| refused(&error.to_string(), "another number of the scene"))?;
+        let lines = if scene.seed().is_some() {
+            Plan::PROFILES_OF_MAP
+        } else {
+            1
+        };
+        let mut record = MAP_RECORD.to_vec();
+        if !record.contains(&quantity) {
+            record.push(quantity);
+        }
+        let plan = Plan {
+            axes: made,
+            ..Plan::of_scene(&scene, lines, &record)
+        };
+        let wrong = plan.errors();
+        if wrong.is_empty() {
+            Ok(plan)
+        } else {
+            Err(StudyError::Plan(wrong))
+        }
     }
 }
 

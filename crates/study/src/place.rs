@@ -7,6 +7,9 @@ use asperity_scene::{
     Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors,
 };
 
+/// Path of the work of adhesion.
+const WORK: &str = "adhesion.work";
+
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene does
     /// not determine this value. `computed` are the governing parameters of the computed scene,
@@ -31,8 +34,20 @@ impl Axis {
             (Target::SpringsPerWave, _) => {
                 Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64)
             }
-            _ => scene.number(&self.path),
+            _ => {
+                let stated = scene.number(&self.path);
+                stated.or_else(|| self.work_in(scene, computed))
+            }
         }
+    }
+
+    /// Returns the work of adhesion that follows from κ or e_el/γ, if it is the quantity of this
+    /// axis; otherwise `None`.
+    fn work_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
+        if self.path != WORK {
+            return None;
+        }
+        governing(scene).or(computed.copied())?.work_of_adhesion
     }
 }
 
@@ -106,7 +121,7 @@ fn turn(axis: &Axis) -> usize {
         (Target::SpringsPerWave, _) => 1,
         // The work of adhesion comes before the other numbers of the adhesion, because a scene
         // cannot have these numbers without a work of adhesion.
-        (_, "adhesion.work") => 2,
+        (_, WORK) => 2,
         (_, "adhesion.closing_work") => 3,
         (_, "adhesion.range") => 4,
         _ => 0,
@@ -192,7 +207,14 @@ impl Axis {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_all(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
-        let mut scene = scene_with(document.scene(), values.iter().copied())?;
+        let mut base = Scene::clone(document.scene());
+        if let Some((_, work)) = values.iter().find(|(axis, _)| axis.path == WORK)
+            && let Some(adhesion) = base.adhesion
+            && adhesion.parameter().is_some()
+        {
+            base.adhesion = Some(adhesion.with_work(*work));
+        }
+        let mut scene = scene_with(&base, values.iter().copied())?;
         let moves_parameter = values
             .iter()
             .any(|(axis, _)| axis.target.parameter().is_some());
@@ -221,6 +243,21 @@ mod tests {
     fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, SceneErrors> {
         let axis = Axis::new(path, Spacing::List, vec![value], base).unwrap();
         scene_with(base, std::iter::once((&axis, value)))
+    }
+
+    /// A scene that states κ has a work of adhesion as well, and gets another one.
+    #[test]
+    fn a_work_of_adhesion_replaces_kappa() {
+        let scene = open("pressure-sensitive").unwrap();
+        let scene = scene.set("adhesion", "(kappa: 6.0)").unwrap();
+        let axis = Axis::new(WORK, Spacing::List, Vec::new(), scene.scene()).unwrap();
+        let work = axis.value_in(scene.scene(), None).unwrap();
+        assert_eq!(
+            Some(work),
+            governing(scene.scene()).unwrap().work_of_adhesion
+        );
+        let twice = Axis::set_all(&scene, &[(&axis, 2.0 * work)]).unwrap();
+        assert_eq!(axis.value_in(twice.scene(), None), Some(2.0 * work));
     }
 
     #[test]

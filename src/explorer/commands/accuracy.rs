@@ -9,7 +9,7 @@ use crate::explorer::editor::scene_of;
 use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
-use crate::explorer::studies::{Study, ensemble_key};
+use crate::explorer::studies::{Study, ensemble_key, profiles_key};
 use asperity_data::Control;
 use asperity_scene::discretisation::{Choice, ChoiceError, choose, parse_tolerance};
 use asperity_scene::{CheckedScene, Document, Estimate, RunError, estimate};
@@ -80,9 +80,11 @@ fn preview(document: &Document) -> Study {
 /// Returns the study that computes the random profiles of the scene, whose results the explorer
 /// shows in its status line; `None` if the scene has a fixed profile.
 fn ensemble(app: &App, is_long: bool) -> Option<Study> {
-    let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
-    let profiles = Ensemble::profiles_of(&scene);
-    (profiles > 1).then(|| {
+    let scene = Arc::clone(&app.edit.scene);
+    let profiles = app.edit.count_profiles();
+    let key = ensemble_key(profiles, &scene);
+    let is_random = Ensemble::profiles_of(&scene) > 1;
+    is_random.then(|| {
         Study::new(key, is_long, move |simulation, control| {
             Ensemble::of(&scene, &[], profiles, simulation, control)
         })
@@ -91,7 +93,7 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
 
 /// Returns the study that computes loops of random square surfaces on an elastic half-space.
 fn squares(app: &App) -> Study {
-    let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
+    let (scene, key) = (Arc::clone(&app.edit.scene), profiles_key(&app.edit.scene));
     Study::new(key, true, move |simulation, control| {
         SquareLoops::of(&scene, simulation, control)
     })

@@ -1,16 +1,17 @@
 //! Commands of prompts, which open, edit, accept and cancel a prompt.
 
-use super::{accuracy, edit, files, manual, measured, target};
+use super::{accuracy, edit, files, manual, map_over, measured, profiles, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::bindings::{Context, KeyCommand, Row};
-use crate::explorer::layout::Layout;
+use crate::explorer::layout::{Layout, inside};
 use crate::explorer::openable::Openable;
 use crate::explorer::opening::CurveQuestion;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
-use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
+use crate::explorer::panes::trust;
+use crate::explorer::prompt::{Aim, COMMANDS, Prompt, Purpose, Topic};
 use crate::explorer::text::on_one_line;
 use asperity_scene::library::typed_path;
 use asperity_scene::presets;
@@ -35,7 +36,7 @@ pub fn open_library(app: &mut App) {
 pub fn listed(app: &mut App, entries: Vec<Openable>) {
     if let Some(prompt) = &mut app.prompt {
         prompt.purpose = Purpose::Open(entries);
-        prompt.search(&app.edit.parameters);
+        prompt.search(&app.edit);
     }
 }
 
@@ -64,12 +65,18 @@ pub fn open_help(app: &mut App) {
 /// Opens a list of all commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
     let mut topics: Vec<Topic> = app.config.bindings.listed().map(Topic::of).collect();
-    for (row, parameter) in app.edit.parameters.iter().enumerate() {
+    for (row, parameter) in app.edit.searchable().enumerate() {
         topics.push(Topic::of_parameter(row, parameter));
     }
+    for pane in Pane::ALL.iter().filter(|pane| !pane.is_large()) {
+        for (name, text) in panes::row(*pane).help {
+            topics.push(Topic::of_pane(*pane, name, text));
+        }
+    }
     topics.extend(presets().iter().map(Topic::of_preset));
+    topics.push(Topic::about());
     let commands = Purpose::Topics {
-        name: "Commands",
+        name: COMMANDS,
         topics,
         is_typed: true,
     };
@@ -106,8 +113,9 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     select(app, rows);
 }
 
-/// Moves the selection by a page, in the list of a prompt or in the list of parameters. A page has
-/// half as many entries as the window has rows, because an entry may take two rows.
+/// Moves the selection by a page, in the list of a prompt or in the list of parameters, or shows the
+/// next or previous page of the selected pane. A page of a list has half as many entries as the
+/// window has rows, because an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
     let rows = if key.code == KeyCode::PageUp {
@@ -117,13 +125,34 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     };
     if app.prompt.is_some() {
         select(app, rows)
+    } else if app.view.pane == Pane::Trust {
+        turn_page(app, rows > 0)
     } else {
         edit::move_selection(app, rows)
     }
 }
 
-/// Accepts the typed line or the selected row of a prompt. If the prompt is a question, the answer
-/// is yes. If the line is refused, the prompt stays open with this line and the reason.
+/// Returns true if a list is open, or if the selected pane has several pages.
+pub fn has_pages(app: &App) -> bool {
+    app.prompt.is_some() || app.view.pane == Pane::Trust
+}
+
+/// Shows the next or the previous page of the pane of accuracy.
+fn turn_page(app: &mut App, is_next: bool) {
+    let Some(area) = Layout::of(app).pane(Pane::Trust) else {
+        return;
+    };
+    let last = trust::count_pages(app, inside(area).as_size()) - 1;
+    let page = app.view.page.min(last);
+    app.view.page = if is_next {
+        (page + 1).min(last)
+    } else {
+        page.saturating_sub(1)
+    };
+}
+
+/// Accepts the typed line or the selected row, or answers a question with yes. If a line is
+/// refused, the prompt stays open with this line and the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else {
         return;
@@ -152,13 +181,16 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
     match &prompt.purpose {
         Purpose::Value if measured::is_option(app) => measured::accept_option(app, typed),
+        Purpose::Value if profiles::is_selected(app) => profiles::accept(app, typed),
         Purpose::Value => edit::accept_value(app, typed),
         Purpose::Target => target::accept(app, typed),
+        Purpose::Map => map_over::accept(app, typed),
+        Purpose::SavePlan => files::save_plan(app, typed_path(typed)),
         Purpose::Move => manual::accept_target(app, typed),
         Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
         Purpose::Fit => measured::accept_fit(app, typed),
         Purpose::Save { then_quit } => files::save(app, typed_path(typed), *then_quit),
-        Purpose::Export => files::export(app, typed_path(typed)),
+        Purpose::Export => files::export(app, typed),
         Purpose::Open(_) => accept_openable(app, prompt),
         Purpose::Curve(question) => accept_curve_option(app, question, typed),
         Purpose::Parameter { .. } => {
@@ -223,8 +255,9 @@ fn accept_curve_option(app: &mut App, question: &CurveQuestion, typed: &str) -> 
     Ok(())
 }
 
+/// Selects the parameter with this index among the parameters that a search can find.
 fn show_parameter(app: &mut App, row: usize) {
-    app.edit.select(row);
+    app.edit.reveal(row);
     app.show(Pane::Parameters);
 }
 
@@ -233,6 +266,7 @@ fn accept_topic(app: &mut App, topic: &Topic) {
         Aim::Nothing => {}
         Aim::Command(row) => choose(app, KeyCommand { row, key: None }),
         Aim::Parameter(row) => show_parameter(app, *row),
+        Aim::Show(pane) => app.show(*pane),
         Aim::Open(name) => app.effects.push(Task::Open(name.clone())),
     }
 }
@@ -282,7 +316,9 @@ fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
     match prompt.purpose {
-        Purpose::Save { .. } | Purpose::Export | Purpose::Open(_) => Some(text.to_owned()),
+        Purpose::Save { .. } | Purpose::SavePlan | Purpose::Export | Purpose::Open(_) => {
+            Some(text.to_owned())
+        }
         Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
             let path = text.rsplit('"').next().unwrap_or(text);
             let path = app.edit.document.resolve(path);
@@ -293,11 +329,21 @@ fn typed_in_line(app: &App) -> Option<String> {
 }
 
 pub fn can_complete(app: &App) -> bool {
-    typed_in_line(app).is_some()
+    is_map(app) || typed_in_line(app).is_some()
 }
 
-/// Requests a task that finds the paths which begin with the typed path.
+/// Returns true if the user is typing the axes of a map, whose rows can be changed.
+fn is_map(app: &App) -> bool {
+    let prompt = app.prompt.as_ref();
+    prompt.is_some_and(|prompt| matches!(prompt.purpose, Purpose::Map))
+}
+
+/// Requests the paths that begin with the typed path, as a task. In the prompt of a map, goes to the
+/// next row.
 pub fn complete(app: &mut App) {
+    if is_map(app) {
+        return map_over::next_row(app);
+    }
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));
     }

@@ -11,7 +11,7 @@ use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
-use crate::explorer::studies::ensemble_key;
+use crate::explorer::studies::{ensemble_key, profiles_key};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;
@@ -51,6 +51,7 @@ pub fn open(app: &mut App, document: Document) {
         document,
         measured: app.edit.measured.clone(),
         path: None,
+        profiles: app.edit.profiles,
     };
     adopt_all(app, opened);
     app.play_of_path = None;
@@ -122,7 +123,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
     prompt.refused = None;
     prompt.paths.clear();
-    prompt.search(&app.edit.parameters);
+    prompt.search(&app.edit);
     match prompt.purpose {
         Purpose::Value => preview(app),
         Purpose::Target => app.effects.push(Task::Study),
@@ -245,6 +246,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     {
         return Err(why.to_owned());
     }
+    app.edit.note_edited_row();
     apply(app, Ok(document));
     Ok(())
 }
@@ -253,8 +255,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
 /// refused. For a loading stage, the user may type a stage of any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
-    if let Setting::CurveOption(_) = parameter.setting {
-        return Err("an option of reading is no part of the scene".to_owned());
+    if let Setting::CurveOption(_) | Setting::Profiles = parameter.setting {
+        return Err("this row is no part of the scene".to_owned());
     }
     let typed = &typed::with_unit(app, parameter, typed);
     if let Some(leg) = parameter.leg {
@@ -301,7 +303,10 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
 /// Sets the selected parameter to the value `written`, which is in the notation of the scene file.
 pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
-        Ok(document) => apply(app, Ok(document)),
+        Ok(document) => {
+            app.edit.note_edited_row();
+            apply(app, Ok(document))
+        }
         Err(why) => refuse(app, why),
     }
 }
@@ -312,7 +317,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let changed = match selected.setting {
-        Setting::Field | Setting::Heading | Setting::CurveOption(_) => {
+        Setting::Field | Setting::Heading | Setting::CurveOption(_) | Setting::Profiles => {
             with_field(document, &selected.path, written)
         }
         Setting::WorkOfAdhesion => {
@@ -551,7 +556,8 @@ fn after_edit(app: &mut App) {
     app.progress = Some(0);
     app.map.moving = false;
     let live_map = app.map.key(&app.edit.scene).unwrap_or_default();
-    let profiles = ensemble_key(&app.edit.scene);
+    let squares = profiles_key(&app.edit.scene);
+    let profiles = ensemble_key(app.edit.count_profiles(), &app.edit.scene);
     let preview = app.edit.document.text();
-    app.studies.keep(&[&live_map, preview, &profiles]);
+    app.studies.keep(&[&live_map, preview, &profiles, &squares]);
 }

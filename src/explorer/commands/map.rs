@@ -4,18 +4,25 @@ use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::keys::key::direction;
-use crate::explorer::map_state::OpenStudy;
+use crate::explorer::map_state::{Live, OpenStudy};
 use asperity_scene::{Document, SceneErrors};
+use asperity_study::Axis;
 use asperity_study::maps::GridPlace;
-use asperity_study::{Axis, Plan};
 use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-/// Switches between the map of the opened study and the live map, which the explorer computes for
-/// the present scene.
+/// Returns from chosen axes of the live map to H and κ. If the live map has these axes, switches
+/// between it and the map of the opened study.
 pub fn toggle_study(app: &mut App) {
+    if app.map.chosen.is_some() && app.map.shown_study().is_none() {
+        app.map.chosen = None;
+        app.map.plan_file = None;
+        app.studies.forget::<Live>();
+        app.effects.push(Task::Study);
+        return;
+    }
     if app.map.study.is_none() {
         app.set_error(NO_STUDY);
         return;
@@ -102,13 +109,13 @@ const EDGE: &str = "edge of the map";
 
 /// Returns the reason why the scene has no position on the map.
 fn why_no_place(app: &App) -> String {
-    if let Err(why) = Plan::of_map(app.edit.document.scene()) {
+    if let Err(why) = app.map.plan(app.edit.document.scene()) {
         return why.to_string();
     }
     if app.map.shown_study().is_some() {
         return NO_PLACE.to_owned();
     }
-    "the scene is still being computed: its κ follows from its profile".to_owned()
+    "the scene is still being computed: a number of the axes follows from its profile".to_owned()
 }
 
 /// Returns the value on an axis that lies a number of steps after `value`; `None` if it would lie

@@ -25,9 +25,13 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
         study_map,
         ghost,
         measured,
+        profiles,
     } = opening;
     let mut app = App::new(document, size, appearance, config);
     app.ghosts.extend(ghost);
+    if let Some(profiles) = profiles {
+        app.edit.begin_with_profiles(profiles);
+    }
     if let Some(study_map) = study_map {
         show_study(&mut app, study_map);
     }
@@ -46,6 +50,8 @@ pub fn open(app: &mut App, opened: Opened) {
         Opened::Scene(opening) => {
             edit::open(app, opening.document);
             if let Some(study_map) = opening.study_map {
+                // The curve was measured on another contact than the scenes of the study.
+                close_measured(app);
                 show_study(app, study_map);
             }
         }
@@ -55,6 +61,18 @@ pub fn open(app: &mut App, opened: Opened) {
             app.ask_again(Purpose::Curve(*question), "", &reason);
         }
         Opened::Surface(path) => set_roughness(app, &path),
+    }
+}
+
+fn close_measured(app: &mut App) {
+    if let Some(Measured { name, .. }) = &app.edit.measured {
+        let closed = format!("{name} is closed; u shows it again");
+        let edited = Edited {
+            measured: None,
+            ..app.edit.edited()
+        };
+        edit::adopt_all(app, edited);
+        app.set_done(closed);
     }
 }
 
@@ -113,14 +131,12 @@ fn show_measured(
         Ok(document) => (document, None),
         Err(errors) => (app.edit.document.clone(), Some(errors)),
     };
-    edit::adopt_all(
-        app,
-        Edited {
-            document,
-            measured: Some(measured),
-            ..app.edit.edited()
-        },
-    );
+    let edited = Edited {
+        document,
+        measured: Some(measured),
+        ..app.edit.edited()
+    };
+    edit::adopt_all(app, edited);
     match wrong {
         None => {
             let instrument = instrument.map_or_else(String::new, |text| format!(". {text}"));

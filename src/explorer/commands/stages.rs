@@ -1,6 +1,6 @@
 //! Edits of the loading of the scene.
 
-use super::{edit, measured};
+use super::{edit, measured, profiles};
 use crate::explorer::app::App;
 use crate::explorer::parameters::Setting;
 
@@ -197,6 +197,7 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
         None if matches!(parameter.setting, Setting::CurveOption(_)) => {
             measured::step_option(app, steps, coarse)
         }
+        None if parameter.setting == Setting::Profiles => profiles::step(app, steps, coarse),
         Some(_) if parameter.field.unit.is_empty() => {
             let name = parameter.name();
             edit::refuse(

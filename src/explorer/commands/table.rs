@@ -2,8 +2,8 @@
 //! the list of commands, the configuration, the demo and docs/keys.md all follow from this table.
 
 use super::{
-    accuracy, compare, crosshair, dialogue, edit, files, manual, map, measured, movement, stages,
-    target, timeline, view,
+    accuracy, compare, crosshair, dialogue, edit, files, manual, map, map_over, measured, movement,
+    stages, target, timeline, view,
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -95,8 +95,15 @@ const HELP: &[Context] = &[Context::Help];
 const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const LINE: &[Context] = &[Context::Line];
-/// Contexts in which a list is open: prompts with a list, and the help.
-const LISTS: &[Context] = &[Context::List, Context::Help];
+/// Contexts with lists or panes of several pages: prompts with a list, the help, and all panes
+/// except the map, whose pages are the preloads of a study.
+const PAGED: &[Context] = &[
+    Context::Explore,
+    Context::Crosshair,
+    Context::Parameters,
+    Context::List,
+    Context::Help,
+];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
 
@@ -196,16 +203,20 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
+    row("← → h l Shift+← Shift+→ H L", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the stage by a small or a large step", ANIMATION).rank(1).unlisted(),
+    row("Home End g G", TIMELINE, "playhead-to-end", Key(timeline::go_to_end), "ends", "go to the beginning or to the end of the loading", ANIMATION).unlisted(),
+    row("+ = -", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
+    row("↑ ↓ k j PageUp PageDown Home End g G", EVENTS, "select-event", Key(timeline::select_event), "select", "go to another event of the list", ANIMATION).rank(1).unlisted(),
+
     row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand with ← → or a typed target; again: the path becomes the loading", MANUAL).words("minor loop manual history keep path"),
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
     row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
-    row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).shown_if(is_manual),
+    row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).words("detach unload").shown_if(is_manual),
     row("Esc", BY_HAND, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
     row("Home End g G", LISTED, "parameter-at-end", Key(edit::go_to_end), "", "select the first or the last parameter", PARAMETERS).unlisted(),
-    row("PageDown PageUp", LISTED, "page-parameters", Key(dialogue::page), "", "go down or up a page", PARAMETERS).unlisted(),
     row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
@@ -214,24 +225,24 @@ static TABLE: &[Entry] = &[
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),
-    row("f", LISTED, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
+    row("f", LISTED, "find-value", Do(target::ask), "for target", "find the value of the row, or the preload, for a target such as F_a/F_a,max = 20 %", PARAMETERS).words("inverse question goal reach required which solve"),
     row("t", LISTED, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch form, roughness, adhesion or unloading on or off", PARAMETERS).words("effect"),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
-    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance of F_a, such as 0.1 %, from which the number of springs follows", PARAMETERS).words("accuracy precision error convergence springs"),
-    row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
-    row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
+    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance of F_a, such as 0.1 %, from which the number of springs follows", PARAMETERS).words("accuracy precision error convergence springs faster slow performance resolution"),
+    row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS).words("cancel revert back mistake"),
+    row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS).words("again"),
 
-    row("Insert P", LISTED, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
+    row("Insert P", LISTED, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).words("loading cycle step protocol").rank(1).shown_if(is_stage),
     row("Delete Backspace", LISTED, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↑ K", LISTED, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↓ J", LISTED, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
-    row("V", LISTED, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the kind of the stage", STAGES).rank(1).shown_if(is_stage),
+    row("V", LISTED, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the kind of the stage", STAGES).words("force indentation displacement control").rank(1).shown_if(is_stage),
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).words("ghost overlay keep").rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the scene of the newest ghost", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
-    row("D", EXPLORE, "toggle-squares", Do(compare::toggle_squares), "", "compare with the same contact in three dimensions", COMPARE).words("3D half-space model error boundary elements reference"),
-    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
+    row("D", EXPLORE, "toggle-squares", Do(compare::toggle_squares), "", "compare with the same contact in three dimensions", COMPARE).words("3D half-space model error boundary elements reference cancel"),
+    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).words("noise experiment evaluate least squares regression measured").rank(2).shown_if(|app| app.edit.measured.is_some()),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or number of patches", LOOK).words("contact area displacement quantity axis hysteresis loop"),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "show forces in units of F_a,max, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
@@ -242,30 +253,31 @@ static TABLE: &[Entry] = &[
     row("( )", EXPLORE, "pan", Key(view::pan), "", "pan left or right along the profile", LOOK).unlisted(),
     row("A", EXPLORE, "toggle-trust", Do(|app| app.toggle(Pane::Trust)), "trust", "show how far F_a can be trusted", LOOK).words("accuracy error uncertainty budget theories criteria Persson Tabor JKR convergence cost time"),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number", LOOK).words("spectrum power spectral density PSD roughness"),
-    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload", LOOK).words("spread scatter ensemble profiles statistics median quartiles load"),
-    row("X", EXPLORE, "toggle-preload-scale", Do(view::toggle_preload_scale), "log/linear", "show adhesion against preload on logarithmic or linear axes", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
-    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show the change of F_a by ±10 % of each number", LOOK).words("influence derivative variation"),
+    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload", LOOK).words("spread scatter ensemble profiles statistics median quartiles load distribution histogram"),
+    row("X", EXPLORE, "toggle-preload-scale", Do(view::toggle_preload_scale), "log/linear", "show adhesion against preload on logarithmic or linear axes", LOOK).words("logarithmic axis axes scale").rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
+    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show the change of F_a by ±10 % of each number", LOOK).words("influence derivative variation sensitivity important tornado"),
     row("Tab", EXPLORE, "next-pane", Do(view::next_pane), "pane", "select the next pane", LOOK).rank(2),
     row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Task::Redraw)), "", "draw the whole screen again", LOOK),
-    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show only the selected pane, or all panes", LOOK).words("full screen fullscreen maximise"),
-    row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK).words("theme colors appearance dark light"),
+    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show only the selected pane, or all panes", LOOK).words("full screen fullscreen maximise zoom enlarge larger bigger maximize"),
+    row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK).words("theme colors appearance dark light colour color palette black white"),
 
-    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair", CROSS).words("cursor values coordinates"),
+    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair", CROSS).words("cursor values coordinates probe measure read off"),
     row("← → h l Shift+← Shift+→ H L", CROSSHAIR, "move-crosshair", Key(crosshair::step), "move", "move the crosshair by a small or a large step", CROSS).unlisted(),
     row("Home End g G", CROSSHAIR, "crosshair-to-end", Key(crosshair::go_to_end), "", "move the crosshair to an end", CROSS).unlisted(),
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
-    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ", MAP).words("phase diagram").rank(2),
-    row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value of H or κ", MAP).merges().unlisted(),
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ", MAP).words("phase diagram regime").rank(2),
+    row("M", EXPLORE, "map-over", Do(map_over::ask), "", "map a quantity over two rows, such as F_a/F_a,max over E × h", MAP).words("study sweep parametric two axes diagram plan"),
+    row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value on an axis", MAP).merges().unlisted(),
     row("Shift+← Shift+→ Shift+↓ Shift+↑ H L J K", MAP_PANE, "move-scene-coarse", Key(map::step), "", "move the scene by four values", MAP).merges().unlisted(),
     row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity", MAP),
-    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the study, or the map of the scene", MAP),
+    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "back to the map over H and κ; show the map of the study, or the map of the scene", MAP),
     row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "next or previous preload of the study, or value of a further axis", MAP),
 
-    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load file preset example measured").rank(2),
-    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).words("write file store").rank(2),
-    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane as a table, a figure or text", SCENE).words("figure picture print image table data csv pdf"),
-    row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens this scene", SCENE),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load file preset example measured recent surface curve import read").rank(2),
+    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file, or the plan of the selected map", SCENE).words("write file store store keep").rank(2),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane as a table, a figure or text", SCENE).words("figure picture print image table data csv pdf save as png svg json report paper publication plot chart screenshot width"),
+    row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens this scene", SCENE).words("share link reproduce shell clipboard"),
     row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_commands), "commands", "find a command, a parameter or a scene by words", SCENE).rank(2).unlisted(),
     row("? F1", EXPLORE, "help", Do(dialogue::open_help), "help", "show this help", SCENE).words("manual documentation keys").rank(0),
     row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).words("exit leave close").rank(0),
@@ -275,7 +287,7 @@ static TABLE: &[Entry] = &[
     row("/", HELP, "search-help", Do(dialogue::search_help), "find", "search the help by words", TEXT),
     row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
     row("↓ ↑ Ctrl+n Ctrl+p Home End", SEARCHED, "select-row", Key(dialogue::select_by), "select", "select the next, previous, first or last row", TEXT),
-    row("PageDown PageUp", LISTS, "page-rows", Key(dialogue::page), "page", "go down or up a page", TEXT),
+    row("PageDown PageUp", PAGED, "page", Key(dialogue::page), "page", "go down or up a page of a list, of the parameters or of Trust", TEXT).unlisted().shown_if(dialogue::has_pages),
     row("Enter", TYPED, "accept", Do(dialogue::accept), "accept", "accept the text or the selected row", TEXT),
     row("Tab", TYPED, "complete", Do(dialogue::complete), "complete", "complete the typed path", TEXT).shown_if(dialogue::can_complete),
     row("Esc Ctrl+c", TYPED, "cancel", Do(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),

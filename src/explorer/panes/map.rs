@@ -30,7 +30,7 @@ pub static ROW: PaneRow = PaneRow {
         (
             "Map",
             "key m: regime over H and κ, of the majority of four random profiles; █ adhesion without a preload, ▒ only after \
-             pressing, · hardly any; ◆ is the scene",
+             pressing, · hardly any; ◆ is the scene. Key M: means of a quantity over any two numbers of the scene",
         ),
         (
             "Study",
@@ -46,7 +46,7 @@ const MOST_SPRINGS: u64 = 1 << 12;
 /// Returns the study (background computation) of the missing cells of the live map; `None` if the
 /// scene has no live map.
 fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
-    let plan = app.map.plan(&computed.scene)?;
+    let plan = app.map.plan(&computed.scene).ok()?;
     let (key, is_long) = (
         format!("{plan:?}"),
         plan.scene.numerics.points > MOST_SPRINGS,
@@ -193,7 +193,7 @@ fn profiles_of_live_map(app: &App) -> u64 {
 }
 
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = Plan::of_map(app.edit.document.scene()) {
+    if let Err(why) = app.map.plan(app.edit.document.scene()) {
         return why.to_string();
     }
     match app.studies.failure::<Live>() {

@@ -2,12 +2,13 @@
 
 use super::row::{PaneRow, outcome};
 use crate::explorer::app::{App, Message};
+use crate::explorer::commands::target;
 use crate::explorer::curve_options;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
-use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::search::find;
+use crate::explorer::prompt::{Prompt, Purpose, Topic};
+use crate::explorer::search::{Search, find};
 use crate::explorer::text::{filled, fitted, wrapped_within};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
@@ -79,13 +80,18 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
         Some(index) => meaning_of_parameter(app, index),
         None => Line::styled(not_listed(app), app.style(Meaning::Quiet)),
     };
+    let most = usual.max(size.height / 2);
+    if let Some(mut lines) = target::answer_lines(app, size.width, most.into()) {
+        lines.truncate(most.into());
+        lines.resize(lines.len().max(usual.into()), Line::default());
+        return lines;
+    }
     // Two texts must not be cut, and may therefore take rows of the list: the reason of a refusal,
     // and the statements on the preparation of a measured curve.
-    let most = usual.max(size.height / 2);
     if refusal(app).is_some() {
         return wrapped_within(&text, size.width, most);
     }
-    let parameter = index.and_then(|index| app.edit.parameters.get(index));
+    let parameter = index.and_then(|index| app.edit.searchable().nth(index));
     let is_of_curve = parameter.is_some_and(|parameter| parameter.path == curve_options::GROUP);
     let rows = if is_of_curve { most } else { usual };
     let mut lines = wrapped_within(&text, size.width, rows);
@@ -101,7 +107,7 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
 
 /// The parameters in the list.
 struct List {
-    /// Index of each listed parameter among the parameters of the scene.
+    /// Index of each listed parameter among the parameters that a search can find.
     rows: Vec<usize>,
     /// Index of the selected row.
     selected: usize,
@@ -131,14 +137,22 @@ fn list(app: &App) -> List {
 /// Returns a sentence for a search that finds no parameter in the list. The sentence names a
 /// matching field of the scene file, if there is one.
 fn not_listed(app: &App) -> String {
-    const NONE: &str = "no parameter of this scene fits";
     let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
-    let found = find(FIELDS.iter().map(searched_texts), typed);
-    let Some(index) = found.first() else {
-        return NONE.to_owned();
-    };
-    let Field { path, meaning, .. } = &FIELDS[*index];
-    format!("{NONE}; the scene file may have {path}: {meaning}")
+    let none = format!("no row is called {}", typed.trim());
+    let fields = find(FIELDS.iter().map(searched_texts), typed);
+    if let Some(index) = fields.first() {
+        let Field { path, meaning, .. } = &FIELDS[*index];
+        return format!("{none}; another scene may have {path}: {meaning}");
+    }
+    let commands: Vec<Topic> = app.config.bindings.listed().map(Topic::of).collect();
+    let texts: Vec<_> = commands.iter().map(Topic::texts).collect();
+    match Search::new(&texts, typed).found.first() {
+        Some(index) => {
+            let Topic { name, text, .. } = &commands[*index];
+            format!("{none}; key {name}: {text}")
+        }
+        None => format!("no row and no command is called {}", typed.trim()),
+    }
 }
 
 /// Returns the texts of a field in which a search looks for words.
@@ -147,11 +161,14 @@ fn searched_texts(field: &Field) -> Vec<String> {
         field.symbol.to_owned(),
         field.path.replace(['.', '_'], " "),
         field.name.to_owned(),
+        field.words.to_owned(),
     ]
 }
 
 fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> Line<'static> {
-    let parameter = &app.edit.parameters[index];
+    let Some(parameter) = app.edit.searchable().nth(index) else {
+        return Line::default();
+    };
     let typed = match &app.prompt {
         Some(prompt) if is_selected && app.is_typing_value() => Some(prompt),
         _ => None,
@@ -367,12 +384,12 @@ fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
         return Line::styled(format!("! {error}"), app.style(Meaning::Error));
     }
-    let Some(parameter) = app.edit.parameters.get(index) else {
+    let Some(parameter) = app.edit.searchable().nth(index) else {
         return Line::default();
     };
     let text = match parameter.setting {
         _ if parameter.path == "loading" => format!(
-            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number without a unit is a force in N",
+            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number without a unit is a force in N; there is no time, so a pause changes nothing",
             parameter.field.meaning
         ),
         Setting::Heading if parameter.path == curve_options::GROUP => statements(app),

@@ -77,5 +77,6 @@ pub fn outcome(app: &App) -> Exported<'_> {
         deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
         wording: advice::row,
     };
-    Some(("asperity run".into(), Box::new(report)))
+    let command = format!("asperity run{}", app.edit.profiles_argument());
+    Some((command.into(), Box::new(report)))
 }

@@ -5,13 +5,15 @@
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
 use crate::explorer::app::App;
+use crate::explorer::measured::fitted;
 use crate::explorer::panel::{Panel, entries};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_rounded, grouped, per_cent};
-use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
+use asperity_experiment::Grade;
+use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Sign, Span};
 use asperity_report::{CostReport, error_rows, theory_rows, work_precision};
 use asperity_scene::Estimate;
 use asperity_scene::discretisation::{CostTable, Knob, Progress, Row as CostRow, measure};
@@ -26,14 +28,15 @@ use std::time::Duration;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
+    figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     report,
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Trust",
         "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver. An \
-         error is the largest at half, once and twice the load; ◆ is the scene. Below it the errors of F_a by their sources, and what other theories say",
+         error is the largest at half, once and twice the load; ◆ is the scene. PageDown: the next page in a \
+         small window. Below the chart the errors of F_a by their sources, and what other theories say",
     )],
-    ..PaneRow::EMPTY
 };
 
 /// Time limit of the whole measurement of errors and times. It is equal to the default of
@@ -95,42 +98,78 @@ const LEAST_CHART: usize = 6;
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let mut head = Vec::new();
+    let mut pages = pages(app, size);
+    let page = app.view.page.min(pages.len() - 1);
+    pages.swap_remove(page)
+}
+
+/// Returns the number of pages of the pane in an area of this size.
+pub fn count_pages(app: &App, size: Size) -> usize {
+    pages(app, size).len()
+}
+
+/// Returns the pages of the pane, through which PageDown and PageUp go. There is one page if the
+/// texts and the chart fit below each other. Otherwise the chart has the last page. There is at
+/// least one page.
+fn pages(app: &App, size: Size) -> Vec<Panel> {
+    let words = words(app, size.width);
+    let mut warnings = Vec::new();
     for warning in app.warnings() {
         let line = Line::styled(warning, app.style(Meaning::Error));
-        head.extend(wrapped(&line, size.width));
+        warnings.extend(wrapped(&line, size.width));
     }
-    let room = usize::from(size.height).saturating_sub(head.len());
-    let words = words(app, size.width);
     let Some(chart) = chart(app) else {
-        let nothing = nothing_yet(app);
-        let body = wrapped(&Line::raw(nothing.clone()), size.width).len();
-        return Panel {
-            head,
-            foot: words.within(room.saturating_sub(body), app),
-            ..Panel::of_text("Trust: errors of F_a".to_owned(), &nothing)
-        };
+        let nothing = Line::styled(nothing_yet(app), app.style(Meaning::Quiet));
+        let nothing = wrapped(&nothing, size.width);
+        let texts = [warnings, nothing, words.all()].concat();
+        return numbered(pages_of_text(texts, size.height));
     };
     let entries = entries(&chart, app.view.appearance);
-    let legend = filled(entries, "  ", size.width.into());
-    let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
-    // In a small window, the texts on other theories are left out first, then the chart, and
-    // finally the texts on errors.
-    let needed = words.cost.len() + words.errors.len() + 1;
-    if beside_chart < needed && beside_chart < words.count() {
-        let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
-        return Panel {
-            head,
-            foot: words.within(room, app),
-            ..Panel::of_text(title, "")
-        };
-    }
+    let legend = filled(entries, "  ", size.width.into()).len();
+    let needed = warnings.len() + words.count() + legend + LEAST_CHART;
     let title = "Trust: relative error over time, log–log".to_owned();
-    Panel {
-        head,
-        foot: words.within(beside_chart, app),
-        ..Panel::of_chart(title, chart)
+    if needed <= size.height.into() {
+        return vec![Panel {
+            head: warnings,
+            foot: words.all(),
+            ..Panel::of_chart(title, chart)
+        }];
     }
+    let texts = [warnings, words.errors, words.theories].concat();
+    let mut pages = pages_of_text(texts, size.height);
+    // Below the chart are the texts that state what its curves mean for the scene.
+    let room = usize::from(size.height).saturating_sub(legend + LEAST_CHART);
+    let mut foot = words.cost;
+    foot.truncate(room);
+    pages.push(Panel {
+        foot,
+        ..Panel::of_chart(title, chart)
+    });
+    numbered(pages)
+}
+
+/// Returns lines of text as pages of this height.
+fn pages_of_text(lines: Vec<Line<'static>>, rows: u16) -> Vec<Panel> {
+    let mut pages = Vec::new();
+    for lines in lines.chunks(usize::from(rows).max(1)) {
+        pages.push(Panel {
+            head: lines.to_vec(),
+            ..Panel::of_text("Trust: errors of F_a".to_owned(), "")
+        });
+    }
+    pages
+}
+
+/// Adds to the title of each page its number and the key for the next page, if there are several
+/// pages.
+fn numbered(mut pages: Vec<Panel>) -> Vec<Panel> {
+    let count = pages.len();
+    if count > 1 {
+        for (number, page) in (1..).zip(&mut pages) {
+            page.title = format!("{} · {number}/{count} PageDown", page.title);
+        }
+    }
+    pages
 }
 
 /// Returns the measured errors and times; `None` before the first ones are measured.
@@ -164,21 +203,8 @@ impl Words {
         self.cost.len() + self.errors.len() + self.theories.len()
     }
 
-    /// Returns the texts in at most this number of rows. If some texts are left out, the last row
-    /// states how many.
-    fn within(self, rows: usize, app: &App) -> Vec<Line<'static>> {
-        let mut lines = [self.cost, self.errors, self.theories].concat();
-        if lines.len() <= rows {
-            return lines;
-        }
-        let shown = rows.saturating_sub(1);
-        let left_out = lines.len() - shown;
-        lines.truncate(shown);
-        let way = if app.view.zoomed { "" } else { "z or " };
-        let note = format!("… {left_out} more rows: {way}a larger window");
-        lines.push(Line::styled(note, app.style(Meaning::Quiet)));
-        lines.truncate(rows);
-        lines
+    fn all(self) -> Vec<Line<'static>> {
+        [self.cost, self.errors, self.theories].concat()
     }
 }
 
@@ -220,7 +246,7 @@ pub(super) fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, St
     if let Some(reference) = reference {
         budget = budget.with_model(reference.budget.model);
     }
-    error_rows(
+    let mut rows = error_rows(
         &computed.scene,
         outcome,
         estimate,
@@ -228,7 +254,24 @@ pub(super) fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, St
         ensemble,
         reference,
         advice::row,
-    )
+    );
+    if let Some(misfit) = refuted(app)
+        && let Some((_, model)) = rows.iter_mut().find(|(name, _)| *name == "model")
+    {
+        *model = format!("not known: the scene does not describe the measured curve, {misfit}");
+    }
+    rows
+}
+
+/// Returns the misfit of the scene to the measured curve in words, if it is so large that the model
+/// does not describe the curve; otherwise `None`.
+fn refuted(app: &App) -> Option<String> {
+    let fit = fitted(&app.studies)?;
+    app.edit.measured.as_ref()?;
+    match fit.grade {
+        Grade::No => Some(format!("misfit {}", format_rounded(fit.misfit, 3, "1"))),
+        _ => None,
+    }
 }
 
 /// Returns rows of names and texts as lines of this width. The names have a column of their own,

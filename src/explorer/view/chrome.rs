@@ -4,12 +4,12 @@ use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
 use crate::explorer::commands::table::footer as footer_keys;
-use crate::explorer::commands::target;
+use crate::explorer::commands::{map_over, target};
 
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text::{Part, filled, on_one_line, wrapped_within};
+use crate::explorer::text::{Part, filled, wrapped_within};
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, format_range, format_rounded, grouped};
@@ -22,28 +22,15 @@ use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
 /// Returns the lines of the title: the name of the scene, a sign for unsaved changes, and the
-/// notice of the scene. If the scene has changed and its notice has not, the notice is left out,
-/// because it may be wrong now.
+/// notice of the scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
-    let document = &app.edit.document;
-    let scene = document.scene();
-    let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
-    let name = if has_title {
-        &scene.title
-    } else {
-        document.name()
-    };
-    let mut spans = vec![Span::styled(name.to_owned(), app.style(Meaning::Title))];
-    if app.edit.is_unsaved() {
-        spans.push(Span::styled(" [changed]", app.style(Meaning::Title)));
-    }
-    let saved = app.edit.saved.get(document.name());
-    let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
-    if !app.edit.is_unsaved() || !is_saved_notice {
-        let notice = format!("  {}", on_one_line(&scene.notice));
-        spans.push(Span::styled(notice, app.style(Meaning::Quiet)));
-    }
-    wrapped_within(&Line::from(spans), width, rows)
+    let title = app.title();
+    let heading = format!("{}{}", title.name, title.sign());
+    let line = Line::from_iter([
+        Span::styled(heading, app.style(Meaning::Title)),
+        Span::styled(title.notice_apart(), app.style(Meaning::Quiet)),
+    ]);
+    wrapped_within(&line, width, rows)
 }
 
 /// Returns the status lines below the panes, at most `rows` lines. They contain the main results of
@@ -57,6 +44,10 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     match &app.message {
         Some(Message::Error(why) | Message::Refused(why)) => refusal(app, why, width, rows),
         Some(Message::Done(text)) => done(app, text, width, rows),
+        Some(Message::Taken { name, quantity }) => {
+            let text = target::taken_in_words(app, name, *quantity);
+            done(app, &text, width, rows)
+        }
         None if app.prompt.is_none() => match searching(app) {
             Some(progress) => vec![Line::raw(progress)],
             None => vec![headline(app, width.into())],
@@ -93,13 +84,31 @@ fn status_of_prompt(
         }
         _ => {
             let mut lines = vec![prompted(app, prompt, width)];
-            if let Some(answer) = target::answer(app) {
+            lines.extend(answer(app, width).filter(|_| rows > 1));
+            if let Some(answer) = map_over::answer(app) {
                 let answer = Line::styled(answer, app.style(Meaning::Title));
                 lines.extend(wrapped_within(&answer, width, rows - 1));
             }
             Some(lines)
         }
     }
+}
+
+/// Returns the answer to the typed target, as much of it as fits into one line; `None` if the user
+/// is typing no target.
+fn answer(app: &App, width: u16) -> Option<Line<'static>> {
+    let style = app.style(Meaning::Title);
+    let mut parts = Vec::new();
+    for text in target::answer(app)? {
+        parts.push(vec![Span::styled(text, style)]);
+    }
+    let first = parts.first().cloned().unwrap_or_default();
+    let line = first_line(parts, " · ", width.into());
+    if line.spans.is_empty() {
+        // Not even the first part fits, so its beginning is shown.
+        return wrapped_within(&Line::from(first), width, 1).pop();
+    }
+    Some(line)
 }
 
 /// Returns the reason why a typed text is refused and, if there is room, the typed text below it.
@@ -146,7 +155,12 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     }
     let mut line = Line::raw(format!("{text}  "));
     let room = usize::from(width).saturating_sub(line.width());
-    line.extend(headline(app, room));
+    let beside = headline(app, room);
+    // The results and the warnings matter more than the keys, whose row the message then takes.
+    if beside.spans.is_empty() && rows > 1 {
+        return vec![Line::raw(text.to_owned()), headline(app, width.into())];
+    }
+    line.extend(beside);
     vec![line]
 }
 
@@ -154,7 +168,8 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
 /// text.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let label = Span::raw(label(app, prompt, width));
-    let meaning = typed::understood(app).map_or_else(String::new, |text| format!("→ {text}"));
+    let meaning = typed::understood(app).or_else(|| target::understood(app));
+    let meaning = meaning.map_or_else(String::new, |text| format!("→ {text}"));
     let meaning = Span::styled(meaning, app.style(Meaning::Title));
     let room = usize::from(width).saturating_sub(label.width() + meaning.width());
     let mut spans = vec![label];
@@ -169,8 +184,10 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
-        Purpose::Target if is_narrow => "For: ".to_owned(),
-        Purpose::Target => format!("Find {} for: ", target::name(app)),
+        Purpose::Target => format!("{} for ", target::name(app)),
+        Purpose::Map => "Map ".to_owned(),
+        Purpose::SavePlan if is_narrow => "Plan: ".to_owned(),
+        Purpose::SavePlan => "Save the plan of this map as: ".to_owned(),
         Purpose::Move if is_narrow => "Move to: ".to_owned(),
         Purpose::Move if app.is_normalised() => "Press or pull to (F_a,max, nm): ".to_owned(),
         Purpose::Move => format!("Press or pull to ({}, nm): ", typed::unit_of_force(app)),
@@ -181,7 +198,7 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
         Purpose::Export if is_narrow => "Export to: ".to_owned(),
         Purpose::Export => {
             let extensions = EXPORTS.map(|format| format!(".{}", format.extension()));
-            format!("Export to ({}): ", extensions.join(" "))
+            format!("Export to ({}; 85mm: width): ", extensions.join(" "))
         }
         Purpose::Open(_) => "Search: ".to_owned(),
         Purpose::Curve(question) => format!("{}: ", question.option().field.name),
@@ -201,8 +218,11 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     }
     let facts = facts(app, width);
     let full = line_of_facts(app, &facts, width, str::to_owned);
-    // Shorter names of the regimes may leave room for more facts.
-    let short = line_of_facts(app, &facts, width, |text| text.replace("pressure-", ""));
+    // A shorter name of the regime may leave room for more facts.
+    let short = line_of_facts(app, &facts, width, |text| {
+        text.replace("pressure-", "press.-")
+            .replace(" (d=0, F=0)", "")
+    });
     if short.spans.len() > full.spans.len() {
         short
     } else {

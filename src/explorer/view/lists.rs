@@ -5,7 +5,7 @@ use crate::explorer::layout::inside;
 use crate::explorer::openable::{ListedFile, Openable};
 use crate::explorer::panel;
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::prompt::{Prompt, Topic};
+use crate::explorer::prompt::{COMMANDS, Prompt, Topic};
 use crate::explorer::text::{fitted, on_one_line, wrapped};
 use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::printable;
@@ -68,13 +68,18 @@ pub fn draw_topics(
     buffer: &mut Buffer,
 ) {
     let width = inside(area).width;
+    let unknown_words = unknown_words(prompt, name);
     let mut list = List {
         name,
         length: topics.len(),
-        none: "nothing fits",
+        none: &unknown_words,
         rows: Vec::new(),
         selected: 0,
     };
+    if !prompt.unknown.is_empty() && !prompt.found.is_empty() {
+        let unknown = Line::styled(unknown_words.clone(), look.style(Meaning::Error));
+        list.rows.extend(wrapped(&unknown, width));
+    }
     let mut section = "";
     let found = prompt.found.iter().filter_map(|index| topics.get(*index));
     for (place, topic) in found.enumerate() {
@@ -91,6 +96,27 @@ pub fn draw_topics(
             .extend(rows_of_topic(topic, is_selected, width, look));
     }
     panel::draw(&list.panel(prompt), area, false, look, buffer);
+}
+
+/// Returns a sentence on the typed words that no entry of the list contains, and on what helps.
+fn unknown_words(prompt: &Prompt, name: &str) -> String {
+    let kind = if name == COMMANDS {
+        "command or row is"
+    } else {
+        "key or sign is"
+    };
+    let way = if !prompt.found.is_empty() {
+        "below is what fits the other words"
+    } else if name == COMMANDS {
+        "Esc and ? lists all keys and signs"
+    } else {
+        "Ctrl+u clears the words"
+    };
+    if prompt.unknown.is_empty() {
+        return format!("no {kind} called all of this; fewer words find more");
+    }
+    let words = prompt.unknown.join(" or ");
+    format!("no {kind} called {words}; {way}")
 }
 
 /// Returns the rows of a topic, with its name and its text. In a wide window, the text is on the

@@ -126,3 +126,29 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     driver.press("End Home PageDown Esc");
     assert!(driver.app.prompt.is_none());
 }
+
+#[test]
+fn the_title_has_a_second_line_only_for_a_long_notice() {
+    let top = |driver: &Driver| driver.area(Pane::Force).y;
+    let long = "A notice. ".repeat(20);
+    let mut driver = Driver::start(changed(&rough(), &[("notice", &format!("{long:?}"))]));
+    driver.press("Space");
+    let (first, rows) = (top(&driver), driver.rows());
+    assert!(!rows[1].trim().is_empty(), "{rows:#?}");
+    // After a change, the notice may be wrong and is left out, and so is its line.
+    driver.set("roughness.hurst", "0.6");
+    assert_eq!(top(&driver), first - 1);
+    assert!(driver.rows()[1].contains("Force"), "{}", driver.text());
+}
+
+#[test]
+fn a_message_that_leaves_no_room_for_the_results_takes_the_row_of_the_keys() {
+    let mut driver = pressed("");
+    driver.resize((60, 20));
+    let offer = "unsaved changes of a scene are kept: asperity --restore";
+    driver.app.message = Some(Message::Done(offer.to_owned()));
+    let rows = driver.rows();
+    let [message, results] = [&rows[rows.len() - 2], &rows[rows.len() - 1]];
+    assert!(message.starts_with(offer), "{message}");
+    assert!(results.starts_with("F_a 46.1 nN"), "{results}");
+}

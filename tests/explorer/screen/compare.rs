@@ -16,6 +16,7 @@ fn kept(driver: &Driver) -> Vec<Document> {
 fn message(driver: &Driver) -> String {
     match &driver.app.message {
         Some(Message::Done(text) | Message::Error(text) | Message::Refused(text)) => text.clone(),
+        Some(Message::Taken { name, .. }) => name.clone(),
         None => String::new(),
     }
 }

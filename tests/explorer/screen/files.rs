@@ -40,6 +40,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         let file = OutputFile {
             path,
             content,
+            width: None,
             overwrite: false,
             then_quit: false,
         };
@@ -53,7 +54,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
     // The proposed name is that of the scene with the pane.
     let mut driver = pressed("");
     driver.press("E Enter");
-    assert_eq!(driver.files(), ["rough-line-force.csv"]);
+    assert_eq!(driver.files(), ["rough-line-force.pdf"]);
     assert!(
         pressed("E Ctrl+u Enter").files().is_empty(),
         "no name is no file"
@@ -342,4 +343,77 @@ fn a_saved_scene_goes_on_under_its_new_name() {
     assert_eq!(fs::read_to_string(&path).unwrap(), driver.document().text());
     driver.press("q");
     assert!(driver.app.finished);
+}
+
+#[test]
+fn a_figure_has_the_typed_width_and_the_last_kind_is_proposed() {
+    let mut driver = pressed("");
+    let typed = |driver: &Driver| driver.app.prompt.as_ref().unwrap().line.text().to_owned();
+    // 85 mm are 321.26 px of 1/96 inch.
+    for (name, file) in [
+        ("loop.svg 85mm", "loop.svg"),
+        ("other.svg 85 mm", "other.svg"),
+        ("a loop.svg 8.5cm", "a loop.svg"),
+    ] {
+        driver.press(&format!("E Ctrl+u `{name}` Enter"));
+        driver.states(format!("exported to {file}"));
+        let svg = driver.file(file);
+        assert!(svg.contains("width=\"321"), "{name}: {}", &svg[..300]);
+    }
+    driver.press("E");
+    assert_eq!(typed(&driver), "rough-line-force.svg 85mm");
+    driver.press("Ctrl+u `whole.svg` Enter");
+    assert!(!driver.file("whole.svg").contains("width=\"321"));
+    driver.press("E");
+    assert_eq!(typed(&driver), "rough-line-force.svg");
+    driver.press("Ctrl+u `t.csv` Enter E");
+    assert_eq!(typed(&driver), "rough-line-force.csv");
+    // A number without a unit belongs to the name.
+    driver.press("Ctrl+u `figure 2` Enter");
+    assert!(
+        driver
+            .refusal()
+            .is_some_and(|why| why.contains("the extension chooses"))
+    );
+    for (name, why) in [
+        ("t.csv 85mm", "a .csv file has no width"),
+        ("t.svg 10mm", "allowed: from 50mm to 500mm"),
+        ("t.svg 2m", "allowed: from 50mm to 500mm"),
+    ] {
+        driver.press(&format!("Ctrl+u `{name}` Enter"));
+        assert!(
+            driver.refusal().is_some_and(|said| said.contains(why)),
+            "{name}"
+        );
+    }
+    // After a question whether to overwrite the file, the width is the same.
+    driver.press("Ctrl+u `whole.svg 85mm` Enter y");
+    assert!(driver.file("whole.svg").contains("width=\"321"));
+}
+
+#[test]
+fn curves_of_a_comparison_are_named_by_what_differs() {
+    let mut driver = pressed("");
+    driver.set("material.youngs_modulus", "1.2 MPa");
+    driver.press("c");
+    driver.set("roughness.rms_height", "180 nm");
+    driver.press("c");
+    driver.set("material.youngs_modulus", "2.4 MPa");
+    driver.press("E Ctrl+u `c.svg` Enter");
+    let svg = driver.file("c.svg");
+    let text: String = svg
+        .split('<')
+        .filter_map(|part| part.split_once('>'))
+        .map(|(_, text)| text)
+        .collect();
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let places: Vec<_> = [
+        "E 2.4 MPa, h 180 nm",
+        "E 1.2 MPa, h 200 nm",
+        "E 1.2 MPa, h 180 nm",
+    ]
+    .map(|name| text.find(name).unwrap_or_else(|| panic!("{name}: {text}")))
+    .to_vec();
+    // The present scene comes first, with the solid curve.
+    assert!(places[0] < places[1], "{text}");
 }

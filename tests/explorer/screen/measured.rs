@@ -356,3 +356,20 @@ fn broken_curves_are_named_where_a_path_is_opened() {
         assert!(driver.app.edit.measured.is_none());
     }
 }
+
+#[test]
+fn a_study_closes_a_curve_that_was_measured_on_another_contact() {
+    let (folder, mut driver) = study::opened();
+    let curve = folder.path().join("curve.csv");
+    write_curve(&curve);
+    driver.press(&format!("o `{}` Enter", curve.display()));
+    assert!(driver.app.edit.measured.is_some(), "{}", driver.text());
+    driver.press(&format!(
+        "o `{}` Enter",
+        folder.path().join("small").display()
+    ));
+    assert!(driver.app.edit.measured.is_none());
+    driver.states("curve.csv is closed; u shows it again");
+    driver.press("u");
+    assert!(driver.app.edit.measured.is_some());
+}

@@ -115,9 +115,9 @@ fn a_search_is_moved_through_and_left() {
     // A search without a match moves nothing.
     let mut driver = pressed("/ q q q Enter");
     assert_eq!(driver.app.keys(), Context::List);
-    driver.shows("no parameter");
-    // The scene file has fields without a row.
-    driver.sees("Ctrl+u `samples`", "numerics.samples");
+    driver.shows("no row and no command");
+    // A field without a row is found as well.
+    driver.sees("Ctrl+u `samples`", "points of the force curve");
     driver.press("Backspace Ctrl+u Down Up Down Enter");
     assert_eq!(driver.app.edit.selected, 1);
 }

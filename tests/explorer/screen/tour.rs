@@ -89,40 +89,22 @@ fn asked() -> Driver {
     let text = step(1);
     let keys = tokens(&text);
     let names: Vec<&str> = keys.iter().map(|token| token.text.as_str()).collect();
-    assert_eq!(names, ["/", "loading", "Enter", "f", "80", "20", "Enter"]);
+    assert_eq!(names, ["/", "loading", "Enter", "f", "20", "Enter"]);
     press(&mut driver, &keys[0]);
     driver.type_text(&keys[1].text);
     press(&mut driver, &keys[2]);
     press(&mut driver, &keys[3]);
-    // "replace `80` by `20`", in the text that the prompt proposes.
-    let proposed = driver
-        .app
-        .prompt
-        .as_ref()
-        .expect("a prompt")
-        .line
-        .text()
-        .to_owned();
-    assert!(
-        keys[3].after.contains("replace") && proposed.contains(names[4]),
-        "{proposed}"
-    );
-    driver.press("Ctrl+u");
-    driver.type_text(&proposed.replace(names[4], names[5]));
-    for stated in [
-        format!("F_n = {}", between(&text, "The answer is ", ", the median")),
-        format!(
-            "median of {}",
-            between(&text, "the median of ", " random profiles")
-        ),
-        format!(
-            "quartiles {}",
-            between(&text, "with quartiles from ", ". `Enter`")
-        ),
-    ] {
-        driver.shows(stated);
-    }
-    press(&mut driver, &keys[6]);
+    // "and type `20`", which replaces the text that the prompt proposes.
+    assert!(keys[3].after.contains("type"), "{}", keys[3].after);
+    driver.type_text(names[4]);
+    let median = between(&text, "The answer is ", ", the median");
+    let quartiles = between(&text, "with quartiles from ", ". `Enter`");
+    let unit = median.split_once(' ').expect("a unit").1;
+    let quartiles = quartiles.trim_end_matches(unit).trim_end();
+    driver.shows(format!("{median} ({quartiles})"));
+    let profiles = between(&text, "the median of ", " random profiles");
+    assert_eq!(driver.app.edit.profiles.to_string(), profiles);
+    press(&mut driver, &keys[5]);
     driver
 }
 

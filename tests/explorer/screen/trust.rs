@@ -301,3 +301,37 @@ fn the_first_warning_is_in_the_status_line_and_all_are_in_the_pane() {
         driver.status()
     );
 }
+
+#[test]
+fn a_small_window_shows_the_errors_and_the_cost_on_pages() {
+    let mut driver = measured(rough());
+    driver.shows_all(["Trust: relative error over time", "sample of profiles"]);
+    driver.hides("PageDown");
+    driver.resize((80, 24));
+    // The pane has the whole width.
+    assert!(driver.area(Pane::Trust).width >= 79);
+    driver.shows_all(["Trust: errors of F_a · 1/2 PageDown", "sample of profiles"]);
+    driver.hides("relative error over time");
+    driver.press("PageDown");
+    driver.shows_all(["over time, log–log · 2/2", "springs", "this scene"]);
+    driver.press("PageDown PageDown");
+    driver.shows("2/2");
+    // The figure does not depend on the page.
+    driver.press("PageUp");
+    driver.shows("1/2");
+    driver.press("E Ctrl+u `trust.svg` Enter");
+    assert!(driver.file("trust.svg").contains("this scene"));
+    // Below a certain height there are more pages, and none is empty.
+    driver.resize((60, 12));
+    let mut pages = vec![driver.text()];
+    for _ in 0..8 {
+        driver.press("PageDown");
+        pages.push(driver.text());
+    }
+    pages.dedup();
+    assert!(pages.len() > 2, "{pages:#?}");
+    assert!(pages.last().unwrap().contains("log–log"), "{pages:#?}");
+    // The pane begins on its first page when it is shown again.
+    driver.press("A A");
+    driver.shows("1/");
+}

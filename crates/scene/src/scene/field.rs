@@ -31,6 +31,8 @@ pub struct Field {
     pub default: &'static str,
     /// Meaning of the field in one line.
     pub meaning: &'static str,
+    /// Other words of tribology and everyday words for the field, by which a search finds it.
+    pub words: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,
     /// Where a scene stores the value of the field.
@@ -96,6 +98,7 @@ pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field
         step,
         default: "",
         meaning: "",
+        words: "",
         read,
         place,
     }
@@ -119,10 +122,6 @@ impl Field {
             unit,
             ..self
         }
-    }
-
-    pub(super) const fn step(self, step: Step) -> Field {
-        Field { step, ..self }
     }
 
     pub(super) const fn default(self, default: &'static str) -> Field {
@@ -153,6 +152,16 @@ impl Field {
     /// Returns this description with this SI unit.
     pub const fn in_unit(self, unit: &'static str) -> Field {
         Field { unit, ..self }
+    }
+
+    /// Returns this description with this step of the arrow keys.
+    pub const fn step(self, step: Step) -> Field {
+        Field { step, ..self }
+    }
+
+    /// Returns this description with other words by which a search finds the field.
+    pub const fn words(self, words: &'static str) -> Field {
+        Field { words, ..self }
     }
 
     /// Returns the allowed values of this field in words, with the unit: `from 1 to 1e13 Pa`.

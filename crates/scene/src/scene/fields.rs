@@ -139,28 +139,36 @@ pub const FIELDS: &[Field] = &[
         .meaning("version of the scene file format"),
     row("title", place!(title), Text { least: 0, most: 200, lines: false })
         .default("\"\"")
+        .words("name heading")
         .meaning("title of the scene"),
     row("notice", place!(notice), Text { least: 0, most: 4000, lines: true })
         .default("\"\"")
+        .words("notes comment description remark")
         .meaning("notes on the scene"),
     row("material", place!(material), MATERIALS)
         .step(Typed)
+        .words("elastic elasticity stiffness rubber elastomer PDMS gel")
         .meaning("elastic constants"),
     row("material.youngs_modulus", place!(material.youngs_modulus), Range::closed(1.0, 1e13))
         .quantity("Young's modulus", "E", "Pa").default("None")
+        .words("stiffness elasticity elastic hardness softness")
         .meaning("Young's modulus, with Poisson's ratio"),
     row("material.poisson_ratio", place!(material.poisson_ratio), Range::above(-1.0, 0.5))
         .quantity("Poisson's ratio", "ν", "1").step(Linear(0.01, 0.1)).default("None")
+        .words("incompressible compressibility rubber")
         .meaning("Poisson's ratio; 0.5 is incompressible, as rubber"),
     row("material.effective_modulus", place!(material.effective_modulus), Range::closed(1.0, 1e13))
         .quantity("effective modulus", "E*", "Pa").default("None")
+        .words("reduced modulus stiffness")
         .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("length", place!(length), Range::closed(1e-9, 10.0))
         .quantity("apparent diameter", "L", "m")
+        .words("size width patch diameter domain system scan sample")
         .meaning("width of the real contact: above a tip's contact diameter; of a pad its \
                   width, which raises F_a/F_a,max"),
     row("form", place!(form), FORMS)
         .default("None").read(read_form)
+        .words("shape geometry tip probe indenter sphere cone punch flat")
         .meaning("macroscopic shape of the rigid body; nominally flat if left out"),
     row("form.radius", form!(Paraboloid, radius), Range::above(0.0, 1e9))
         .quantity("radius of curvature", "R", "m")
@@ -211,28 +219,36 @@ pub const FIELDS: &[Field] = &[
         .meaning("unit of the lengths if the table states none; m if empty"),
     row("roughness", place!(roughness), ROUGHNESS)
         .default("None").read(read_roughness)
+        .words("topography texture asperities measured surface file AFM profilometer")
         .meaning("roughness of the rigid body; smooth if left out"),
     row("roughness.hurst", self_affine!(hurst), Range::between(0.0, 1.0))
         .quantity("Hurst exponent", "H", "1").step(Linear(0.01, 0.1))
+        .words("fractal dimension self-affine")
         .meaning("decay of the roughness towards short waves: a low H is jagged, a high H is \
                   smooth"),
     row("roughness.rms_height", self_affine!(rms_height), Range::closed(1e-30, 100.0))
         .quantity("rms height", "h", "m").default("None")
+        .words("Rq Sq RMS roughness amplitude standard deviation")
         .meaning("root mean square height of the profile"),
     row("roughness.rms_gradient", self_affine!(rms_gradient), Range::closed(1e-30, 1e9))
         .quantity("rms gradient", "⟨∇z⟩", "1").default("None")
+        .words("slope steepness Rdq Sdq")
         .meaning("root mean square slope, in place of the rms height"),
     row("roughness.modes", self_affine!(modes), Band(1, 1 << 27))
         .quantity("modes", "k", "1").default("None")
+        .words("wave numbers bandwidth cutoff cut-off frequency")
         .meaning("first and last mode, in waves per length; the last is at most points/2"),
     row("roughness.wavelengths", self_affine!(wavelengths), Wavelengths(1e-15, 10.0))
         .quantity("wavelengths", "λ", "m").default("None")
+        .words("waves bandwidth cutoff cut-off shortest longest")
         .meaning("longest and shortest wave, in place of the modes"),
     row("roughness.roll_off", self_affine!(roll_off), Range::closed(1e-15, 10.0))
         .quantity("roll-off wavelength", "λ_r", "m").default("None")
+        .words("plateau corner cutoff cut-off")
         .meaning("wavelength above which the spectrum of the surface is flat"),
     row("roughness.seed", self_affine!(seed), Whole(0, u64::MAX))
         .name("seed").step(Integer(1, 100))
+        .words("random realisation realization noise phases number")
         .meaning("seed of the random phases"),
     row("roughness.file", measured!(file), FILE_NAME)
         .name("measured surface")
@@ -255,6 +271,7 @@ pub const FIELDS: &[Field] = &[
         .meaning("number of the column of a map, in place of a row"),
     row("roughness.detrend", measured!(detrend), Choice(&["Nothing", "Mean", "Tilt", "Curvature"]))
         .name("detrending").default("None")
+        .words("levelling form removal tilt")
         .meaning("what is subtracted from the heights; by default Tilt, for a periodic surface \
                   Mean, with as_line Nothing"),
     row("roughness.periodic", measured!(periodic), SWITCH)
@@ -280,6 +297,7 @@ pub const FIELDS: &[Field] = &[
         .meaning("true: the median of each row is subtracted"),
     row("roughness.robust", measured!(robust), SWITCH)
         .name("replacement of outliers").default("false")
+        .words("spikes noise filter")
         .meaning("true: outliers such as spikes get heights from their neighbours"),
     row("roughness.surface_name", measured!(surface_name), FILE_NAME)
         .name("channel or surface by its name").default("None")
@@ -293,15 +311,19 @@ pub const FIELDS: &[Field] = &[
                   the shortest resolved wavelength"),
     row("roughness.seed", measured!(seed), Whole(0, u64::MAX))
         .name("seed of the equivalent line").step(Integer(1, 100)).default(defaults::MEASURED_SEED)
+        .words("random realisation realization noise phases number")
         .meaning("seed of the random phases of the measured spectrum"),
     row("adhesion", place!(adhesion), ADHESIONS)
         .default("None").read(read_adhesion)
+        .words("stick sticky stickiness tack attraction van der Waals")
         .meaning("adhesion of the surfaces, by γ, κ or e_el/γ"),
     row("adhesion.work", WORK, Range::closed(0.0, 1e6))
         .quantity("work of adhesion", "γ", "J/m²").default("None")
+        .words("surface energy interfacial energy Dupré tack sticky stickiness")
         .meaning("energy per area that opens the interface"),
     row("adhesion.closing_work", CLOSING_WORK, Range::closed(0.0, 1e6))
         .quantity("work of adhesion on closing", "γ₁", "J/m²").default("None")
+        .words("adhesion hysteresis")
         .meaning("energy per area gained where the interface closes, at most adhesion.work, \
                   which is the default"),
     row("adhesion.kappa", KAPPA, Range::closed(1e-6, 1e6))
@@ -315,31 +337,39 @@ pub const FIELDS: &[Field] = &[
                   small e_el/γ"),
     row("adhesion.range", ATTRACTION_RANGE, Range::closed(1e-12, 1e-3))
         .quantity("range of attraction", "z₀", "m").default("None")
+        .words("Tabor Maugis van der Waals decay length cohesive zone")
         .meaning("range of the attraction, for the Tabor number; by default 0.3 nm"),
     row("loading_stiffness", place!(loading_stiffness), Range::closed(1e-12, 1e12))
         .quantity("loading stiffness", "k", "N/m").default("None")
+        .words("cantilever spring constant compliance instrument machine AFM load cell")
         .meaning("stiffness of the instrument that moves the body; rigid if left out"),
     row("loading", place!(loading), List { of: &STAGES, least: 1, most: MOST_STAGES })
         .default(defaults::LOADING).read(read_stages)
+        .words("preload load force cycle history protocol dwell hold pause waiting contact time")
         .meaning("stages in their order; the body starts separated"),
     row("numerics", place!(numerics), Range::Group)
         .default("()")
+        .words("resolution accuracy method")
         .meaning("resolution and method of the computation"),
     row("numerics.points", place!(numerics.points), Whole(1, MOST_POINTS))
         .quantity("points", "N", "1").step(Doubling).default(defaults::POINTS)
+        .words("resolution grid mesh nodes elements discretisation number of springs")
         .meaning("number of springs along the profile"),
     row("numerics.solver", place!(numerics.solver), Choice(&["Exact", "Stepwise(step: 1.0e-9)"]))
         .name("solver").default(defaults::SOLVER)
+        .words("method algorithm relaxation stepwise")
         .meaning("exact solver, or relaxation step by step, as Popov and Filippov (2012) do"),
     row("numerics.solver.step", SOLVER_STEP, Range::closed(1e-30, 1e6))
         .quantity("step", "Δd", "m")
         .meaning("displacement between two relaxations"),
     row("numerics.edges", place!(numerics.edges), Choice(&["Grid", "SubCell"]))
         .name("edges").default(defaults::EDGES)
+        .words("crack front discretisation")
         .meaning("SubCell: the edge of a patch may lie between two springs; Grid: a patch is a \
                   number of whole springs"),
     row("numerics.samples", place!(numerics.samples), Whole(2, 1_000_000))
         .name("samples").step(Doubling).default(defaults::SAMPLES)
+        .words("points of the curve")
         .meaning("points of the force curve on each stage"),
     row("observe", place!(observe), OBSERVERS)
         .default("[]")
