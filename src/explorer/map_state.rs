@@ -21,7 +21,7 @@ pub struct MapState {
     /// True if the map of the study is shown instead of the live map, which the explorer computes
     /// for the present scene.
     pub of_study: bool,
-    /// True if the last edit moved the mark. A further move of the mark then belongs to the same
+    /// True if the last edit moved the mark on the map. If the mark moves again, both moves are one
     /// edit.
     pub moving: bool,
 }
@@ -79,14 +79,14 @@ impl OpenStudy {
         }
     }
 
-    /// Returns true if a scene belongs to the shown map, so that it differs from the scene of the
-    /// study at most in the quantities of the axes.
+    /// Returns true if a scene belongs to the map of the study that is shown. The scene may then
+    /// differ from the scene of the study only in the quantities of the axes.
     pub fn is_of(&self, scene: &Scene) -> bool {
         self.study_map.is_of(self.slice, scene)
     }
 
-    /// Returns the index of the map that is `steps` maps after the shown one. The first map follows
-    /// the last one.
+    /// Returns the index of the map that is `steps` maps after the shown map. After the last map
+    /// comes the first map.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
         (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64

@@ -1,5 +1,5 @@
-//! Prompts: a line that the user types, possibly with a list of matching entries; questions to the
-//! user; and the help.
+//! Prompts: a line that the user types, with or without a list of matching entries; a question to
+//! the user; or the help.
 
 use super::action::OutputFile;
 use super::editor::Editor;
@@ -36,7 +36,7 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
-    /// Target of an inverse question: a quantity and the value that it is to have.
+    /// Target of an inverse question: a quantity and the value that the quantity should have.
     Target,
     /// Quantity and two numbers of the scene, over which it is mapped.
     Map,
@@ -52,7 +52,7 @@ pub enum Purpose {
     SavePlan,
     /// Words of a search in this list of what can be opened, or a path.
     Open(Vec<Openable>),
-    /// Value of an option without which a measured curve cannot be read.
+    /// Value of an option that is necessary to read a measured curve.
     Curve(CurveQuestion),
     Parameter {
         before: Pane,
@@ -86,12 +86,12 @@ pub struct Topic {
     /// Name of the entry: its keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    /// Further, everyday words with which a search finds the entry.
+    /// Further everyday words with which a search finds the entry.
     pub words: String,
     pub aim: Aim,
 }
 
-/// What happens if the user chooses an entry.
+/// Effect of an entry of a list when the user chooses it.
 #[derive(Clone, Debug)]
 pub enum Aim {
     Nothing,
@@ -142,7 +142,8 @@ impl Topic {
         }
     }
 
-    /// Creates the entry for the parameter that has this row in the list of parameters.
+    /// Creates the entry for a parameter of the scene. `row` is the index of its row in the list of
+    /// parameters.
     pub fn of_parameter(row: usize, parameter: &Parameter) -> Self {
         Topic {
             section: "Parameters of this scene",
@@ -216,8 +217,8 @@ impl Prompt {
         prompt
     }
 
-    /// Returns the context, which determines what the keys do: that of the help, a list, a line or
-    /// a question.
+    /// Returns the context of this prompt, which determines what the keys do. There is one context
+    /// for each of the help, a list, a line and a question.
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Topics {
@@ -263,7 +264,8 @@ impl Prompt {
         self.found.get(self.selected).copied()
     }
 
-    /// Returns the selected entry of the list of what can be opened.
+    /// Returns the selected entry, if this prompt has the list of what the user can open; otherwise
+    /// `None`.
     pub fn openable(&self) -> Option<&Openable> {
         if let Purpose::Open(entries) = &self.purpose {
             entries.get(self.choice()?)

@@ -508,8 +508,8 @@ mod tests {
         assert!(dissipated > 0.0);
     }
 
-    /// The energy that a loop of a sphere dissipates is the energy of the one-dimensional model,
-    /// which is exact, plus a share that is due to the lattice.
+    /// A sphere that is pressed and pulled off dissipates the energy of the one-dimensional model,
+    /// which is exact for a sphere, plus a share that is due to the grid of cells.
     #[test]
     fn a_loop_dissipates_the_energy_of_its_jumps() {
         let (cells, critical) = (128, 20.0);

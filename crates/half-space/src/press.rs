@@ -181,8 +181,10 @@ impl Grid {
     }
 
     /// Sets the pressures and the cells in contact from the solution on the coarser grid `coarse`.
-    /// A length is interpolated between the coarser cells: positive on the contact, and minus the
-    /// gap elsewhere. The edge of the contact lies where this length changes its sign.
+    /// The edge of the contact follows from a length at each coarser cell. On the contact, this is
+    /// the displacement that the pressure of the cell causes at the cell; elsewhere it is minus the
+    /// gap. The length is interpolated between the coarser cells, and the edge lies where it
+    /// changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;
         let half = coarse.cells;

@@ -35,12 +35,14 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Usual [`Self::size`] in px of a figure with a heat map or with several charts.
+    /// Usual size in px of the frame of each chart ([`Self::size`]), in a figure with a heat map or
+    /// with several charts.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Usual [`Self::size`] in px of a figure with a single chart.
+    /// Usual size in px of the frame of the chart ([`Self::size`]), in a figure with only one
+    /// chart.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Usual [`Self::size`] in px of charts whose horizontal axis is the position along the
-    /// profile.
+    /// Usual size in px of the frame of each chart ([`Self::size`]), if the horizontal axis of the
+    /// charts is the position along the profile.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart with this title.

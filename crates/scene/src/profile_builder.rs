@@ -297,8 +297,9 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns the [`Governing`] parameters, such as κ and e_el/γ, of a contact of this profile
-    /// with this modulus and this adhesion.
+    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this
+    /// adhesion: for example the rms height, the work of adhesion, and the parameter κ that
+    /// compares the roughness with the adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;

@@ -5,7 +5,7 @@ use asperity_surface::Form;
 
 /// Returns the closed-form solution for the adhesive contact of a form that is a power law:
 /// paraboloid, cone or power. The effective modulus is in Pa, the work of adhesion in J/m². Returns
-/// `None` for punches, wavy spheres and tables.
+/// `None` for all other forms, such as punches, wavy spheres and tables.
 ///
 /// ```
 /// use asperity_scene::theory::closed_form;

@@ -146,7 +146,7 @@ pub enum SurfaceError {
         /// Name of the quantity: positions, distances or heights.
         quantity: &'static str,
         /// Unit of the positions, if the file states a unit for the positions but none for the
-        /// heights.
+        /// heights; otherwise `None`.
         unit_of_positions: Option<String>,
     },
     /// The options do not determine which channel or surface of the file is read: none fits the

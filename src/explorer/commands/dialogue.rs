@@ -1,4 +1,4 @@
-//! Commands of prompts: opening, editing, accepting and cancelling them.
+//! Commands of prompts, which open, edit, accept and cancel a prompt.
 
 use super::{accuracy, edit, files, map_over, measured, movement, profiles, target};
 use crate::explorer::action::{OutputFile, Task};
@@ -40,8 +40,8 @@ pub fn listed(app: &mut App, entries: Vec<Openable>) {
     }
 }
 
-/// Opens the help. It contains the notice of the scene (for which a small window has no room), a
-/// description of the panes, and all keys.
+/// Opens the help. The help contains a description of the panes, all keys, and the notice of the
+/// scene, for which a small window has no room.
 pub fn open_help(app: &mut App) {
     let mut topics = Vec::new();
     let notice = on_one_line(&app.edit.document.scene().notice);
@@ -83,7 +83,7 @@ pub fn open_commands(app: &mut App) {
     app.ask(commands, "");
 }
 
-/// Begins a search in the help for the text that the user types next.
+/// Begins a search in the help. The text that the user types next is the searched text.
 pub fn search_help(app: &mut App) {
     if let Some(prompt) = &mut app.prompt
         && let Purpose::Topics { is_typed, .. } = &mut prompt.purpose

@@ -25,8 +25,8 @@ const USUAL: f64 = 0.5;
 /// Number of rows of dots in the strip of answers. Further dots at the same place are left out.
 const ROWS_OF_STRIP: usize = 2;
 
-/// Answer to an inverse question: at which value of a number does a result have the wanted value?
-/// `key` identifies the question.
+/// Answer to an inverse question: at which value of a number of the scene does a result have the
+/// wanted value? `key` is a text that identifies the question.
 #[derive(Clone, Debug)]
 pub struct Sought {
     key: String,
@@ -320,8 +320,8 @@ fn value(found: &Found) -> Option<f64> {
     if is_needed { Some(median) } else { None }
 }
 
-/// Sets the selected parameter to the value that was found. If the value is a preload, it becomes
-/// the force of the stage with the largest force.
+/// Sets the selected parameter to the value that the inverse question has found. If this value is a
+/// preload, it becomes the force of the loading stage with the largest force.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     let typed = condition_text(typed);
     Question::parse_condition(&typed).map_err(|error| error.to_string())?;

@@ -168,14 +168,15 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         length - levels.growth * self.largest_stretch(length) / (1.0 - steepness)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² from zero length to the length `cells` in cells.
+    /// Computes ∫ Δl² dℓ in cells times m², from ℓ = 0 to ℓ = `cells`. Δl is the largest stretch of
+    /// a patch of ℓ cells.
     fn squares_up_to(&self, cells: f64) -> f64 {
         self.squares_between(cells, cells)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² between two lengths. The arguments are the difference
-    /// and the sum of the two lengths in cells, so that a small difference is as accurate as
-    /// possible.
+    /// Computes ∫ Δl² dℓ in cells times m² between two lengths ℓ. Δl is the largest stretch of a
+    /// patch of ℓ cells. The arguments are the difference and the sum of the two lengths in cells,
+    /// so that a small difference is as accurate as possible.
     fn squares_between(&self, difference: f64, sum: f64) -> f64 {
         let shorter = 0.5 * (sum - difference);
         let mut integral = 0.0;
@@ -189,8 +190,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         difference * integral
     }
 
-    /// Computes Σ Δl(n)² in m² over patches of n springs, from n = `first` to n = `last`. The sum
-    /// is zero if `last` is smaller than `first`.
+    /// Computes Σ Δl(n)² in m² from n = `first` to n = `last`, where Δl(n) is the largest stretch
+    /// of a patch of n springs. The sum is zero if `last` is smaller than `first`.
     fn squares_of_patches(&self, first: f64, last: f64) -> f64 {
         let mut sum = 0.0;
         let mut springs = first;

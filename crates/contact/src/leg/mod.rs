@@ -106,8 +106,8 @@ struct Event {
     springs: f64,
 }
 
-/// Evaluates an expression with the runs of a leg, the patches over ranges of indentations in which
-/// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
+/// Evaluates an expression with the runs of a leg. A run is a patch over a range of indentations in
+/// which its edges do not jump. The code is compiled once for each kind of [`Edges`].
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $leg.contact.edges {

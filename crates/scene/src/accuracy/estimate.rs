@@ -226,8 +226,10 @@ fn difference_under_load(
     difference(Target::AdhesionForce, &solution, own)
 }
 
-/// Estimates the errors of a solution whose patches have their edges between springs. The errors
-/// are estimated at the loads of the scene and at half and twice these loads.
+/// Estimates the relative errors of a solution whose patches have their edges between springs: the
+/// errors of the adhesion force, the force curve, the dissipated energy and the largest contact
+/// length. The adhesion force is compared at the loads of the scene and at half and twice these
+/// loads. Returns `None` if the further solutions that this needs cannot be computed.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,

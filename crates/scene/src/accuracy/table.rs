@@ -172,7 +172,7 @@ impl CostTable {
     }
 
     /// Returns the main error of a row: the error of the adhesion force. Without a tensile force,
-    /// the main error is that of the force curve.
+    /// the main error is that of the force curve. Returns `None` if this error is unknown.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() {

@@ -13,8 +13,8 @@ use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and
-/// e_el/γ.
+/// Parameters that govern the contact of a scene: effective modulus, work of adhesion, roughness,
+/// and the two parameters κ and e_el/γ that compare the roughness with the adhesion.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -40,7 +40,8 @@ pub struct Governing {
     /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth
     /// profile.
     pub amplitude: Option<Amplitude>,
-    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None`
+    /// Roughness parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with the rms
+    /// height h, the rms gradient ⟨∇z⟩, the effective modulus E* and the work of adhesion γ. `None`
     /// without roughness or adhesion.
     pub kappa: Option<f64>,
     /// Ratio e_el/γ. e_el is the elastic energy per area that flattens the roughness, and γ the
@@ -113,14 +114,16 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² for which a parameter, κ or e_el/γ, has the value
-    /// `value`. Returns `None` without roughness.
+    /// Returns the work of adhesion in J/m² for which a parameter has the value `value`. The
+    /// parameter is the roughness parameter κ, or the ratio e_el/γ of elastic energy to work of
+    /// adhesion. Returns `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of a parameter, κ or e_el/γ, for this contact. Returns `None` without
-    /// roughness or adhesion.
+    /// Returns the value of a parameter for this contact: of the roughness parameter κ, or of the
+    /// ratio e_el/γ of elastic energy to work of adhesion. Returns `None` without roughness or
+    /// adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -135,8 +138,9 @@ impl Governing {
     }
 
     /// Returns the energy per area in J/m² that a parameter compares with the work of adhesion γ.
-    /// For κ the energy is h⟨∇z⟩E*, since κ² = h⟨∇z⟩E*/γ. For e_el/γ it is e_el. Returns `None`
-    /// without roughness.
+    /// For κ it is h⟨∇z⟩E* (rms height times rms gradient times effective modulus), since κ² =
+    /// h⟨∇z⟩E*/γ. For e_el/γ it is the elastic energy e_el that flattens the roughness. Returns
+    /// `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
             .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))

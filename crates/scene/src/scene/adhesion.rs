@@ -33,7 +33,7 @@ pub enum RoughnessParameter {
 }
 
 impl RoughnessParameter {
-    /// Both parameters, κ and e_el/γ.
+    /// Both parameters: κ, and the ratio e_el/γ of elastic energy to work of adhesion.
     pub const ALL: [RoughnessParameter; 2] = [
         RoughnessParameter::Kappa,
         RoughnessParameter::ElasticEnergyRatio,
@@ -69,8 +69,9 @@ impl RoughnessParameter {
     }
 
     /// Returns the energy per area that this parameter compares with the work of adhesion γ,
-    /// divided by γ. `value` is the value of this parameter. For κ the energy per area is h⟨∇z⟩E*,
-    /// so that the result is κ². For e_el/γ the energy per area is e_el, so that the result is
+    /// divided by γ. `value` is the value of this parameter. For κ the energy per area is h⟨∇z⟩E*
+    /// (rms height times rms gradient times effective modulus), so that the result is κ². For
+    /// e_el/γ it is the elastic energy e_el that flattens the roughness, so that the result is
     /// `value` itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
@@ -94,8 +95,8 @@ impl RoughnessParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
-    /// Strength of the adhesion, given by a work of adhesion or by one of the parameters κ and
-    /// e_el/γ.
+    /// Strength of the adhesion: a work of adhesion γ, or a parameter that compares γ with the
+    /// roughness ([`RoughnessParameter`]).
     pub strength: Strength,
     /// Range z₀ of the attraction in m; `None` means 0.3 nm. Only the Tabor number depends on z₀.
     pub range: Option<f64>,
@@ -114,8 +115,8 @@ pub enum Strength {
         /// `None` if γ₁ equals `opening`.
         closing: Option<f64>,
     },
-    /// One of the parameters κ and e_el/γ with its value. The work of adhesion follows from this
-    /// value.
+    /// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+    /// adhesion. The work of adhesion follows from this value.
     Parameter(RoughnessParameter, f64),
 }
 
@@ -144,7 +145,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns an adhesion whose strength is given by this value of κ or e_el/γ.
+    /// Returns an adhesion whose strength is given by the value of a parameter: the roughness
+    /// parameter κ, or the ratio e_el/γ of elastic energy to work of adhesion.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, RoughnessParameter};
@@ -163,7 +165,7 @@ impl Adhesion {
     }
 
     /// Returns the work of adhesion γ on opening in J/m² that the scene states. Returns `None` if
-    /// the scene states κ or e_el/γ instead.
+    /// the scene instead states a parameter from which γ follows ([`RoughnessParameter`]).
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength {
             Some(opening)
@@ -186,8 +188,9 @@ impl Adhesion {
         self.closing_work().is_some()
     }
 
-    /// Returns the parameter that the scene states, κ or e_el/γ, and its value. Returns `None` if
-    /// the scene states a work of adhesion instead.
+    /// Returns the parameter that the scene states, and its value: the roughness parameter κ, or
+    /// the ratio e_el/γ of elastic energy to work of adhesion. Returns `None` if the scene states a
+    /// work of adhesion instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))
@@ -207,7 +210,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns this adhesion with its strength given by this value of κ or e_el/γ.
+    /// Returns this adhesion with its strength given by the value of a parameter: the roughness
+    /// parameter κ, or the ratio e_el/γ of elastic energy to work of adhesion.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion {
             strength: Strength::Parameter(parameter, value),

@@ -266,8 +266,9 @@ impl Document {
         (!default.is_empty()).then_some(default)
     }
 
-    /// Returns the fields that this scene has or may have. Fields that need another choice are left
-    /// out, such as the angle of a cone in a scene with a sphere.
+    /// Returns the fields that this scene has or may have. A field is left out if it belongs to a
+    /// choice that the scene does not have: the angle of a cone, for example, in a scene with a
+    /// sphere.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -314,7 +315,7 @@ impl Document {
         }
     }
 
-    /// Returns the lines before the scene in a CSV table of results from which the document was
+    /// Returns the lines above the scene in the CSV table of results from which the document was
     /// read. If it was not read from such a table, returns an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head

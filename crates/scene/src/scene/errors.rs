@@ -101,7 +101,7 @@ impl SceneError {
         }
     }
 
-    /// Returns the same error with another origin.
+    /// Returns the same error with another origin: a file, changes of fields, or a program.
     pub(super) fn at(self, origin: Origin) -> SceneError {
         SceneError { origin, ..self }
     }
@@ -140,8 +140,9 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` with the errors in the list, if there are any. The function `origin` gives
-    /// each error its origin. A long list is shortened.
+    /// Returns `Err` with the errors in the list, if there are any. The function `origin` returns
+    /// where the value of an error comes from, such as a file. Of a long list only the first
+    /// [`MOST_LISTED`] errors remain, and a last error states the number of the others.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,

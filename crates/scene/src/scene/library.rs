@@ -118,7 +118,8 @@ pub fn own_folder() -> Option<PathBuf> {
     Some(strategy.config_dir().join("asperity").join("presets"))
 }
 
-/// Returns the path of the file with the scene `name` in the user's own folder, if the file exists.
+/// Returns the path of the file with the scene `name` in the user's own folder `own`; `None` if
+/// this file does not exist.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
     let is_name =

@@ -72,13 +72,14 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E in Pa.
+    /// Young's modulus E in Pa; `None` if the effective modulus is stated instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio ν.
+    /// Poisson's ratio ν; `None` if the effective modulus is stated instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
-    /// Effective modulus E* in Pa, stated instead of E and ν.
+    /// Effective modulus E* in Pa; `None` if Young's modulus and Poisson's ratio are stated
+    /// instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
@@ -236,7 +237,8 @@ impl Scene {
         })
     }
 
-    /// Returns the measured surface, if the scene has one.
+    /// Returns the description of the measured surface of the scene; `None` if its roughness is not
+    /// measured.
     pub fn measured(&self) -> Option<&Measured> {
         if let Some(Roughness::Measured(measured)) = &self.roughness {
             Some(measured)

@@ -31,7 +31,7 @@ pub enum Range {
     /// A choice among alternatives, such as the forms of a body. The list has each alternative in
     /// RON, with example values, such as `Cone(angle: 0.1)`.
     Choice(&'static [&'static str]),
-    /// A list of `least` to `most` elements, each of one of the kinds in `of`.
+    /// A list of `least` to `most` elements. The kind of an element is one of the kinds in `of`.
     List {
         /// Allowed kinds of elements. Each kind is written in RON, with example values.
         of: &'static [&'static str],

@@ -96,19 +96,21 @@ impl EquivalentLine {
         EquivalentLine { faces }
     }
 
-    /// Computes the moments of the line, such as the rms height, with their standard errors.
+    /// Computes the moments of this equivalent line, such as the rms height, with their standard
+    /// errors.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
 
-    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m.
+    /// Returns the power spectral density (PSD) in m³ of this equivalent line at a wave number in
+    /// rad/m.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
-    /// wave number at which all faces have a spectrum. The last is the largest wave number of any
-    /// face.
+    /// Returns the first and the last wave number of this equivalent line in rad/m. The first is
+    /// the smallest wave number at which all faces, the surfaces that touch each other, have a
+    /// spectrum. The last is the largest wave number of any face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
         let mut last = 0.0_f64;

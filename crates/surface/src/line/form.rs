@@ -119,9 +119,10 @@ impl Form {
         }
     }
 
-    /// Returns the index of the spring on the axis of a body of revolution. The index is ⌊N/2⌋ for
-    /// N = `points` springs. Two forms are exceptions: the axis of a punch is in the middle of the
-    /// length, and [`Form::TwoSpheres`] has an axis for each sphere.
+    /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of a body of
+    /// revolution. For two forms ⌊N/2⌋ is not the axis: the axis of a punch is in the middle of the
+    /// length, which may lie between two springs, and [`Form::TwoSpheres`] has an axis for each
+    /// sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
         // If the axis were between two springs, no spring would be under the tip. The errors of the
         // contact would then be proportional to the spring spacing Δx.

@@ -345,7 +345,8 @@ mod tests {
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
         assert_eq!(result, Err(not_finite(1)));
-        // The first spring under the punch is the second spring of the foundation.
+        // The punch covers only the springs 1 to 4 of the six. The gap at spring 4 is not finite,
+        // so the error must state its index among all springs, which is 4.
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let result = Line::new(
             1.0,

@@ -48,7 +48,8 @@ impl Transform {
 impl Synthesizer {
     /// Computes a random profile like [`SelfAffine::heights`], but displaced along the springs by
     /// `shift` spring spacings. The height at spring i is the height that the profile without
-    /// displacement has at x = (i + ½ − `shift`)L/N. The result reuses the memory of `memory`.
+    /// displacement has at x = (i + ½ − `shift`)L/N, for the length L and N = `points` springs. The
+    /// result reuses the memory of `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -149,7 +150,7 @@ impl Synthesizer {
 impl SelfAffine {
     /// Computes the heights of a random profile with this spectrum, by eqs. (8) and (9) of Popov
     /// and Filippov (2012). The heights are in units of the rms height, at x = (i + ½)L/N on N =
-    /// `points` springs. `points` has to be at least twice the last mode.
+    /// `points` springs along the length L. `points` has to be at least twice the last mode.
     ///
     /// The rms height is that of the continuous profile, which is a sum of cosine waves. The rms of
     /// the N heights differs from this rms height only if the last mode is exactly N/2.

@@ -36,7 +36,8 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the exponent −H − 1/2 of the amplitudes.
+    /// Returns the exponent −H − 1/2 with which the amplitude of a mode falls with its number of
+    /// periods. H is the Hurst exponent.
     #[inline]
     pub(super) fn amplitude_exponent(&self) -> f64 {
         -self.hurst - 0.5

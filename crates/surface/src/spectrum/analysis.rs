@@ -61,10 +61,10 @@ pub struct Analysis {
     /// True if the analysis leaves out short waves parallel to one axis of a map, because whole
     /// rows or columns are offset against each other.
     pub offsets: bool,
-    /// Largest difference, over all maps, between the waves parallel to an axis and the waves in
-    /// neighbouring directions. The difference of the squared gradients is given as a share of the
-    /// squared gradient of the map. It is 0 if the difference is negligible, or if chance or
-    /// offsets of whole rows or columns explain the difference.
+    /// Largest difference, over all maps, between two squared gradients: that of the waves parallel
+    /// to an axis, and that which the waves in neighbouring directions lead to expect. The
+    /// difference is given as a share of the squared gradient of the map. It is 0 if it is
+    /// negligible, or if chance or offsets of whole rows or columns explain it.
     pub apart: f64,
     /// Distance in m by which the odd rows of a map are displaced against the even rows, in the
     /// direction of the rows. Such a displacement occurs in a file that alternates between trace

@@ -128,8 +128,9 @@ pub(super) struct TrueWaves {
     /// True if short waves parallel to an axis are left out, because whole rows or columns are
     /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and the waves in
-    /// neighbouring directions, as a share of the squared gradient of the map.
+    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
+    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
+    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 

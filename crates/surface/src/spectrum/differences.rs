@@ -13,25 +13,26 @@ struct Group {
     spreads: Vec<Spread>,
 }
 
-/// Collection of the differences between the parts of each surface, and between surfaces with equal
-/// numbers and distances of points.
+/// Collects how much the heights and gradients differ between the parts of a surface, and between
+/// surfaces with equal numbers and distances of points.
 #[derive(Default)]
 pub(super) struct Differences {
     groups: Vec<Group>,
 }
 
-/// Errors and ratios that are computed from the differences between parts and between surfaces.
+/// Errors of the spectrum, and ratios of rms values. They follow from how much the heights and
+/// gradients differ between the parts of a surface, and between surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unevenness {
-    /// Relative errors of the integrals ∫ q^p C2D dq over the spectrum, for p = 1, 2, 3. These
-    /// errors come from the differences between parts and between surfaces.
+    /// Relative errors of the integrals ∫ q^p C2D dq over the spectrum C2D, for p = 1, 2, 3. These
+    /// errors follow from how much the integrals differ between parts and between surfaces.
     pub errors: [f64; 3],
     /// Ratio of the largest to the smallest rms gradient among the parts of a surface. The largest
-    /// ratio of all surfaces is given; 1 if chance explains the differences.
+    /// ratio of all surfaces is given; 1 if chance explains the differences between the parts.
     pub ratio_of_parts: f64,
     /// Ratio of the largest to the smallest rms height among surfaces with equal numbers and
     /// distances of points, or the same ratio of the rms gradients if it is larger; 1 if chance
-    /// explains the differences.
+    /// explains the differences between the surfaces.
     pub ratio_of_surfaces: f64,
 }
 
@@ -53,8 +54,9 @@ impl Differences {
         }
     }
 
-    /// Returns the errors and the ratios that follow from all differences. Each error is the
-    /// largest one among groups of surfaces with equal numbers and distances of points.
+    /// Returns the errors and the ratios that follow from the parts and the surfaces added so far.
+    /// Surfaces with equal numbers and distances of points form a group, and every error is the
+    /// largest one among these groups.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],

@@ -41,9 +41,11 @@ struct ModelMoments {
     gradients: [Vec<f64>; 3],
 }
 
-/// Changes a spectrum so that its moments equal those of the observed powers of periodic surfaces.
-/// Returns the absolute differences of the three moments that remain; 0 for each moment that is
-/// equal. `scans` is the number of surfaces whose waves are observed one by one.
+/// Changes a spectrum so that three moments equal those of the observed powers of periodic
+/// surfaces: the mean square height, the elastic energy and the mean square gradient, up to
+/// constant factors. Returns the magnitudes of the differences that remain between the moments of
+/// the spectrum and the observed moments; 0 for a moment that is equal. `scans` is the number of
+/// surfaces whose waves are observed one by one.
 pub(super) fn match_moments(
     model: &Model<'_>,
     spectrum: &mut IsotropicSpectrum,

@@ -39,10 +39,11 @@ pub(super) struct SpectrumFits {
 /// Largest changes of the results if the same surfaces are read with other interpolated heights.
 #[derive(Default)]
 pub(super) struct ReadingChanges {
-    /// Relative changes of the integrals ∫ q^p C2D dq over the spectrum, for p = 1, 2, 3, without
-    /// sign.
+    /// Magnitudes of the relative changes of the integrals ∫ q^p C2D dq over the spectrum C2D, for
+    /// p = 1, 2, 3. The integrals give the mean square height, the elastic energy and the mean
+    /// square gradient.
     pub integrals: [f64; 3],
-    /// Change of the Hurst exponent, without sign.
+    /// Magnitude of the change of the Hurst exponent.
     pub hurst: f64,
 }
 
@@ -126,9 +127,10 @@ impl SpectrumFits {
         Ok(largest)
     }
 
-    /// Returns the relative changes of the integrals ∫ q^p C2D dq, p = 1, 2, 3, if the surface has
-    /// shorter waves than the points resolve. Each change is the larger one of two: that of the
-    /// resolved waves, and that of all waves.
+    /// Returns the relative changes of the integrals ∫ q^p C2D dq over the spectrum C2D, p = 1, 2,
+    /// 3, if the surface has shorter waves than the points resolve. Of the change of the resolved
+    /// waves and the change of all waves, the larger one is returned. All changes are infinite if a
+    /// fit with shorter waves fails.
     pub fn missing_waves(
         &self,
         observations: &[Observation],

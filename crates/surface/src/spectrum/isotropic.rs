@@ -18,9 +18,10 @@ const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 /// Number of pieces per unit of u into which the quadrature of [`cut`] divides its range.
 const CUT_PIECES: f64 = 8.0;
 
-/// Computes the power spectral density of a cut in m³: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The
-/// integral is computed with the substitution t = k sinh u. The spectrum C2D ends at the wave
-/// number `end` in rad/m.
+/// Computes the power spectral density in m³ of a cut, a profile measured across a surface with the
+/// two-dimensional spectral density C2D: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The integral is
+/// computed with the substitution t = k sinh u. The spectrum C2D ends at the wave number `end` in
+/// rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -42,7 +43,8 @@ pub struct Node {
     pub wave_number: f64,
     /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
-    /// Standard error of ln C2D(q). It is about the relative standard error of C2D(q).
+    /// Standard error of ln C2D(q), about the relative standard error of the spectral density
+    /// C2D(q).
     pub relative_error: f64,
     /// Power spectral density of the equivalent line in m³ at the wave number q.
     pub line: f64,
@@ -53,24 +55,24 @@ pub struct Node {
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
-    /// ln C2D at the nodes.
+    /// ln C2D at the nodes, the wave numbers at which the spectral density C2D is given.
     pub(super) values: Vec<f64>,
     /// Cholesky factor of the information matrix, the inverse covariance matrix, of `values`.
     pub(super) information: Cholesky,
-    /// Relative standard errors of ∫ q^power C2D dq, for power = 1, 2, 3, that result from the
-    /// method of estimation.
+    /// Relative standard errors of the integrals ∫ q^power C2D dq over the spectrum C2D, for power
+    /// = 1, 2, 3, that result from the method of estimation.
     pub(super) method: [f64; 3],
-    /// Relative changes of the integrals ∫ q^power C2D dq, for power = 1, 2, 3, if the surface has
-    /// shorter waves than the points resolve.
+    /// Relative changes of the integrals ∫ q^power C2D dq over the spectrum C2D, for power = 1, 2,
+    /// 3, if the surface has shorter waves than the points resolve.
     pub(super) missing: [f64; 3],
     /// Ratio of the largest to the smallest rms height, or rms gradient, among several kinds of
     /// surfaces. The kinds, such as profiles and maps, are fitted together by this spectrum. The
-    /// ratio is 1 if chance explains the differences.
+    /// ratio is 1 if chance explains the differences between the kinds.
     pub(super) ratio_of_kinds: f64,
 }
 
 /// Value of an integral over a spectrum, and the derivatives of this value with respect to ln C2D
-/// at the nodes.
+/// at the nodes, the wave numbers at which the spectral density C2D is given.
 pub(super) struct Integral {
     pub value: f64,
     pub gradient: Vec<f64>,
@@ -134,9 +136,9 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Returns the spectrum with a random error of the fit. The error of ln C2D at the nodes is
-    /// drawn from the normal distribution of the errors of the fit and multiplied by `share`.
-    /// `number` is the seed: equal numbers give equal errors.
+    /// Returns the spectrum with a random error of the fit. The error of ln C2D, where C2D is the
+    /// spectral density, is drawn from the normal distribution of the errors of the fit and
+    /// multiplied by `share`. `number` is the seed: equal numbers give equal errors.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
@@ -155,7 +157,8 @@ impl IsotropicSpectrum {
         self.nodes.place(ln_q).interpolate(&self.values).exp()
     }
 
-    /// Computes ∫ q^power C2D dq over the waves with wave numbers from `from` (in rad/m) on.
+    /// Computes ∫ q^power C2D dq over the waves with wave numbers from `from` (in rad/m) on. C2D is
+    /// the spectral density at the wave number q.
     pub(super) fn integral(&self, power: i32, from: f64) -> Integral {
         let mut value = 0.0;
         let mut gradient = vec![0.0; self.values.len()];
@@ -171,16 +174,16 @@ impl IsotropicSpectrum {
         Integral { value, gradient }
     }
 
-    /// Computes ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line. Up to
-    /// constant factors, the three integrals are the mean square height, the elastic energy and the
-    /// mean square gradient of the line.
+    /// Computes the integrals ∫ q^power C2D dq over the spectrum C2D, power = 1, 2, 3, for the
+    /// waves of the equivalent line. Up to constant factors, the three integrals are the mean
+    /// square height, the elastic energy and the mean square gradient of the line.
     pub(super) fn integrals(&self) -> [f64; 3] {
         let from = 0.5 * self.nodes.wave_number(0);
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences between `other` and this spectrum for the three integrals ∫
-    /// q^power C2D dq, power = 1, 2, 3.
+    /// Returns the relative differences between `other` and this spectrum in the three integrals ∫
+    /// q^power C2D dq over the spectrum C2D, power = 1, 2, 3.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();
@@ -188,8 +191,8 @@ impl IsotropicSpectrum {
     }
 
     /// Adds further errors of the method of estimation to the relative errors of the three
-    /// integrals ∫ q^power C2D dq, power = 1, 2, 3. The squares of the errors are added, because
-    /// the errors are independent.
+    /// integrals ∫ q^power C2D dq over the spectrum C2D, power = 1, 2, 3. The squares of the errors
+    /// are added, because the errors are independent.
     pub(super) fn add_method_errors(&mut self, errors: [f64; 3]) {
         for (method, error) in self.method.iter_mut().zip(errors) {
             *method = method.hypot(error);
@@ -229,7 +232,8 @@ mod tests {
     use super::super::nodes::{End, WaveRange};
     use super::*;
 
-    /// Returns a spectrum without errors that has the values of `c2d` at the nodes.
+    /// Returns a spectrum without errors whose spectral density at the nodes, in m⁴, is given by
+    /// `c2d`.
     pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
         let values = (0..nodes.count)
             .map(|index| c2d(nodes.wave_number(index)).ln())

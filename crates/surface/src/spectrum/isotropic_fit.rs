@@ -35,10 +35,10 @@ const LEAST_DEVIATIONS: f64 = 3.0;
 const INITIAL_EXPONENT: f64 = 3.0;
 
 /// Finds the isotropic spectrum of largest penalised likelihood. If `periodic_scans` is given, the
-/// moments of the spectrum are then made equal to those of the observed powers ([`match_moments`]).
-/// `periodic_scans` is the number of periodic surfaces whose waves are observed one by one. Returns
-/// `None` if the information matrix is not positive definite, which happens for powers that are
-/// zero or not finite.
+/// moments of the spectrum, such as its mean square height, are then made equal to those of the
+/// observed powers ([`match_moments`]). `periodic_scans` is the number of periodic surfaces whose
+/// waves are observed one by one. Returns `None` if the information matrix is not positive
+/// definite, which happens for powers that are zero or not finite.
 pub(super) fn fit_isotropic(
     model: &Model<'_>,
     periodic_scans: Option<f64>,

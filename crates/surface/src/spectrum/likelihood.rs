@@ -10,12 +10,12 @@ const NODES_PER_DECADE: f64 = 6.0;
 /// Spacing in ln q of the grid of wave numbers to which [`Model::condensed`] moves terms.
 const GRID: f64 = 0.02;
 
-/// Model of the observed powers. The expected mean of each observed power is a sum of terms that
+/// Model of the observed powers. The expected value of each observed power is a sum of terms that
 /// depend on the spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
-    /// Terms of the expected mean of each observation: one list for each observation. The expected
-    /// mean is the sum of the terms in its list.
+    /// For each observation, a list of terms. Their sum is the expected value of the observed
+    /// power.
     pub terms: Vec<Vec<Term>>,
     pub nodes: Nodes,
 }
@@ -37,9 +37,9 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns a model with fewer terms and nearly the same expected means. The weight of each term
-    /// is divided between the two nearest wave numbers of a fine grid. For a power law q^(−4), the
-    /// expected means change by less than 0.1 %.
+    /// Returns a model with fewer terms and nearly the same expected values of the powers. The
+    /// weight of each term is divided between the two nearest wave numbers of a fine grid. For a
+    /// power law q^(−4), the expected values change by less than 0.1 %.
     pub fn condensed(&self) -> Model<'a> {
         let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
         Model {
@@ -78,8 +78,8 @@ impl<'a> Model<'a> {
     }
 
     /// Returns the negative logarithm of the likelihood of the observations. It is the sum of w
-    /// (P/m + ln m) over the observations: P is the observed mean power of w waves, and m from
-    /// `means` is the expected mean power.
+    /// (P/m + ln m) over the observations: P is the mean power of w waves that was observed, and m
+    /// from `means` is its expected value.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()
@@ -88,8 +88,9 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes, the wave
-    /// numbers at which the spectrum is given.
+    /// Returns the expected value of each observed power, which the spectrum `values` predicts.
+    /// `values` is ln C2D at the nodes, the wave numbers at which the spectral density C2D is
+    /// given.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

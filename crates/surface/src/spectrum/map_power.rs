@@ -20,16 +20,16 @@ pub(super) struct MapPower {
     /// Wave numbers 2π/Δ in rad/m, along the rows and perpendicular to the rows. Δ is the distance
     /// between points in this direction.
     pub sampling: [f64; 2],
-    /// The waves with their powers C2D, sorted by wave number, up to the smaller of the two Nyquist
-    /// wave numbers. They cover only one half of the plane of wave numbers, because the other half
-    /// has the same powers.
+    /// The waves with their power spectral densities C2D in m⁴, sorted by wave number, up to the
+    /// smaller of the two Nyquist wave numbers. They cover only one half of the plane of wave
+    /// numbers, because the other half has the same powers.
     pub waves: Vec<Wave>,
     /// True if short waves parallel to one axis are left out, because whole rows or columns are
     /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and the waves in
-    /// neighbouring directions, as a share of the squared gradient of the map. It is 0 if the
-    /// difference is negligible or may be chance.
+    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
+    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
+    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 

@@ -53,8 +53,8 @@ impl NodePlace {
     }
 
     /// Converts a derivative with respect to ln C2D at this place to derivatives with respect to ln
-    /// C2D at the two neighbouring nodes. The two derivatives are added to `gradient`, which has
-    /// one element for each node.
+    /// C2D at the two neighbouring nodes. C2D is the two-dimensional spectral density. The two
+    /// derivatives are added to `gradient`, which has one element for each node.
     pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
         gradient[self.index] += (1.0 - self.share) * derivative;
         gradient[self.index + 1] += self.share * derivative;
@@ -100,9 +100,9 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Returns where ln q lies between the nodes. Below the first node, the place is that of the
-    /// first node, so that the spectrum is constant there. Beyond the last node, the spectrum is
-    /// extrapolated.
+    /// Returns where the logarithm `ln_q` of a wave number q lies between the nodes. Below the
+    /// first node, the place is that of the first node, so that the spectrum is constant there.
+    /// Beyond the last node, the spectrum is extrapolated.
     pub fn place(&self, ln_q: f64) -> NodePlace {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
@@ -135,8 +135,8 @@ impl Nodes {
         pieces
     }
 
-    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, where q is a wave number in
-    /// rad/m.
+    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, where C2D is the
+    /// two-dimensional spectral density and q a wave number in rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         Term {
@@ -147,7 +147,7 @@ impl Nodes {
     }
 }
 
-/// A term of a sum over a spectrum: a weight times C2D at the wave number q.
+/// A term of a sum over a spectrum: a weight times the spectral density C2D at the wave number q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub weight: f64,
@@ -157,7 +157,7 @@ pub(super) struct Term {
 
 impl Term {
     /// Returns the value of the term. `values` is ln C2D at the nodes, the wave numbers at which
-    /// the spectrum is given.
+    /// the spectral density C2D is given.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * self.place.interpolate(values).exp()
     }

@@ -65,7 +65,8 @@ pub(super) struct Observation {
     pub power: f64,
     pub waves: f64,
     /// Weight of the band in the moments of the equivalent line. The contribution of the band to a
-    /// moment is its mean power times this weight times a power of q ([`Observation::moments`]).
+    /// moment is its mean power times this weight times a power of its wave number
+    /// ([`Observation::moments`]).
     pub range: f64,
     /// Means of P, q P and q² P over the waves of the band, where P is the power of a wave and q
     /// its wave number in rad/m.
@@ -79,10 +80,10 @@ pub(super) struct Observation {
 /// whose wave numbers differ by `sampling` look the same at the points: they are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Power C1D of a cut through the surface, which is a profile.
+    /// One-dimensional power spectral density C1D of a cut through the surface, which is a profile.
     Cut { step: f64, sampling: f64 },
-    /// Power C2D of a map. The first of the two wave numbers is that along the rows, the second
-    /// that perpendicular to the rows.
+    /// Two-dimensional power spectral density C2D of a map. The first of the two wave numbers is
+    /// that along the rows, the second that perpendicular to the rows.
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
@@ -235,15 +236,16 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 impl Observation {
     /// Computes the contribution of this band to three moments of the equivalent line, under the
     /// assumption that all waves of the band have the power `power`. The moments are ∫ q^(p+1) C2D
-    /// dq/2π for p = 0, 1, 2. The moments of a cut are 1, 2/π and 1/2 times the moments of the
-    /// line.
+    /// dq/2π for p = 0, 1, 2, where C2D is the spectral density at the wave number q. The moments
+    /// of a cut are 1, 2/π and 1/2 times the moments of the line.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         self.of_weighted_powers([1.0, q, q * q].map(|factor| factor * power))
     }
 
     /// Computes the measured contribution of this band to the moments ∫ q^(p+1) C2D dq/2π for p =
-    /// 0, 1, 2. Each wave of the band contributes with its own power and wave number.
+    /// 0, 1, 2, where C2D is the spectral density at the wave number q. Each wave of the band
+    /// contributes with its own power and wave number.
     pub fn measured_moments(&self) -> [f64; 3] {
         self.of_weighted_powers(self.weighted_powers)
     }
@@ -257,10 +259,10 @@ impl Observation {
         moments.map(|moment| moment * self.range)
     }
 
-    /// Returns the terms whose sum is the expected mean power of this band. Each term is a weight
-    /// times the spectrum at one wave number, interpolated between the wave numbers `nodes`. The
-    /// terms include aliases. These are waves that look like the waves of this band, because the
-    /// points do not resolve them.
+    /// Returns the terms whose sum is the mean power of this band that a spectrum predicts. Each
+    /// term is a weight times the spectrum at one wave number, interpolated between the wave
+    /// numbers `nodes`. The terms include aliases. These are waves that look like the waves of this
+    /// band, because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

@@ -16,6 +16,6 @@ pub struct AnalysisOptions {
     /// Whether the surface is assumed to have waves shorter than the shortest wave that the points
     /// resolve.
     pub end: End,
-    /// Radius in m of the tip that measured the surface.
+    /// Radius in m of the tip that measured the surface; `None` if it is unknown.
     pub tip_radius: Option<f64>,
 }

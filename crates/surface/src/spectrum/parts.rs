@@ -55,21 +55,23 @@ pub(super) struct Blocks {
     shares: Vec<f64>,
 }
 
-/// Relative differences between the parts of a surface in three moments. Up to constant factors,
-/// the moments are the mean square height, the elastic energy and the mean square gradient.
+/// How much three moments of the heights differ between the parts of a surface, as relative
+/// numbers. Up to constant factors, the moments are the mean square height, the elastic energy and
+/// the mean square gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
-    /// Mean of each moment over the parts of the surface.
+    /// Mean over the parts of the surface of three moments: mean square height, elastic energy and
+    /// mean square gradient, up to constant factors.
     pub means: [f64; 3],
-    /// Relative variances of the means that chance explains. Chance means here: the surface is
-    /// uniform, and its heights are normally distributed.
+    /// Relative variances of the three moments in `means` that chance explains. Chance means here:
+    /// the surface is uniform, and its heights are normally distributed.
     pub chance: [f64; 3],
-    /// Relative variances of the means that chance does not explain; zero if chance explains all
-    /// differences between the parts.
+    /// Relative variances of the three moments in `means` that chance does not explain; zero if
+    /// chance explains all differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
     /// surface, or among its halves if there are no quarters. The ratio is 1 if chance explains the
-    /// differences.
+    /// differences between them.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,
@@ -90,8 +92,8 @@ struct MomentSpread {
 }
 
 impl Spread {
-    /// Returns the differences for a surface whose parts differ by no more than chance explains, or
-    /// that has only one part.
+    /// Returns the value for a surface that has only one part, or whose parts have moments (such as
+    /// the mean square height) that differ by no more than chance explains.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,
@@ -149,8 +151,9 @@ impl Blocks {
         })
     }
 
-    /// Returns the differences of the three moments between the blocks. If chance explains the
-    /// differences of all moments, every [`Spread::excess`] is zero.
+    /// Returns how much the mean square height, the elastic energy and the mean square gradient
+    /// differ between the blocks. If chance explains the differences of all moments, every
+    /// [`Spread::excess`] is zero.
     pub fn spread(&self) -> Spread {
         let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
         let mut spread = Spread {
@@ -400,9 +403,9 @@ pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of an estimated to an expected variance that counts as chance. The
-/// estimated variance of a mean follows from the differences between `parts` parts. The expected
-/// variance of this mean is that of a uniform surface.
+/// Returns the largest ratio of two variances that counts as chance. Both are variances of the mean
+/// of a moment over `parts` parts of a surface: the first is estimated from the differences between
+/// the parts, the second is that on a uniform surface.
 ///
 /// On a uniform surface, the ratio exceeds the result once in a thousand times. The result is a
 /// quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance

@@ -54,8 +54,8 @@ impl PointResults {
     }
 
     /// Compares the rms gradient of the spectrum with the rms gradient of the points, and adds the
-    /// difference to the errors of the spectrum. If `has_height` is true, also compares the rms
-    /// heights in this way.
+    /// difference between the two to the errors of the spectrum. If `has_height` is true, also
+    /// compares the rms heights in this way.
     pub fn check_identities(&self, isotropic: &mut IsotropicSpectrum, has_height: bool) {
         let height = self.longest.sums.statistics().rms_height;
         let height = has_height.then_some(height);

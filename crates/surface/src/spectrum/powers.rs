@@ -54,7 +54,7 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface. Each power is first multiplied by its factor from
+    /// Adds the power spectra of a surface. Before that, a power is multiplied by its factor from
     /// `weights`, unless the surface is periodic: without a window function, all parts of the
     /// surface count equally anyway.
     pub fn add(
@@ -156,8 +156,10 @@ impl Powers {
         }
     }
 
-    /// Returns the largest difference, over all maps, between the waves parallel to an axis and the
-    /// waves in neighbouring directions ([`MapPower::apart`]).
+    /// Returns the largest difference, over all maps, between two squared gradients: that of the
+    /// waves parallel to an axis, and that which the waves in neighbouring directions lead to
+    /// expect. The difference is a share of the squared gradient of the map. It is 0 if it is
+    /// negligible or may be chance ([`MapPower::apart`]).
     pub fn apart(&self) -> f64 {
         self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
     }

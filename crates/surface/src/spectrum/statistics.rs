@@ -19,10 +19,11 @@ pub struct PointStatistics {
     /// Root mean square gradient of maps, from the slopes along the rows and perpendicular to the
     /// rows, Sdq in the notation of ISO. `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,
-    /// Skewness of the heights: the mean cube of the height divided by the cube of the rms height.
+    /// Skewness of the heights: the cube of the height, as a mean over the points, divided by the
+    /// cube of the rms height.
     pub skewness: f64,
-    /// Kurtosis of the heights: the mean fourth power of the height divided by the fourth power of
-    /// the rms height. It is 3 for normally distributed heights.
+    /// Kurtosis of the heights: the fourth power of the height, as a mean over the points, divided
+    /// by the fourth power of the rms height. It is 3 for normally distributed heights.
     pub kurtosis: f64,
 }
 

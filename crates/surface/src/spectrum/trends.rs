@@ -12,8 +12,9 @@ const TRENDS: [(Trend, Detrend); 2] = [
     (Trend::Curvature, Detrend::Curvature),
 ];
 
-/// Sums of squared heights about the mean, over the points of all surfaces. One sum is that of the
-/// heights as they are, and the others are those after removal of each trend.
+/// Sums of squared heights about the mean height, over the points of all surfaces. One sum is that
+/// of the heights as they are; the others are those after removal of a trend, a tilt or a
+/// curvature.
 #[derive(Default)]
 pub(super) struct TrendSums {
     squares: f64,
@@ -40,7 +41,8 @@ impl TrendSums {
         Ok(())
     }
 
-    /// Returns for each trend the share by which its removal reduces the mean squared height.
+    /// Returns two trends of the heights, tilt and curvature, with the share by which the removal
+    /// of the trend reduces the mean squared height.
     pub fn shares(&self) -> Vec<TrendOfScan> {
         let trends = TRENDS.into_iter().zip(self.without);
         let shares = trends.map(|((trend, _), without)| TrendOfScan {

@@ -64,9 +64,10 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Finds the index file of the archive, and returns its name. `names` are the names that an
-    /// index file may have. If several files have such a name, the file in the fewest folders is
-    /// the index file. In later calls, names of files are relative to the folder of the index file.
+    /// Finds the index file of the archive, and returns its name; `None` if there is no index file.
+    /// `names` are the names that an index file may have. If several files have such a name, the
+    /// file in the fewest folders is the index file. In later calls, names of files are relative to
+    /// the folder of the index file.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();

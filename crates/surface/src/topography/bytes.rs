@@ -63,7 +63,8 @@ macro_rules! numbers {
         }
 
         impl Number {
-            /// Returns the type of numbers that has this name in NumPy, such as `f8`.
+            /// Returns the type of numbers that has this name in NumPy, such as `f8`; `None` if
+            /// there is no such type.
             pub fn named(name: &str) -> Option<Number> {
                 match name {
                     $($code => Some(Number::$name),)*

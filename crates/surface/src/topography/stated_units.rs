@@ -9,9 +9,10 @@ use crate::error::{Place, SurfaceError, refused};
 /// `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StatedUnits {
-    /// Unit of the positions along the rows of a map, or of the positions of a profile.
+    /// Unit of the positions along the rows of a map, or of the positions of a profile; `None` if
+    /// the file states none.
     pub along: Option<Unit>,
-    /// Unit of the positions across the rows of a map.
+    /// Unit of the positions across the rows of a map; `None` if the file states none.
     pub between: Option<Unit>,
     pub heights: Option<Unit>,
 }

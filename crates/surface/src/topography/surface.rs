@@ -67,8 +67,8 @@ pub struct Topography {
     /// Name of the measurement, if its file is an archive with several measurements; otherwise
     /// empty.
     pub name: String,
-    /// Polynomial that has to be removed before the analysis, if the archive with the surface
-    /// states one.
+    /// Polynomial that has to be removed before the analysis; `None` unless the archive with the
+    /// surface states one.
     pub(crate) detrend: Option<Detrend>,
     /// True if the surface continues periodically at its borders, as the file or the archive with
     /// the file states.
@@ -105,7 +105,8 @@ impl Topography {
         self.interpolated.len()
     }
 
-    /// Returns the index of the first missing point of a profile in the file, counted from 0.
+    /// Returns the index of the first missing point of a profile in the file, counted from 0;
+    /// `None` if no point is missing.
     pub(crate) fn first_missing(&self) -> Option<usize> {
         let [points_before, _] = self.cropped.before;
         let [points_after, _] = self.cropped.after;

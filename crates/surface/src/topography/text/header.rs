@@ -126,13 +126,13 @@ const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 /// Header of a text: the lines above its numbers, with the units, sizes and names that they state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextHeader {
-    /// Name of the channel, if the header states it.
+    /// Name of the channel; `None` if the header states none.
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that say to which of them the unit belongs.
     units: [Option<Unit>; 3],
     /// Unit of all lengths, from a key that does not say to which axis the unit belongs.
     unit: Option<Unit>,
-    /// Unit of the heights if it is not a unit of length.
+    /// Unit of the heights if it is not a unit of length; otherwise `None`.
     pub other_unit: Option<String>,
     /// Width and height of a map.
     sizes: [Option<Length>; 2],
@@ -308,14 +308,15 @@ impl TextHeader {
     }
 
     /// Returns the distance between points in m that the header states for a profile without
-    /// positions.
+    /// positions; `None` if it states no distance or no unit for it.
     pub fn distance(&self) -> Option<f64> {
         let [along, _] = self.spacing;
         self.metres(along?, X, None)
     }
 
-    /// Returns the distances between points in m, along and between the rows of a map. `columns`
-    /// and `rows` are the numbers of columns and rows of the map.
+    /// Returns the distances between points in m, along and between the rows of a map; `None` if
+    /// the header does not determine both. `columns` and `rows` are the numbers of columns and rows
+    /// of the map.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         self.distances_by_size(columns, rows).or_else(|| {
             let [along, between] = self.spacing;
@@ -363,7 +364,7 @@ impl TextHeader {
 
     /// Returns the unit of x, y or the heights, chosen by `axis` ([`X`], [`Y`] or [`Z`]). It is the
     /// unit in the name of the column. If this name has no unit, it is the unit that a key of the
-    /// header states.
+    /// header states. Returns `None` if neither states a unit.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         if let Some(unit) = column.and_then(unit_of_column) {
             return Some(unit);
