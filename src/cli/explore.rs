@@ -39,9 +39,9 @@ pub struct ExploreArguments {
     /// Compare with this scene: its curve is shown as a ghost
     #[arg(long, value_name = "OTHER", conflicts_with = "restore")]
     pub compare: Option<String>,
-    /// Show medians over COUNT random profiles; default: 16, or 1 for a fixed profile
+    /// Show medians over COUNT random profiles; default: 16
     ///
-    /// The row `profiles` of the explorer changes it.
+    /// The row `profiles` of the explorer changes it. A fixed profile is the only one.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(ALLOWED), verbatim_doc_comment)]
     pub profiles: Option<u64>,
     #[command(flatten)]

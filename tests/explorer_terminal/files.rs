@@ -73,7 +73,7 @@ fn the_command_that_is_copied_gives_the_same_curve() {
     terminal.send("E");
     answer(
         &mut terminal,
-        "Export to (.csv .npy .json .svg .png .pdf .txt): ",
+        "Export to (.csv .npy .json .svg .png .pdf .txt; 85mm: width): ",
         "curve.csv",
     );
     terminal.wait_for("exported to curve.csv");
