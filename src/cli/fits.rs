@@ -2,6 +2,7 @@
 //! writes a table. If the table already exists, only its missing rows are computed.
 
 use super::advice::option;
+use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
@@ -12,11 +13,11 @@ use asperity_data::{
     write_new,
 };
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
-use asperity_report::{CurveRow, FitsReport, Format, Report, scene_provenance, write};
+use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
 use asperity_scene::library::open_argument;
 use std::collections::{HashMap, HashSet};
-use std::fs::{File, OpenOptions, read_dir};
+use std::fs::{File, OpenOptions, canonicalize, read_dir};
 use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -88,7 +89,7 @@ pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
 
 /// Reason why a curve has no row in the table.
 enum RowError {
-    Unwritable(io::Error),
+    Unwritable(CliError),
     Stopped,
 }
 
@@ -109,6 +110,8 @@ pub(super) struct Curves<'a> {
     pub free: &'a [Free],
     pub reading: &'a CurveOptions,
     pub jobs: Option<u16>,
+    /// Folder in which each fitted curve gets a table.
+    pub tables: Option<&'a Path>,
     pub output: &'a OutputArguments,
 }
 
@@ -131,6 +134,7 @@ struct Batch<'a> {
     curves: &'a Curves<'a>,
     /// Provenance that is written at the beginning of a table.
     provenance: String,
+    tables: Option<CurveTables>,
 }
 
 /// Fits a scene to each of the curves in turn, and writes a table with a row for each curve.
@@ -144,15 +148,33 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    // The number of threads has no influence on the rows. Therefore the command in the table does
-    // not contain it, and the table can be continued with another number of threads.
-    let command = command_without(&["--jobs"]);
-    let provenance = scene_provenance(
-        &command,
-        document.scene(),
-        &document.resolve(""),
-        output.folder(),
-    );
+    // The number of threads and the tables of the curves have no influence on the rows. Therefore
+    // the command in the table does not contain them, and the same table can be continued with
+    // other values of these options.
+    let command = command_without(&["--jobs", "--curves"]);
+    let provenance_in = |folder: &Path| {
+        scene_provenance(&command, document.scene(), &document.resolve(""), folder)
+            .map_err(CliError::message)
+    };
+    let provenance = provenance_in(output.folder())?;
+    let is_same_folder = |path: &PathBuf| {
+        let folder = curves.tables.and_then(|folder| canonicalize(folder).ok());
+        folder.is_some() && canonicalize(path).ok() == folder
+    };
+    if let Some(folder) = curves.paths.iter().find(|path| is_same_folder(path)) {
+        let fault = "the tables would lie among the curves; allowed: another folder for --curves";
+        return Err(CliError::named(path_name(folder), fault));
+    }
+    let tables = match curves.tables {
+        Some(folder) => Some(CurveTables::prepare(
+            folder,
+            &files,
+            output.file(),
+            provenance_in(folder)?,
+            output.force,
+        )?),
+        None => None,
+    };
     let mut free = Vec::new();
     for parameter in Parameter::ALL {
         if curves.free.iter().any(|free| free.parameter == parameter) {
@@ -163,7 +185,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         free,
         reading: curves.reading_for(&document),
         curves,
-        provenance: provenance.map_err(CliError::message)?,
+        provenance,
+        tables,
         document,
     };
     let rows = batch.rows(&files, table)?;
@@ -238,10 +261,13 @@ impl Batch<'_> {
             .map(|path| path.to_string_lossy().into_owned())
             .collect();
         check_names(&names)?;
-        let rows = table
+        let mut rows = table
             .map(|path| self.kept(path))
             .transpose()?
             .unwrap_or_default();
+        if let Some(tables) = &self.tables {
+            rows.retain(|name, _| tables.has(name));
+        }
         let todo: Vec<usize> = (0..files.len())
             .filter(|index| !rows.contains_key(&names[*index]))
             .collect();
@@ -263,13 +289,20 @@ impl Batch<'_> {
                 if stop() {
                     return Err(RowError::Stopped);
                 }
+                let row = row.map_err(RowError::Unwritable)?;
                 let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
                 let line = self.text_of(std::slice::from_ref(&row));
                 let written = progress
                     .table
                     .as_mut()
                     .map_or(Ok(()), |table| table.write_all(last_line(&line).as_bytes()));
-                let written = written.map_err(RowError::Unwritable);
+                let written = written.map_err(|error| {
+                    let name = table_path.map(path_name).unwrap_or_default();
+                    RowError::Unwritable(CliError::named(
+                        name,
+                        format!("cannot be written: {error}"),
+                    ))
+                });
                 progress.rows.insert(names[index].clone(), row);
                 let done = grouped(progress.rows.len() as u64);
                 progress
@@ -285,38 +318,52 @@ impl Batch<'_> {
         progress.line.clear();
         let mut rows = progress.rows;
         written.map_err(|error| match error {
-            RowError::Unwritable(error) => CliError::named(
-                table_path.map(path_name).unwrap_or_default(),
-                format!("cannot be written: {error}"),
-            ),
+            RowError::Unwritable(error) => error,
             RowError::Stopped => {
                 let done = grouped(rows.len() as u64);
-                let lost = match table_path {
-                    Some(_) => "the same command continues the table",
-                    None => "no results are written",
+                let next = match table_path {
+                    Some(_) => "the same command goes on",
+                    None => "the same command begins anew, and with -o FILE.csv it would go on",
                 };
-                watch.interrupted(format!(
-                    "stopped: {done} of {count} curves are fitted; {lost}"
-                ))
+                watch.interrupted(format!("stopped: {done} of {count} curves done; {next}"))
             }
         })?;
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
-    fn row(&self, path: &Path, name: &str, stop: &(dyn Fn() -> bool + Sync)) -> CurveRow {
-        let fit = self
-            .curves
-            .free
-            .iter()
-            .copied()
-            .fold(Fit::of(&self.document), Fit::free);
-        CurveRow::of(
-            name,
-            MeasuredCurve::read(path, &self.reading).map_err(|error| error.in_words(option)),
-            &fit,
-            Control::default().stopped_by(stop),
-            option,
-        )
+    /// Fits the scene to a curve, and writes the table of the curve if one is asked for.
+    ///
+    /// # Errors
+    /// Returns an error if the table of the curve cannot be written. The row has the reason if the
+    /// curve cannot be read or fitted.
+    fn row(
+        &self,
+        path: &Path,
+        name: &str,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<CurveRow, CliError> {
+        let curve = match MeasuredCurve::read(path, &self.reading) {
+            Ok(curve) => curve,
+            Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
+        };
+        let mut fit = Fit::of(&self.document);
+        for free in self.curves.free {
+            fit = fit.free(*free);
+        }
+        let found = match fit.run(&curve, Control::default().stopped_by(stop)) {
+            Ok(found) => found,
+            Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
+        };
+        let report = FitReport {
+            title: name,
+            curve: &curve,
+            fit: &found,
+            wording: option,
+        };
+        if let Some(tables) = &self.tables {
+            tables.write(name, &report)?;
+        }
+        Ok(CurveRow::fitted(&report))
     }
 
     /// Returns a table of these rows as text in CSV.

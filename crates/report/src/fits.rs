@@ -4,6 +4,7 @@
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::spread::Spread;
 use crate::warnings::{sentences_section, with_share};
 use crate::words::counted;
 use asperity_data::{AxisScale, Control, Kind, Note, Remedied, Remedy, Table, Warning, Wording};
@@ -143,7 +144,7 @@ impl CurveRow {
     }
 
     /// Makes the row of a curve that was not read or not fitted.
-    fn failed(title: &str, error: &str) -> Self {
+    pub fn failed(title: &str, error: &str) -> Self {
         CurveRow {
             file: title.to_owned(),
             error: printable(error).into_owned(),
@@ -152,7 +153,7 @@ impl CurveRow {
     }
 
     /// Makes the row of a curve that was fitted.
-    fn fitted(report: &FitReport<'_>) -> Self {
+    pub fn fitted(report: &FitReport<'_>) -> Self {
         let FitReport {
             title,
             curve,
@@ -525,6 +526,7 @@ impl Report for FitsReport<'_> {
                 sheet.paragraph(sentence);
             }
         }
+        self.add_spreads(&mut sheet);
         sentences_section(&mut sheet, &self.warning_texts());
         Some(sheet.into_text())
     }
@@ -535,6 +537,7 @@ impl Report for FitsReport<'_> {
             parameter: self.free.first().map(|parameter| parameter.name()),
             all: DistributionJson::new(values.all()),
             described: DistributionJson::new(values.described),
+            spreads: self.spreads(),
             warnings: self.warning_texts(),
             curves: self.table(),
             scene: self.scene,
@@ -669,6 +672,8 @@ struct FitsJson<'a> {
     /// Distribution over the curves that the model describes.
     described: Option<DistributionJson>,
     all: Option<DistributionJson>,
+    /// Median and scatter of each quantity over all fitted curves.
+    spreads: Vec<Spread>,
     /// Premises of the model that some of the fitted scenes do not meet.
     warnings: Vec<String>,
     curves: Option<Table<'a>>,

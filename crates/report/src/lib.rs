@@ -27,6 +27,7 @@ mod section;
 mod sensitivity;
 mod sheet;
 mod spectrum_figure;
+mod spread;
 mod stages;
 mod status;
 mod study_figure;
