@@ -4,6 +4,7 @@
 pub(crate) mod agreement;
 pub(crate) mod descent;
 pub(crate) mod ensemble;
+pub(crate) mod instrument;
 pub(crate) mod lengths;
 pub(crate) mod lines;
 pub(crate) mod model;
@@ -22,6 +23,7 @@ pub(crate) mod two_spheres;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::fit::agreement::{Compared, MISFIT};
+use crate::fit::instrument::FittedStiffness;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Free, Parameter};
 use crate::fit::population::WRONG_SIDE;
@@ -217,12 +219,24 @@ fn result(
         Some(_) => None,
         None => tabor_number(scene, simulation)?,
     };
+    let stiffness = FittedStiffness {
+        curve,
+        values: best,
+        free: &free,
+        stated: document.scene().loading_stiffness,
+    };
+    let far_from_stated = stiffness.far_from_stated();
+    let assumptions = match far_from_stated {
+        Some(_) => Vec::new(),
+        None => stiffness.sentences(&simulation.contact(scene)?.0)?,
+    };
     let line_remains = curve.remaining[..2].iter().any(|change| *change != 0.0);
     let reason_of_misfit = match slope {
         Some(slope) => {
             let stiffness = best[Parameter::Stiffness as usize];
             Some(Reason::Stiffness(slope, stiffness))
         }
+        None if far_from_stated.is_some() => far_from_stated,
         None if searched.misfit > MISFIT || line_remains => {
             let residuals = &searched.residuals;
             Some(reason(
@@ -248,7 +262,7 @@ fn result(
         warnings: simulation.compute(scene)?.warnings,
         correlations: posterior.correlations(),
         not_distinguished: posterior.not_distinguished(),
-        assumptions: Vec::new(),
+        assumptions,
         evaluations: searched.evaluations,
         model: searched.model_forces(curve),
         document: fitted,
