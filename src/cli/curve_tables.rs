@@ -1,8 +1,9 @@
 //! Tables in a folder, one for each of several fitted curves, with the measured and the computed
 //! force at each point.
 
+use super::curve_sources::CurveSource;
 use super::error::CliError;
-use asperity_data::{grouped, path_name, write_new_file};
+use asperity_data::{grouped, path_name, printable, write_new_file};
 use asperity_report::{FitReport, Format, write};
 use std::collections::HashMap;
 use std::fs::{File, canonicalize, create_dir_all};
@@ -30,7 +31,7 @@ impl CurveTables {
     /// that may not be replaced.
     pub fn prepare(
         folder: &Path,
-        curves: &[PathBuf],
+        curves: &[CurveSource],
         output: Option<&Path>,
         provenance: String,
         overwrite: bool,
@@ -39,20 +40,18 @@ impl CurveTables {
             provenance,
             paths: HashMap::new(),
         };
-        let mut curve_of_table: HashMap<PathBuf, &Path> = HashMap::new();
+        let mut curve_of_table: HashMap<PathBuf, &str> = HashMap::new();
         for curve in curves {
-            let path = folder.join(file_name(curve));
-            if let Some(other) = curve_of_table.insert(path.clone(), curve) {
-                let (other, curve) = (path_name(other), path_name(curve));
+            let path = folder.join(format!("{}.{EXTENSION}", curve.stem()));
+            if let Some(other) = curve_of_table.insert(path.clone(), &curve.name) {
+                let (other, curve) = (printable(other), printable(&curve.name));
                 let found = format!("{other} and {curve} would have the same table");
                 return Err(CliError::named(
                     path_name(&path),
                     format!("{found}; allowed: curves of different names, or fewer in one command"),
                 ));
             }
-            tables
-                .paths
-                .insert(curve.to_string_lossy().into_owned(), path);
+            tables.paths.insert(curve.name.clone(), path);
         }
         create_dir_all(folder).map_err(|error| {
             CliError::named(
@@ -67,14 +66,14 @@ impl CurveTables {
     /// Returns an error if a table would replace a file that may not be replaced.
     fn check_replaced(
         &self,
-        curve_of_table: &HashMap<PathBuf, &Path>,
-        curves: &[PathBuf],
+        curve_of_table: &HashMap<PathBuf, &str>,
+        curves: &[CurveSource],
         output: Option<&Path>,
         overwrite: bool,
     ) -> Result<(), CliError> {
         let kept: Vec<PathBuf> = curves
             .iter()
-            .map(PathBuf::as_path)
+            .map(|curve| curve.path.as_path())
             .chain(output)
             .filter_map(|path| canonicalize(path).ok())
             .collect();
@@ -129,10 +128,4 @@ impl CurveTables {
             write(out, report, Format::Csv, &self.provenance)
         })?)
     }
-}
-
-/// Returns the name of the table of a curve: the name of its file with another extension.
-fn file_name(curve: &Path) -> PathBuf {
-    let name = curve.file_name().unwrap_or_default();
-    Path::new(name).with_extension(EXTENSION)
 }

@@ -9,7 +9,7 @@ use super::progress::{Task, watched};
 use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
 use asperity_data::{path_name, write_new};
-use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
+use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, SeveralCurves};
 use asperity_report::{FitReport, Format, Report, named_from};
 use clap::Args;
 use std::io;
@@ -28,8 +28,8 @@ Examples:
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or only a retraction that ends without contact. The scene is the last argument. A
-form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, or a folder of them, give a
-row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
+form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, a folder of them, or a text
+with several, such as a map, give a row each, and -o FILE.svg draws a map if places are stated; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
 one curve is one object with the parameters and their errors; CSV and .npy hold the columns
 displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
 
@@ -108,7 +108,10 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         tables: arguments.curves.as_deref(),
         output,
     };
-    let is_one = matches!(paths, [path] if !path.is_dir());
+    let is_one = match paths {
+        [path] => !path.is_dir() && SeveralCurves::read(path, reading).is_none(),
+        _ => false,
+    };
     if arguments.scene.is_some() && !(is_one && compared.lines.is_none()) {
         let fault =
             "several curves or profiles; allowed: a fit of one curve, whose scene is written";

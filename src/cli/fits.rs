@@ -2,6 +2,7 @@
 //! writes a table. If the table already exists, only its missing rows are computed.
 
 use super::advice::option;
+use super::curve_sources::{CurveSource, PlacedCurve, sources_of};
 use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
@@ -12,12 +13,12 @@ use asperity_data::{
     Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
     write_new,
 };
-use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
+use asperity_experiment::{CurveOptions, Fit, Free, Parameter};
 use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
 use asperity_scene::library::open_argument;
 use std::collections::{HashMap, HashSet};
-use std::fs::{File, OpenOptions, canonicalize, read_dir};
+use std::fs::{File, OpenOptions, canonicalize};
 use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -37,50 +38,6 @@ const PROGRAM: &str = "# asperity ";
 const COMMAND: &str = "# command: ";
 /// Largest size in bytes of an existing table to which rows can be added.
 const LARGEST_TABLE: usize = 1 << 28;
-
-/// Returns the files that the arguments name. In place of a folder, it returns the files in the
-/// folder that may be curves, sorted by their names.
-pub(super) fn files_of(
-    curves: &[PathBuf],
-    output: Option<&Path>,
-) -> Result<Vec<PathBuf>, CliError> {
-    let mut files = Vec::new();
-    for path in curves {
-        if !path.is_dir() {
-            files.push(path.clone());
-            continue;
-        }
-        let mut entries = paths_in(path).map_err(|error| {
-            CliError::named(path_name(path), format!("cannot be read: {error}"))
-        })?;
-        entries.retain(|entry| may_be_curve(entry) && Some(&**entry) != output);
-        entries.sort();
-        if entries.is_empty() {
-            return Err(CliError::named(
-                path_name(path),
-                "no files in this folder; allowed: a folder of curves",
-            ));
-        }
-        files.extend(entries);
-    }
-    Ok(files)
-}
-
-fn paths_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut paths = Vec::new();
-    for entry in read_dir(folder)? {
-        paths.push(entry?.path());
-    }
-    Ok(paths)
-}
-
-/// Returns true for a file that is neither hidden nor a scene.
-fn may_be_curve(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default();
-    let is_hidden = name.to_string_lossy().starts_with('.');
-    let is_scene = path.extension().is_some_and(|end| end == "ron");
-    path.is_file() && !is_hidden && !is_scene
-}
 
 /// Shows the number of computed curves.
 pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
@@ -146,8 +103,9 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     if let Some(path) = output.file() {
         check_writable(path, output.force || table.is_some())?;
     }
-    let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
+    let reading = curves.reading_for(&document);
+    let sources = sources_of(curves.paths, output.file(), &reading)?;
     // The number of threads and the tables of the curves have no influence on the rows. Therefore
     // the command in the table does not contain them, and the same table can be continued with
     // other values of these options.
@@ -168,7 +126,7 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     let tables = match curves.tables {
         Some(folder) => Some(CurveTables::prepare(
             folder,
-            &files,
+            &sources,
             output.file(),
             provenance_in(folder)?,
             output.force,
@@ -183,13 +141,13 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let batch = Batch {
         free,
-        reading: curves.reading_for(&document),
+        reading,
         curves,
         provenance,
         tables,
         document,
     };
-    let rows = batch.rows(&files, table)?;
+    let rows = batch.rows(&sources, table)?;
     let report = batch.report(&rows);
     let failure = report.failure().map(CliError::message);
     if let Some(failure) = failure.filter(|_| format.is_picture()) {
@@ -255,11 +213,12 @@ impl Batch<'_> {
     /// Returns the row of each file, in the order of the files. A row that the table already
     /// contains is not computed again. Each new row is appended to the table as soon as it is
     /// computed.
-    fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
-        let names: Vec<String> = files
-            .iter()
-            .map(|path| path.to_string_lossy().into_owned())
-            .collect();
+    fn rows(
+        &self,
+        sources: &[CurveSource],
+        table: Option<&Path>,
+    ) -> Result<Vec<CurveRow>, CliError> {
+        let names: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
         check_names(&names)?;
         let mut rows = table
             .map(|path| self.kept(path))
@@ -268,12 +227,12 @@ impl Batch<'_> {
         if let Some(tables) = &self.tables {
             rows.retain(|name, _| tables.has(name));
         }
-        let todo: Vec<usize> = (0..files.len())
+        let todo: Vec<usize> = (0..sources.len())
             .filter(|index| !rows.contains_key(&names[*index]))
             .collect();
         let table_path = table;
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
-        let count = grouped(files.len() as u64);
+        let count = grouped(sources.len() as u64);
         let watch = SignalWatch::begin()?;
         let stop = || watch.is_signalled();
         let mut line = ProgressLine::default();
@@ -285,7 +244,7 @@ impl Batch<'_> {
         let worker = || {
             |number: u64| {
                 let index = todo[number as usize];
-                let row = self.row(&files[index], &names[index], &stop);
+                let row = self.row(&sources[index], &stop);
                 if stop() {
                     return Err(RowError::Stopped);
                 }
@@ -338,12 +297,12 @@ impl Batch<'_> {
     /// curve cannot be read or fitted.
     fn row(
         &self,
-        path: &Path,
-        name: &str,
+        source: &CurveSource,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<CurveRow, CliError> {
-        let curve = match MeasuredCurve::read(path, &self.reading) {
-            Ok(curve) => curve,
+        let name = &source.name;
+        let PlacedCurve { curve, position } = match source.read(&self.reading) {
+            Ok(placed) => placed,
             Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
         };
         let mut fit = Fit::of(&self.document);
@@ -363,7 +322,7 @@ impl Batch<'_> {
         if let Some(tables) = &self.tables {
             tables.write(name, &report)?;
         }
-        Ok(CurveRow::fitted(&report))
+        Ok(CurveRow::fitted(&report, position))
     }
 
     /// Returns a table of these rows as text in CSV.

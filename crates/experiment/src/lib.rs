@@ -6,6 +6,7 @@
 //!
 //! * Reading a curve: [`MeasuredCurve::read`] takes a file and [`CurveOptions`], with a treatment
 //!   of drift ([`Drift`]), tilt ([`Tilt`]) and signs ([`Negate`]).
+//!   [`SeveralCurves`] finds the curves of a text with many, such as a map, and their places.
 //! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. Its [`FitResult`] has
 //!   a [`FittedParameter`] for each, and a [`Reason`] if the model does not describe the curve.
 //!   [`ParameterRow`] has name and unit of a [`Parameter`].
@@ -39,3 +40,4 @@ pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
 pub use fit::result::{FitResult, FittedParameter, RangeEnd};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};
+pub use read::several::{SeveralCurves, position_in};

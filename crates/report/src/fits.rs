@@ -101,8 +101,9 @@ impl RowWarning {
 
 /// Names of the columns after the parameters: pull-off force, work of adhesion of a smooth sphere
 /// with this pull-off force, residual in contact divided by the noise and by the largest force,
-/// misfit, noise, and numbers that follow from the curve without the scene.
-pub const FACTS: [&str; 9] = [
+/// misfit, noise, numbers that follow from the curve without the scene, and the coordinates of the
+/// place on the specimen.
+pub const FACTS: [&str; 11] = [
     "pull_off_force",
     "pull_off_work",
     "residual_over_noise",
@@ -112,6 +113,8 @@ pub const FACTS: [&str; 9] = [
     "jumps",
     "hysteresis",
     "fall_in_pause",
+    "position_x",
+    "position_y",
 ];
 
 /// Endings of the names of the columns of a parameter: the first for its value, the others for the
@@ -133,12 +136,15 @@ impl CurveRow {
             Err(error) => return CurveRow::failed(title, &error.to_string()),
         };
         match fit.run(&curve, control) {
-            Ok(fit) => CurveRow::fitted(&FitReport {
-                title,
-                curve: &curve,
-                fit: &fit,
-                wording,
-            }),
+            Ok(fit) => CurveRow::fitted(
+                &FitReport {
+                    title,
+                    curve: &curve,
+                    fit: &fit,
+                    wording,
+                },
+                None,
+            ),
             Err(error) => CurveRow::failed(title, &error.in_words(wording)),
         }
     }
@@ -152,8 +158,9 @@ impl CurveRow {
         }
     }
 
-    /// Makes the row of a curve that was fitted.
-    pub fn fitted(report: &FitReport<'_>) -> Self {
+    /// Makes the row of a curve that was fitted. `position` are the coordinates, in m, of the place
+    /// on the specimen at which it was measured, if they are known.
+    pub fn fitted(report: &FitReport<'_>, position: Option<[f64; 2]>) -> Self {
         let FitReport {
             title,
             curve,
@@ -188,6 +195,8 @@ impl CurveRow {
                 Some(curve.features.jumps as f64),
                 curve.features.hysteresis,
                 curve.features.fall_in_pause,
+                position.map(|[x, _]| x),
+                position.map(|[_, y]| y),
             ],
             points: Some(curve.points as u64),
             described: Some(fit.describes()),
@@ -600,7 +609,11 @@ impl Report for FitsReport<'_> {
                 .iter()
                 .map(|sentence| Label::plain(sentence))
                 .collect(),
-            charts: vec![Chart::new(x, y, layers)],
+            charts: self
+                .map_chart()
+                .into_iter()
+                .chain([Chart::new(x, y, layers)])
+                .collect(),
             size: Figure::SMALL,
             ..Figure::default()
         })
@@ -711,7 +724,10 @@ mod tests {
                 [work, 0.9 * work, 1.1 * work].map(Some),
                 [None, Some(2e6), None],
             ],
-            facts: [1e-6, 0.05, 0.5, 0.01, 0.75, 1e-9, 2.0, 0.04, 0.0].map(Some),
+            facts: [
+                1e-6, 0.05, 0.5, 0.01, 0.75, 1e-9, 2.0, 0.04, 0.0, 1e-6, 2e-6,
+            ]
+            .map(Some),
             points: Some(400),
             described: Some(described),
             description: if described { "within the noise" } else { "no" }.to_owned(),

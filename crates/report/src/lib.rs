@@ -4,6 +4,7 @@
 mod boundary;
 mod check;
 mod cost;
+mod curve_map;
 mod ensemble;
 mod ensemble_fit;
 mod event;
