@@ -29,7 +29,8 @@ Examples:
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or only a retraction that ends without contact. The scene is the last argument. A
 form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, a folder of them, or a text
-with several, such as a map, give a row each, and -o FILE.svg draws a map if places are stated; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
+with several, such as a map, give a row each. A table (-o FILE.csv) that is not complete is
+continued by the same command, and -o FILE.svg draws a map if the places are stated. JSON of
 one curve is one object with the parameters and their errors; CSV and .npy hold the columns
 displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
 
@@ -64,7 +65,7 @@ pub struct FitArguments {
     /// Threads that share curves or profiles; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Write a table of force and model for each of several curves to FOLDER
+    /// Write a table of force and model of each curve to FOLDER
     ///
     /// The columns are displacement, force, model, residual and segment, in SI units.
     #[arg(long, value_name = "FOLDER", group = "written")]

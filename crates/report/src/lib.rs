@@ -11,6 +11,7 @@ mod event;
 mod find;
 mod fit;
 mod fits;
+mod fits_spread;
 mod loop_chart;
 mod map;
 mod measured_face;

@@ -5,7 +5,6 @@
 //! curve. In a text without such lines it begins after an empty line, if each part between empty
 //! lines goes there and back.
 
-use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::read;
 use crate::read::names::{letters, names_segment, unit};
@@ -181,8 +180,12 @@ impl SeveralCurves {
         let (Some(first), Some(last)) = (displacements.first(), displacements.last()) else {
             return false;
         };
-        let range = Extent::of(displacements.iter().copied()).width();
-        (last - first).abs() < BACK * range
+        let low = displacements.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = displacements
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        (last - first).abs() < BACK * (high - low)
     }
 
     /// Returns the number of curves.
