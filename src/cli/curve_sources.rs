@@ -12,6 +12,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Beginning of the message of an error that names a line.
+const LINE: &str = "line ";
+
 /// A measured curve in a file.
 pub(super) struct CurveSource {
     /// Path of the file as the user gave it, with the number of the curve after `#` if the file has
@@ -32,9 +35,15 @@ impl CurveSource {
     /// Reads the curve.
     pub fn read(&self, options: &CurveOptions) -> Result<PlacedCurve, ExperimentError> {
         if let Some((several, index)) = &self.part {
-            let text = several.text(*index);
+            let parse = |text: String| MeasuredCurve::parse(&self.path, text.as_bytes(), options);
+            let curve = match parse(several.text(*index)) {
+                Err(error) if error.to_string().starts_with(LINE) => {
+                    parse(several.text_with_line_numbers(*index))
+                }
+                parsed => parsed,
+            };
             return Ok(PlacedCurve {
-                curve: MeasuredCurve::parse(&self.path, text.as_bytes(), options)?,
+                curve: curve?,
                 position: several.position(*index),
             });
         }

@@ -199,15 +199,13 @@ impl SeveralCurves {
         self.curves.get(index)?.stated.position()
     }
 
-    /// Returns the text of one curve: the lines above all curves, and its own lines. Empty lines at
-    /// the beginning give each of its own lines the number that it has in the whole text, so that
-    /// errors name the right line.
+    /// Returns the text of one curve: the lines above all curves, and its own lines.
     pub fn text(&self, index: usize) -> String {
         let Some(rows) = self.curves.get(index) else {
             return String::new();
         };
         let head = self.head.min(rows.begin);
-        let mut text = "\n".repeat(rows.begin - head);
+        let mut text = String::new();
         for line in self.lines[..head]
             .iter()
             .chain(&self.lines[rows.begin..rows.end])
@@ -216,6 +214,14 @@ impl SeveralCurves {
             text.push('\n');
         }
         text
+    }
+
+    /// Returns the text of one curve after empty lines, which give each of its own lines the number
+    /// that it has in the whole text. An error in this text names the right line. It takes longer
+    /// to read than [`SeveralCurves::text`].
+    pub fn text_with_line_numbers(&self, index: usize) -> String {
+        let begin = self.curves.get(index).map_or(0, |rows| rows.begin);
+        "\n".repeat(begin.saturating_sub(self.head)) + &self.text(index)
     }
 }
 
@@ -402,7 +408,7 @@ mod tests {
         let found = parsed(&map).unwrap();
         let error = read::parse(
             Path::new("map.txt"),
-            (found.text(1) + "1,2,3\n").as_bytes(),
+            (found.text_with_line_numbers(1) + "1,2,3\n").as_bytes(),
             &CurveOptions::default(),
         );
         let error = error.unwrap_err().to_string();
