@@ -374,12 +374,11 @@ mod tests {
                 } else {
                     [None, None]
                 };
-                for index in 0..2 {
+                for (index, expected_place) in expected_places.into_iter().enumerate() {
                     let place = found.position(index);
                     let is_near = |one: [f64; 2], other: [f64; 2]| {
                         (one[0] - other[0]).abs() + (one[1] - other[1]).abs() < 1e-15
                     };
-                    let expected_place = expected_places[index];
                     assert!(
                         place == expected_place || is_near(place.unwrap(), expected_place.unwrap()),
                         "{second}: {place:?}"
