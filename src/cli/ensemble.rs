@@ -2,14 +2,15 @@
 //! measured curves with computed curves of random profiles.
 
 use super::advice::option;
+use super::curve_sources::sources_of;
 use super::error::CliError;
-use super::fits::{Curves, files_of, show_curves};
+use super::fits::{Curves, show_curves};
 use super::output::Origin;
 use super::progress::{Task, watched};
 use super::scene::{holds_warnings, open_scene, threads, warn};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{parse_quantity, path_name};
-use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
+use asperity_data::{parse_quantity, printable};
+use asperity_experiment::{EnsembleOptions, Free, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use asperity_scene::Simulation;
 use clap::Args;
@@ -104,12 +105,15 @@ pub(super) fn ensemble(
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
     let reading = arguments.reading_for(&document);
     let mut curves = Vec::new();
-    for path in files_of(arguments.paths, arguments.output.file())? {
-        let name = path_name(&path);
-        match MeasuredCurve::read(&path, &reading) {
-            Ok(curve) => curves.push((name, curve)),
+    for source in sources_of(arguments.paths, arguments.output.file(), &reading)? {
+        let name = printable(&source.name).into_owned();
+        match source.read(&reading) {
+            Ok(placed) => curves.push((name, placed.curve)),
             Err(error) => {
-                return Err(CliError::named(&name, no_curve(&path, &error, option)));
+                return Err(CliError::named(
+                    &name,
+                    no_curve(&source.path, &error, option),
+                ));
             }
         }
     }

@@ -9,7 +9,7 @@ use super::progress::{Task, watched};
 use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
 use asperity_data::{path_name, write_new};
-use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
+use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, SeveralCurves};
 use asperity_report::{FitReport, Format, Report, named_from};
 use clap::Args;
 use std::io;
@@ -24,12 +24,13 @@ Examples:
   asperity fit curve.csv my-scene.ron --free work=1mJ/m^2..1J/m^2,offset -o fit.json
   asperity fit places/*.csv rough.ron --free work,modulus --profiles 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
-  asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o table.csv
+  asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o all.csv --curves models
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or only a retraction that ends without contact. The scene is the last argument. A
-form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, or a folder of them, give a
-row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
+form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, a folder of them, or a text
+with several, such as a map, give a row each. A table (-o FILE.csv) that is not complete is
+continued by the same command, and -o FILE.svg draws a map if the places are stated. JSON of
 one curve is one object with the parameters and their errors; CSV and .npy hold the columns
 displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
 
@@ -64,6 +65,11 @@ pub struct FitArguments {
     /// Threads that share curves or profiles; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
+    /// Write a table of force and model of each curve to FOLDER
+    ///
+    /// The columns are displacement, force, model, residual and segment, in SI units.
+    #[arg(long, value_name = "FOLDER", group = "written")]
+    pub curves: Option<PathBuf>,
     /// Write the scene with the values found to FILE
     #[arg(long, value_name = "FILE", group = "written")]
     pub scene: Option<PathBuf>,
@@ -100,13 +106,22 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         free,
         reading,
         jobs: *jobs,
+        tables: arguments.curves.as_deref(),
         output,
     };
-    let is_one = matches!(paths, [path] if !path.is_dir());
+    let is_one = match paths {
+        [path] => !path.is_dir() && SeveralCurves::read(path, reading).is_none(),
+        _ => false,
+    };
     if arguments.scene.is_some() && !(is_one && compared.lines.is_none()) {
         let fault =
             "several curves or profiles; allowed: a fit of one curve, whose scene is written";
         return Err(CliError::named("--scene", fault));
+    }
+    if arguments.curves.is_some() && (is_one || compared.lines.is_some()) {
+        let fault = "one curve, or a comparison with random profiles; allowed: separate fits of several curves; -o FILE.csv \
+                     has the model of one";
+        return Err(CliError::named("--curves", fault));
     }
     if let Some(lines) = compared.lines {
         return ensemble(&curves, compared, lines, stdout);

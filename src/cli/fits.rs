@@ -2,6 +2,8 @@
 //! writes a table. If the table already exists, only its missing rows are computed.
 
 use super::advice::option;
+use super::curve_sources::{CurveSource, PlacedCurve, sources_of};
+use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
@@ -11,12 +13,12 @@ use asperity_data::{
     Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
     write_new,
 };
-use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
-use asperity_report::{CurveRow, FitsReport, Format, Report, scene_provenance, write};
+use asperity_experiment::{CurveOptions, Fit, Free, Parameter};
+use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
 use asperity_scene::library::open_argument;
 use std::collections::{HashMap, HashSet};
-use std::fs::{File, OpenOptions, read_dir};
+use std::fs::{File, OpenOptions, canonicalize};
 use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -37,58 +39,14 @@ const COMMAND: &str = "# command: ";
 /// Largest size in bytes of an existing table to which rows can be added.
 const LARGEST_TABLE: usize = 1 << 28;
 
-/// Returns the files that the arguments name. In place of a folder, it returns the files in the
-/// folder that may be curves, sorted by their names.
-pub(super) fn files_of(
-    curves: &[PathBuf],
-    output: Option<&Path>,
-) -> Result<Vec<PathBuf>, CliError> {
-    let mut files = Vec::new();
-    for path in curves {
-        if !path.is_dir() {
-            files.push(path.clone());
-            continue;
-        }
-        let mut entries = paths_in(path).map_err(|error| {
-            CliError::named(path_name(path), format!("cannot be read: {error}"))
-        })?;
-        entries.retain(|entry| may_be_curve(entry) && Some(&**entry) != output);
-        entries.sort();
-        if entries.is_empty() {
-            return Err(CliError::named(
-                path_name(path),
-                "no files in this folder; allowed: a folder of curves",
-            ));
-        }
-        files.extend(entries);
-    }
-    Ok(files)
-}
-
-fn paths_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut paths = Vec::new();
-    for entry in read_dir(folder)? {
-        paths.push(entry?.path());
-    }
-    Ok(paths)
-}
-
-/// Returns true for a file that is neither hidden nor a scene.
-fn may_be_curve(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default();
-    let is_hidden = name.to_string_lossy().starts_with('.');
-    let is_scene = path.extension().is_some_and(|end| end == "ron");
-    path.is_file() && !is_hidden && !is_scene
-}
-
-/// Shows in the progress line how many force curves have been computed.
+/// Shows the number of computed curves.
 pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
     line.show(&format!("{} curves computed", grouped(*computed)), None);
 }
 
 /// Reason why a curve has no row in the table.
 enum RowError {
-    Unwritable(io::Error),
+    Unwritable(CliError),
     Stopped,
 }
 
@@ -109,6 +67,8 @@ pub(super) struct Curves<'a> {
     pub free: &'a [Free],
     pub reading: &'a CurveOptions,
     pub jobs: Option<u16>,
+    /// Folder in which each fitted curve gets a table.
+    pub tables: Option<&'a Path>,
     pub output: &'a OutputArguments,
 }
 
@@ -131,6 +91,7 @@ struct Batch<'a> {
     curves: &'a Curves<'a>,
     /// Provenance that is written at the beginning of a table.
     provenance: String,
+    tables: Option<CurveTables>,
 }
 
 /// Fits a scene to each of the curves in turn, and writes a table with a row for each curve.
@@ -142,17 +103,36 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     if let Some(path) = output.file() {
         check_writable(path, output.force || table.is_some())?;
     }
-    let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    // The number of threads has no influence on the rows. Therefore the command in the table does
-    // not contain it, and the table can be continued with another number of threads.
-    let command = command_without(&["--jobs"]);
-    let provenance = scene_provenance(
-        &command,
-        document.scene(),
-        &document.resolve(""),
-        output.folder(),
-    );
+    let reading = curves.reading_for(&document);
+    let sources = sources_of(curves.paths, output.file(), &reading)?;
+    // The number of threads and the tables of the curves have no influence on the rows. Therefore
+    // the command in the table does not contain them, and the same table can be continued with
+    // other values of these options.
+    let command = command_without(&["--jobs", "--curves"]);
+    let provenance_in = |folder: &Path| {
+        scene_provenance(&command, document.scene(), &document.resolve(""), folder)
+            .map_err(CliError::message)
+    };
+    let provenance = provenance_in(output.folder())?;
+    let is_same_folder = |path: &PathBuf| {
+        let folder = curves.tables.and_then(|folder| canonicalize(folder).ok());
+        folder.is_some() && canonicalize(path).ok() == folder
+    };
+    if let Some(folder) = curves.paths.iter().find(|path| is_same_folder(path)) {
+        let fault = "the tables would lie among the curves; allowed: another folder for --curves";
+        return Err(CliError::named(path_name(folder), fault));
+    }
+    let tables = match curves.tables {
+        Some(folder) => Some(CurveTables::prepare(
+            folder,
+            &sources,
+            output.file(),
+            provenance_in(folder)?,
+            output.force,
+        )?),
+        None => None,
+    };
     let mut free = Vec::new();
     for parameter in Parameter::ALL {
         if curves.free.iter().any(|free| free.parameter == parameter) {
@@ -161,12 +141,13 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let batch = Batch {
         free,
-        reading: curves.reading_for(&document),
+        reading,
         curves,
-        provenance: provenance.map_err(CliError::message)?,
+        provenance,
+        tables,
         document,
     };
-    let rows = batch.rows(&files, table)?;
+    let rows = batch.rows(&sources, table)?;
     let report = batch.report(&rows);
     let failure = report.failure().map(CliError::message);
     if let Some(failure) = failure.filter(|_| format.is_picture()) {
@@ -232,22 +213,26 @@ impl Batch<'_> {
     /// Returns the row of each file, in the order of the files. A row that the table already
     /// contains is not computed again. Each new row is appended to the table as soon as it is
     /// computed.
-    fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
-        let names: Vec<String> = files
-            .iter()
-            .map(|path| path.to_string_lossy().into_owned())
-            .collect();
+    fn rows(
+        &self,
+        sources: &[CurveSource],
+        table: Option<&Path>,
+    ) -> Result<Vec<CurveRow>, CliError> {
+        let names: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
         check_names(&names)?;
-        let rows = table
+        let mut rows = table
             .map(|path| self.kept(path))
             .transpose()?
             .unwrap_or_default();
-        let todo: Vec<usize> = (0..files.len())
+        if let Some(tables) = &self.tables {
+            rows.retain(|name, _| tables.has(name));
+        }
+        let todo: Vec<usize> = (0..sources.len())
             .filter(|index| !rows.contains_key(&names[*index]))
             .collect();
         let table_path = table;
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
-        let count = grouped(files.len() as u64);
+        let count = grouped(sources.len() as u64);
         let watch = SignalWatch::begin()?;
         let stop = || watch.is_signalled();
         let mut line = ProgressLine::default();
@@ -259,17 +244,24 @@ impl Batch<'_> {
         let worker = || {
             |number: u64| {
                 let index = todo[number as usize];
-                let row = self.row(&files[index], &names[index], &stop);
+                let row = self.row(&sources[index], &stop);
                 if stop() {
                     return Err(RowError::Stopped);
                 }
+                let row = row.map_err(RowError::Unwritable)?;
                 let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
                 let line = self.text_of(std::slice::from_ref(&row));
                 let written = progress
                     .table
                     .as_mut()
                     .map_or(Ok(()), |table| table.write_all(last_line(&line).as_bytes()));
-                let written = written.map_err(RowError::Unwritable);
+                let written = written.map_err(|error| {
+                    let name = table_path.map(path_name).unwrap_or_default();
+                    RowError::Unwritable(CliError::named(
+                        name,
+                        format!("cannot be written: {error}"),
+                    ))
+                });
                 progress.rows.insert(names[index].clone(), row);
                 let done = grouped(progress.rows.len() as u64);
                 progress
@@ -285,38 +277,52 @@ impl Batch<'_> {
         progress.line.clear();
         let mut rows = progress.rows;
         written.map_err(|error| match error {
-            RowError::Unwritable(error) => CliError::named(
-                table_path.map(path_name).unwrap_or_default(),
-                format!("cannot be written: {error}"),
-            ),
+            RowError::Unwritable(error) => error,
             RowError::Stopped => {
                 let done = grouped(rows.len() as u64);
-                let lost = match table_path {
-                    Some(_) => "the same command continues the table",
-                    None => "no results are written",
+                let next = match table_path {
+                    Some(_) => "the same command goes on",
+                    None => "the same command begins anew, and with -o FILE.csv it would go on",
                 };
-                watch.interrupted(format!(
-                    "stopped: {done} of {count} curves are fitted; {lost}"
-                ))
+                watch.interrupted(format!("stopped: {done} of {count} curves done; {next}"))
             }
         })?;
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
-    fn row(&self, path: &Path, name: &str, stop: &(dyn Fn() -> bool + Sync)) -> CurveRow {
-        let fit = self
-            .curves
-            .free
-            .iter()
-            .copied()
-            .fold(Fit::of(&self.document), Fit::free);
-        CurveRow::of(
-            name,
-            MeasuredCurve::read(path, &self.reading).map_err(|error| error.in_words(option)),
-            &fit,
-            Control::default().stopped_by(stop),
-            option,
-        )
+    /// Fits the scene to a curve, and writes the table of the curve if one is asked for.
+    ///
+    /// # Errors
+    /// Returns an error if the table of the curve cannot be written. The row has the reason if the
+    /// curve cannot be read or fitted.
+    fn row(
+        &self,
+        source: &CurveSource,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<CurveRow, CliError> {
+        let name = &source.name;
+        let PlacedCurve { curve, position } = match source.read(&self.reading) {
+            Ok(placed) => placed,
+            Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
+        };
+        let mut fit = Fit::of(&self.document);
+        for free in self.curves.free {
+            fit = fit.free(*free);
+        }
+        let found = match fit.run(&curve, Control::default().stopped_by(stop)) {
+            Ok(found) => found,
+            Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
+        };
+        let report = FitReport {
+            title: name,
+            curve: &curve,
+            fit: &found,
+            wording: option,
+        };
+        if let Some(tables) = &self.tables {
+            tables.write(name, &report)?;
+        }
+        Ok(CurveRow::fitted(&report, position))
     }
 
     /// Returns a table of these rows as text in CSV.

@@ -8,6 +8,8 @@ pub mod arguments;
 mod check;
 mod completions;
 mod cost;
+mod curve_sources;
+mod curve_tables;
 mod demo;
 mod ensemble;
 mod error;

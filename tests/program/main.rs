@@ -14,6 +14,7 @@ mod documentation;
 mod estimates;
 mod generated;
 mod length;
+mod maps_of_curves;
 mod notices;
 mod processes;
 mod program;

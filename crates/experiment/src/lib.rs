@@ -41,3 +41,4 @@ pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
 pub use fit::result::{FitResult, FittedParameter, RangeEnd};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};
+pub use read::several::{SeveralCurves, position_in};

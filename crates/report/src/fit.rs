@@ -193,6 +193,10 @@ impl FitReport<'_> {
             }
             _ => format!("The model describes the curve {agreement}.{misfit}"),
         };
+        let is_within_noise = fit.misfit <= FitResult::MOST_MISFIT;
+        if is_within_noise && matches!(fit.reason, Some(Reason::StiffnessFarFromStated { .. })) {
+            return Some(format!("{described} {reason}"));
+        }
         Some(format!("{described} {reason} The intervals {intervals}."))
     }
 

@@ -4,6 +4,7 @@
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::fit::agreement::MISFIT;
+use crate::fit::instrument::FittedStiffness;
 use crate::fit::parameter::Parameter;
 use crate::fit::posterior::Posterior;
 use crate::fit::reason::{Reason, reason, steeper_slope};
@@ -18,7 +19,7 @@ use std::f64::consts::PI;
 /// from the pull-off force.
 const ALLOWED_NOISE: f64 = 3.0;
 
-/// Returns the result of a fit, without its assumptions. `searched` is the result of the search.
+/// Returns the result of a fit, without the assumptions of its start. `searched` is the result of the search.
 pub(crate) fn fit_result(
     document: &Document,
     simulation: &mut Simulation,
@@ -43,11 +44,24 @@ pub(crate) fn fit_result(
         Some(_) => None,
         None => tabor_number(scene, simulation)?,
     };
+    let stiffness = FittedStiffness {
+        curve,
+        values: best,
+        free: &free,
+        stated: document.scene().loading_stiffness,
+    };
+    let far_from_stated = stiffness.far_from_stated();
+    let assumptions = match far_from_stated {
+        Some(_) => Vec::new(),
+        None => stiffness.sentences(&simulation.contact(scene)?.0)?,
+    };
     let line_remains = curve.remaining[..2].iter().any(|change| *change != 0.0);
     let mut reason_of_misfit = None;
     if let Some(slope) = slope {
         let stiffness = best[Parameter::Stiffness as usize];
         reason_of_misfit = Some(Reason::Stiffness(slope, stiffness));
+    } else if far_from_stated.is_some() {
+        reason_of_misfit = far_from_stated;
     } else if searched.misfit > MISFIT || line_remains {
         let residuals = &searched.residuals;
         let found = reason(curve, scene, simulation, best, residuals, &free, tabor)?;
@@ -70,7 +84,7 @@ pub(crate) fn fit_result(
         warnings: simulation.compute(scene)?.warnings,
         correlations: posterior.correlations(),
         not_distinguished: posterior.not_distinguished(),
-        assumptions: Vec::new(),
+        assumptions,
         evaluations: searched.evaluations,
         model: searched.model_forces(curve),
         document: fitted,

@@ -5,6 +5,7 @@ pub(crate) mod agreement;
 pub(crate) mod descent;
 pub(crate) mod ensemble;
 mod evaluation;
+pub(crate) mod instrument;
 pub(crate) mod lengths;
 pub(crate) mod lines;
 pub(crate) mod model;

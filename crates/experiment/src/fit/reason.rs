@@ -101,13 +101,22 @@ pub enum Reason {
     /// slope, the second value the stiffness, both in N/m.
     #[error(
         "The force rises by {} over the displacement, and an instrument of {} allows no more than its stiffness: the stiffness, \
-         the sensitivity of the force or the column of the height is wrong, and E* cannot be found.",
+         the unit or the sensitivity of the force, or the column of the height is wrong, and E* cannot be found.",
         format_quantity(*.0, "N/m"),
         format_quantity(*.1, "N/m")
     )]
     Stiffness(f64, f64),
-    /// The force jumps more than once in one motion, which is impossible for a smooth sphere. The
-    /// value is the number of jumps of the curve.
+    /// The fit has found a stiffness of the instrument that differs from the stated one by more
+    /// than a wrong calibration explains.
+    #[error("{}", far_from_stated(*found, *stated))]
+    StiffnessFarFromStated {
+        /// Fitted stiffness in N/m.
+        found: f64,
+        /// Stiffness in N/m that the scene or the file of the curve states.
+        stated: f64,
+    },
+    /// The force jumps more than once in one motion, which the force of a smooth body does not do.
+    /// The value is the number of jumps of the curve.
     #[error(
         "The curve has {} jumps, and a smooth sphere has one on loading and one on unloading: the body has another form or \
          several contacts, on which γ and E* depend.",
@@ -167,6 +176,7 @@ impl Reason {
             Reason::OtherProfile => vec![Remedy::ManyProfiles],
             Reason::Branches => vec![free(Parameter::ClosingWork), Remedy::Segment(2)],
             Reason::Stiffness(..) => vec![Remedy::Columns],
+            Reason::StiffnessFarFromStated { .. } => vec![Remedy::Units],
             Reason::HysteresisOfAdhesion(_) => vec![free(Parameter::ClosingWork)],
             Reason::Relaxation { .. } => vec![Remedy::Segment(2)],
             Reason::StiffnessOrForm => vec![free(Parameter::Stiffness)],
@@ -182,6 +192,21 @@ impl Reason {
 
 fn free(parameter: Parameter) -> Remedy {
     Remedy::Free(parameter.name().to_owned())
+}
+
+/// Returns the sentence on a fitted stiffness that is far from the stated one.
+fn far_from_stated(found: f64, stated: f64) -> String {
+    let stated_text = format_rounded(stated, 3, "N/m");
+    let (ratio, relation) = if found > stated {
+        (found / stated, "times the stated")
+    } else {
+        (stated / found, "times smaller than the stated")
+    };
+    let ratio = format_rounded(ratio, 2, "1");
+    format!(
+        "The stiffness found is {ratio} {relation} {stated_text}, and γ and E* are then wrong by the same factor. Check the \
+         units of the force."
+    )
 }
 
 impl Serialize for Reason {
@@ -328,7 +353,7 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
 
 /// Returns a lower bound of the slope of the force over the displacement in N/m where the body is
 /// pressed most: the slope minus three standard errors; 0 for few points.
-fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+pub(crate) fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     PRESSED
         .into_iter()
         .map(|share| slope_in_last(curve, share))

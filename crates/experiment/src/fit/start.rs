@@ -4,6 +4,7 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{Extent, dot};
 use crate::error::ExperimentError;
+use crate::fit::instrument::{carried_force, stiffness_by_slope};
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, Modulus};
 use asperity_data::mean;
@@ -75,9 +76,7 @@ impl Starts {
         let force = Extent::of(curve.force.iter().copied());
         let pull_off = curve.noise.max(-force.low);
         let preload = force.high.max(curve.noise);
-        // By JKR theory, adhesion acts at large forces like a further compression of twice the
-        // pull-off force.
-        let carried = preload + 2.0 * pull_off;
+        let carried = carried_force(curve);
         let loading = Loading::of(curve, known.stiffness, 2.0 * pull_off);
         let mut whole_way = loading.turn - curve.touch;
         if whole_way <= 0.0 {
@@ -108,6 +107,11 @@ impl Starts {
         };
         let found_modulus = carried / force_of_unit_modulus(contact, indentation)?;
         let modulus = known.modulus.unwrap_or(found_modulus);
+        if known.modulus.is_some()
+            && let Some(stiffness) = stiffness_by_slope(curve, contact, modulus)?
+        {
+            starts.stiffness = stiffness;
+        }
         let least_pull_off = curve.noise.max(LINEAR * pull_off);
         starts.work = known.work_of_smooth_body(pull_off, modulus);
         starts.least_work = known.work_of_smooth_body(least_pull_off, modulus);

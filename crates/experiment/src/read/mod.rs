@@ -7,6 +7,7 @@ pub(crate) mod metadata;
 pub(crate) mod names;
 pub(crate) mod options;
 pub(crate) mod points;
+pub(crate) mod several;
 pub(crate) mod text;
 pub(crate) mod wave;
 

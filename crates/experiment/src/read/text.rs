@@ -15,7 +15,7 @@ use asperity_surface::{Place, SurfaceError};
 
 /// Number of consecutive rows of numbers with the same form, from which on such rows count as
 /// points. A header may also have rows of numbers, but fewer in succession.
-const RUN: usize = 5;
+pub(crate) const RUN: usize = 5;
 /// Header line that the programs PyJibe and afmformats write above a table. The columns of such a
 /// table are in SI units.
 const OF_AFMFORMATS: &str = "END METADATA";
@@ -142,8 +142,13 @@ impl Runs {
     }
 }
 
-fn is_comment(line: &str) -> bool {
+pub(crate) fn is_comment(line: &str) -> bool {
     line.starts_with(COMMENT)
+}
+
+/// Returns true for a line of at least two numbers, of which some may be missing, without words.
+pub(crate) fn is_row(line: &str) -> bool {
+    Shape::of(line, 2).is_some_and(|shape| shape.words.is_empty())
 }
 
 /// Returns the name of the segment that a comment line of the file states; `None` for another

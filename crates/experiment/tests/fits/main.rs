@@ -7,4 +7,5 @@ mod ensembles;
 mod ensembles_of_other_bodies;
 mod simple_curves;
 mod single_curves;
+mod stiffness;
 mod two_spheres;

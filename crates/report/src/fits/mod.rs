@@ -10,6 +10,7 @@ pub use row::{CurveRow, RowWarning};
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::spread::Spread;
 use crate::warnings::{sentences_section, with_share};
 use crate::words::counted;
 use asperity_data::{AxisScale, Kind, Note, Remedy, Table, Wording};
@@ -18,7 +19,8 @@ use asperity_experiment::Parameter;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
 use distribution::{Distribution, DistributionJson, FirstParameter, Histogram};
-use row::{ENDINGS, FACTS};
+use row::ENDINGS;
+pub(crate) use row::FACTS;
 use serde::Serialize;
 
 /// Largest number of curves that a sentence lists by name.
@@ -234,6 +236,7 @@ impl Report for FitsReport<'_> {
                 sheet.paragraph(sentence);
             }
         }
+        self.add_spreads(&mut sheet);
         sentences_section(&mut sheet, &self.warning_texts());
         Some(sheet.into_text())
     }
@@ -244,6 +247,7 @@ impl Report for FitsReport<'_> {
             parameter: self.free.first().map(|parameter| parameter.name()),
             all: DistributionJson::new(values.all()),
             described: DistributionJson::new(values.described),
+            spreads: self.spreads(),
             warnings: self.warning_texts(),
             curves: self.table(),
             scene: self.scene,
@@ -306,7 +310,11 @@ impl Report for FitsReport<'_> {
                 .iter()
                 .map(|sentence| Label::plain(sentence))
                 .collect(),
-            charts: vec![Chart::new(x, y, layers)],
+            charts: self
+                .map_chart()
+                .into_iter()
+                .chain([Chart::new(x, y, layers)])
+                .collect(),
             size: Figure::SMALL,
             ..Figure::default()
         })
@@ -320,6 +328,8 @@ struct FitsJson<'a> {
     /// Distribution over the curves that the model describes.
     described: Option<DistributionJson>,
     all: Option<DistributionJson>,
+    /// Median and scatter of each quantity over all fitted curves.
+    spreads: Vec<Spread>,
     /// Premises of the model that some of the fitted scenes do not meet.
     warnings: Vec<String>,
     curves: Option<Table<'a>>,

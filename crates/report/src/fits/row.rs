@@ -82,9 +82,10 @@ impl RowWarning {
 }
 
 /// Names of the columns after the parameters. `pull_off_work` is the work of adhesion of a smooth
-/// sphere with the pull-off force of the curve. The residuals are those in contact. The last three
-/// numbers follow from the curve without the scene.
-pub const FACTS: [&str; 9] = [
+/// sphere with the pull-off force of the curve. The residuals are those in contact. The next three
+/// numbers follow from the curve without the scene. The last two are the coordinates of the place on
+/// the specimen.
+pub const FACTS: [&str; 11] = [
     "pull_off_force",
     "pull_off_work",
     "residual_over_noise",
@@ -94,6 +95,8 @@ pub const FACTS: [&str; 9] = [
     "jumps",
     "hysteresis",
     "fall_in_pause",
+    "position_x",
+    "position_y",
 ];
 
 /// Endings of the names of the columns of a parameter: the first for its value, the others for the
@@ -116,18 +119,21 @@ impl CurveRow {
             Err(error) => return CurveRow::failed(title, &error.to_string()),
         };
         match fit.run(&curve, control) {
-            Ok(fit) => CurveRow::fitted(&FitReport {
-                title,
-                curve: &curve,
-                fit: &fit,
-                wording,
-            }),
+            Ok(fit) => {
+                let report = FitReport {
+                    title,
+                    curve: &curve,
+                    fit: &fit,
+                    wording,
+                };
+                CurveRow::fitted(&report, None)
+            }
             Err(error) => CurveRow::failed(title, &error.in_words(wording)),
         }
     }
 
     /// Returns the row of a curve that was not read or not fitted.
-    fn failed(title: &str, error: &str) -> Self {
+    pub fn failed(title: &str, error: &str) -> Self {
         CurveRow {
             file: title.to_owned(),
             error: printable(error).into_owned(),
@@ -135,8 +141,9 @@ impl CurveRow {
         }
     }
 
-    /// Returns the row of a curve that was fitted.
-    fn fitted(report: &FitReport<'_>) -> Self {
+    /// Returns the row of a curve that was fitted. `position` are the coordinates, in m, of the place
+    /// on the specimen at which the curve was measured; `None` if they are not known.
+    pub fn fitted(report: &FitReport<'_>, position: Option<[f64; 2]>) -> Self {
         let FitReport {
             title,
             curve,
@@ -171,6 +178,8 @@ impl CurveRow {
                 Some(curve.features.jumps as f64),
                 curve.features.hysteresis,
                 curve.features.fall_in_pause,
+                position.map(|[x, _]| x),
+                position.map(|[_, y]| y),
             ],
             points: Some(curve.points as u64),
             described: Some(fit.describes()),

@@ -11,7 +11,10 @@ fn row(file: &str, work: f64, described: bool) -> CurveRow {
             [work, 0.9 * work, 1.1 * work].map(Some),
             [None, Some(2e6), None],
         ],
-        facts: [1e-6, 0.05, 0.5, 0.01, 0.75, 1e-9, 2.0, 0.04, 0.0].map(Some),
+        facts: [
+            1e-6, 0.05, 0.5, 0.01, 0.75, 1e-9, 2.0, 0.04, 0.0, 1e-6, 2e-6,
+        ]
+        .map(Some),
         points: Some(400),
         described: Some(described),
         description: if described { "within the noise" } else { "no" }.to_owned(),
