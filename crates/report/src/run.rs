@@ -111,7 +111,7 @@ impl Report for RunReport<'_> {
 
 /// JSON object of a computed scene, in SI units.
 #[derive(Serialize)]
-struct RunJson<'a> {
+pub(crate) struct RunJson<'a> {
     scene: &'a Scene,
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<&'a Choice>,
@@ -182,7 +182,7 @@ struct HistogramJson<'a> {
 }
 
 impl<'a> RunJson<'a> {
-    fn new(report: &'a RunReport<'a>) -> Self {
+    pub(crate) fn new(report: &'a RunReport<'a>) -> Self {
         let outcome = report.outcome;
         let governing = &outcome.governing;
         let figures = &outcome.figures;
