@@ -195,7 +195,7 @@ impl Loop {
             Ok(Loop {
                 stages: cycle.stages().to_vec(),
                 figures: cycle.figures(),
-                stiffness: stiffness,
+                stiffness,
                 title: String::new(),
                 warnings,
                 outcome: None,
