@@ -10,9 +10,10 @@
 //! A contact patch of length l holds springs that are stretched by up to √(π l γ/E\*), with the
 //! work of adhesion γ and the effective modulus E\*.
 //!
-//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand: why the
-//! springs may be independent, where the rule of Hess comes from, a loop of a sphere, and a
-//! staircase of five springs. The examples below follow it.
+//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand. It explains
+//! why the springs may be independent, and where the rule of Hess comes from. It also computes the
+//! force loop of a sphere, and a profile of five springs whose adhesion force rises in steps with
+//! the preload. The examples on this page follow it.
 //!
 //! # A contact in five lines
 //!
@@ -39,11 +40,14 @@
 //! ```
 //!
 //! A [`Profile`] holds the heights or gaps of the equivalent line. Heights that are measured along
-//! a line are a cut, whose rms gradient is 29 % smaller: [`surface::Topography`] takes them, and
-//! [`ProfileBuilder::spectrum`] makes equivalent lines of their spectrum. A [`Modulus`] holds the
-//! elastic constants, and the [`contact::ContactBuilder`] the work of adhesion and the stiffness of
-//! the instrument. A [`Cycle`] has the force curve as points and as columns, the figures of the
-//! loop, and the contact patches.
+//! a line on a surface are not an equivalent line but a cut, whose rms gradient is 29 % smaller.
+//! Read such heights with [`surface::Topography`]; [`ProfileBuilder::spectrum`] then makes
+//! equivalent lines that have the spectrum of the surface.
+//!
+//! A [`Modulus`] holds the elastic constants. A [`contact::ContactBuilder`] holds the work of
+//! adhesion and the stiffness of the instrument. A [`Cycle`] has the results of a loading: the
+//! force curve as points and as columns, numbers such as the pull-off force, and the contact
+//! patches.
 //!
 //! # A rough sphere, and its adhesion over the preload
 //!
@@ -68,15 +72,15 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`ProfileBuilder::run`] computes κ, the Tabor number, the ideal adhesion force and the regime as
-//! well.
+//! [`ProfileBuilder::run`] also computes κ, the Tabor number, the ideal adhesion force and the
+//! regime of adhesion.
 //!
 //! # A scene
 //!
-//! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and
-//! [`scene::open`] finds the built-in scenes. Only a checked scene is computed
-//! ([`Scene::checked`]). [`run`] computes the scene of a file, and looks for its measured surfaces
-//! in the folder of that file:
+//! A [`scene::Scene`] holds all data that a computation needs. [`scene::open`] opens a built-in
+//! scene by its name, or reads a scene from a RON file. A scene must be checked before it is
+//! computed ([`Scene::checked`]). [`run`] computes the scene of a file. If the scene names measured
+//! surfaces, [`run`] looks for them in the folder of this file:
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
@@ -87,17 +91,18 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`scene::Simulation`] computes many scenes and repeats only the stages whose input has changed.
+//! A [`scene::Simulation`] computes many scenes one after another, and repeats only those steps of
+//! the computation whose input has changed.
 //!
 //! # Conventions
 //!
-//! SI units throughout. Heights are positive towards the half-space; the indentation d is 0 at
-//! first touch of the undeformed profile and grows on pressing; compressive forces are positive. N
-//! points at a distance Δx cover the length N Δx.
+//! All values are in SI units. Heights are positive towards the half-space. The indentation d is 0
+//! at first touch of the undeformed profile, and grows when the body is pressed. Compressive forces
+//! are positive. N points at a distance Δx cover the length N Δx.
 //!
 //! # Crates
 //!
-//! Data flows one way:
+//! Each crate computes the data in the column `to` from the data in the column `from`:
 //!
 //! | crate | from | to |
 //! | --- | --- | --- |
@@ -108,8 +113,8 @@
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
 //! | [`study`] | many scenes | tables, statistics |
 //!
-//! Charts and reports have crates of their own; the command line and the explorer belong only to
-//! the program.
+//! Charts and reports are in further crates. The command line and the explorer are not in a crate
+//! of their own, but in the modules [`cli`] and [`explorer`] of this crate.
 
 pub mod cli;
 pub mod explorer;

@@ -1,10 +1,11 @@
 //! Words of Python for remedies. A remedy removes the cause of an error or a warning, usually by an
-//! argument.
+//! argument of a Python function.
 
 use asperity::data::Remedy;
 
-/// Returns how a remedy, a step that removes the cause of an error or a warning, is written in
-/// Python: an argument with its value, or an entry of the dictionary `options` of `asperity.fit`.
+/// Returns words that state how the user applies a remedy in Python. A remedy is a step that
+/// removes the cause of an error or a warning. The words are an argument with its value, or an
+/// entry of the dictionary `options` of `asperity.fit`.
 pub fn argument(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "channel or surface_name with its name",
@@ -57,8 +58,8 @@ pub fn argument(remedy: &Remedy) -> String {
     words.to_owned()
 }
 
-/// Returns the name of the argument, or of the entry of `options`, with which a remedy is applied;
-/// `None` if a remedy has no such argument.
+/// Returns the name of the argument with which the user applies a remedy, or the name of the entry
+/// in the dictionary `options` of `asperity.fit`. `None` if a remedy has neither.
 pub fn name(remedy: &Remedy) -> Option<&'static str> {
     let name = match remedy {
         Remedy::SurfaceName | Remedy::NoSurfaceName => "surface_name",

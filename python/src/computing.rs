@@ -15,14 +15,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
-/// Message of an exception that shows a defect of the program.
+/// Message of the exception that is raised if the program has a defect (a panic).
 pub const DEFECT: &str = "internal error, please report it";
 
-/// Python function (callback) that receives the progress; `None` if the caller gives none.
+/// Python function (callback) that receives the progress of a computation. `None` if the caller of
+/// the computation gives no such function.
 pub type Progress = Option<Py<PyAny>>;
 
-/// Connection of a running computation with Python, by which it reports progress and learns that it
-/// must stop.
+/// Connection between a running computation and Python. The computation uses it to report progress
+/// and to learn that it must stop.
 #[derive(Default)]
 pub struct Watch {
     is_stopped: AtomicBool,
@@ -32,13 +33,14 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Returns true if the computation must stop, because a signal or the callback has raised an
-    /// exception.
+    /// Returns true if the computation must stop. This is so if a signal or the callback has raised
+    /// an exception.
     pub fn stop(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
 
-    /// Calls the callback with the number of finished parts and the number of all parts.
+    /// Calls the callback with two numbers: the number of finished parts of the computation, and
+    /// the number of all parts.
     pub fn report(&self, done: u64, all: u64) {
         if let Some(progress) = &self.progress {
             self.keep(Python::attach(|py| {
@@ -58,9 +60,9 @@ impl Watch {
     }
 }
 
-/// Runs a computation without the lock of Python (GIL), and returns its result. The computation
-/// runs on a thread of its own. Meanwhile the calling thread checks for signals, because it may be
-/// the only thread that receives them.
+/// Runs a computation on a thread of its own, without the lock of Python (GIL), and returns its
+/// result. Meanwhile the calling thread checks for signals, because it may be the only thread that
+/// receives them.
 pub fn computed<R: Send>(
     py: Python<'_>,
     progress: Progress,
@@ -99,12 +101,12 @@ pub fn computed<R: Send>(
     Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
 }
 
-/// Arguments of a call: a scene, the number of profiles, the number of threads, and the callback
-/// for the progress. If a number is `None`, the program chooses it.
+/// Arguments of a call from Python: a scene, the number of profiles, the number of threads, and the
+/// callback for the progress. If one of the numbers is `None`, the program chooses it.
 #[derive(FromPyObject)]
 pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 
-/// Data of a call in the form that the computation needs.
+/// Data of a call from Python, in the form that a computation needs.
 pub struct Case<'a> {
     pub document: Document,
     /// Roughness that exists only in memory and not in a file; `None` if the scene has none.
@@ -120,9 +122,9 @@ impl Case<'_> {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Runs a computation of `all` parts, which a signal or the callback may stop. `done` converts
-    /// a report of the computation to the number of finished parts, or to `None` if this number has
-    /// not changed.
+    /// Runs the computation `work`, which consists of `all` parts and which a signal or the
+    /// callback may stop. `done` converts a progress report of the computation to the number of
+    /// finished parts. It returns `None` if this number has not changed.
     pub fn watched<P, T, E: Into<Failure>>(
         &self,
         all: u64,
@@ -144,7 +146,7 @@ impl Case<'_> {
 }
 
 impl Call {
-    /// Runs the computation `work` of the data of this call, with the function [`computed`].
+    /// Runs the computation `work` on the data of this call, by the function [`computed`].
     pub fn computed<R: Send>(
         self,
         py: Python<'_>,

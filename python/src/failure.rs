@@ -26,7 +26,8 @@ fn exception<'py>(
     py.import("asperity._errors")?.getattr(class)?.call1(values)
 }
 
-/// Reason why a computation has no result. It is a Python exception with a sentence.
+/// Reason why a computation has no result. It contains a Python exception, whose message is a
+/// sentence.
 pub struct Failure(PyErr);
 
 impl Failure {
@@ -38,8 +39,9 @@ impl Failure {
         }))
     }
 
-    /// Creates the failure for a value that is not allowed. `allowed` describes the allowed values.
-    /// The sentence of the exception contains the value escaped and shortened.
+    /// Creates the failure for a value that is not allowed. `field` is the name of the argument,
+    /// and `allowed` describes the allowed values. The message of the exception contains `value`,
+    /// escaped and shortened.
     pub fn field(field: &str, value: &str, allowed: &str) -> Failure {
         let message = format!("{} = {}; allowed: {allowed}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, allowed)
@@ -51,15 +53,16 @@ impl Failure {
         Failure::of_class("FieldError", (sentence(&message), field, value, allowed))
     }
 
-    /// Creates the failure for a text that cannot be read, with the reason.
+    /// Creates the failure for a text that cannot be read. `field` is the name of the argument,
+    /// `value` the text, and `reason` states why it cannot be read.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
         let message = format!("{} = \"{}\": {reason}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, &reason.to_string())
     }
 
-    /// Creates the failure of reading files. If a file cannot be opened, the failure is an
-    /// `OSError`. Otherwise it follows from `error`, which describes a fault in the content of the
-    /// files.
+    /// Creates the failure of a function that reads files. If a file cannot be opened, the failure
+    /// is an `OSError`. Otherwise the content of the files has a fault, and the failure follows
+    /// from `error`.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         for file in files {
             if file.is_dir() || File::open(file).is_err() {
@@ -74,7 +77,7 @@ impl Failure {
         error.in_words(argument).into()
     }
 
-    /// Returns the sentence of the exception.
+    /// Returns the message of the exception.
     pub fn message(&self) -> String {
         Python::attach(|py| self.0.value(py).to_string())
     }

@@ -16,8 +16,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A measured curve: a name, and columns of displacements in m and of forces in N. If the columns
-/// are `None`, the name is the path of a file.
+/// A measured curve, given by its name and its columns: displacements in m and forces in N. If the
+/// columns are `None`, the curve is read from a file, and the name is the path of this file.
 #[derive(FromPyObject)]
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
@@ -56,8 +56,8 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     Err(Failure::of_files(&files, message))
 }
 
-/// Fits a scene to one curve, to each of several curves, or (with random profiles) to all curves
-/// together. `words` are options of `asperity fit`.
+/// Fits a scene to measured curves. Each curve is fitted separately or, with random profiles, all
+/// curves are fitted together. `words` are options of the command `asperity fit`.
 #[pyfunction]
 pub fn fit(
     py: Python<'_>,

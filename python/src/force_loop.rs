@@ -21,8 +21,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::sync::Arc;
 
-/// Profile made from heights or from a scene. The Python class `asperity.Profile` gives names to
-/// its parts.
+/// Profile made from heights or from a scene. The Python class `asperity.Profile` wraps it.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Profile {
     pub profile: asperity::Profile,
@@ -151,8 +150,7 @@ fn npy(events: &Events, first_spring: usize, stiffness: f64) -> io::Result<Vec<u
 /// Indentation in m and force in N of each marked point. The key is the name of the point.
 type Marks = BTreeMap<&'static str, (f64, f64)>;
 
-/// Force loop of a profile or of a computed scene. The Python class `asperity.Loop` gives names to
-/// its parts.
+/// Force loop of a profile or of a computed scene. The Python class `asperity.Loop` wraps it.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
     stages: Vec<LegRecord>,

@@ -7,22 +7,23 @@ use asperity::scene::fields::field;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
-/// Converts a text such as `"2.7 MPa"` to a number in the SI unit `unit`, here `"Pa"`. The message
-/// of an error names the argument `field`.
+/// Converts a text such as `"2.7 MPa"` to a number in the SI unit `unit`, here `"Pa"`. If the text
+/// is not allowed, the message of the error names the Python argument `field`.
 #[pyfunction]
 pub fn parsed(text: &str, unit: &str, field: &str) -> Result<f64, Failure> {
     parse_quantity(text, unit).map_err(|error| Failure::explained(field, text, &error))
 }
 
-/// Returns the SI unit of the number that a scene has at a path. The same path may occur in several
-/// variants of the form or of the roughness; `variant` names one of them.
+/// Returns the SI unit of the number at a path in a scene. The same path may occur in several
+/// variants of the form or of the roughness. `variant` is the name of the variant.
 #[pyfunction]
 pub fn unit_of(path: &str, variant: &str) -> &'static str {
     field(path, Some(variant)).map_or("1", |field| field.unit)
 }
 
 /// Returns `number` if a scene allows this value in the field at `path`. Otherwise returns an error
-/// that names the Python argument `argument`.
+/// that names the Python argument `argument`. `variant` is the name of the form or of the roughness
+/// to which the field belongs.
 #[pyfunction]
 pub fn in_field(number: f64, path: &str, variant: &str, argument: &str) -> Result<f64, Failure> {
     match field(path, Some(variant)) {
@@ -33,13 +34,14 @@ pub fn in_field(number: f64, path: &str, variant: &str, argument: &str) -> Resul
     }
 }
 
-/// Returns a text on one line: shortened, and with control characters of terminals escaped.
+/// Returns a text in one line that is safe to show on a terminal: it is shortened, and control
+/// characters are escaped.
 #[pyfunction]
 pub fn shown(text: &str) -> String {
     asperity::data::shown(text)
 }
 
-/// Returns a number with its unit for readers: `2.5 MPa`.
+/// Returns a number with its unit as text for readers, such as `2.5 MPa`.
 #[pyfunction]
 pub fn in_words(value: f64, unit: &str) -> String {
     format_quantity(value, unit)

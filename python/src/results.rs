@@ -30,14 +30,14 @@ use std::sync::Arc;
 pub struct Report(Box<dyn Fn(Format) -> io::Result<Vec<u8>> + Send + Sync>);
 
 impl Report {
-    /// Creates a result from the function that writes its report in a given format.
+    /// Creates a result. `write` returns the report of the result in a given format, as bytes.
     pub fn new(write: impl Fn(Format) -> io::Result<Vec<u8>> + Send + Sync + 'static) -> Self {
         Report(Box::new(write))
     }
 }
 
-/// Returns the document that tables and figures state as their origin. `None` if the scene has a
-/// roughness that exists only in memory, because no scene file can contain it.
+/// Returns the document that tables and figures state as the origin of a result. `None` if the
+/// scene has a roughness that exists only in memory, because no scene file can contain it.
 pub fn named<'a>(
     document: &'a Document,
     in_memory: &Option<Arc<MeasuredRoughness>>,
@@ -45,8 +45,8 @@ pub fn named<'a>(
     in_memory.is_none().then_some(document)
 }
 
-/// Returns a report in a format, as bytes. CSV and SVG state the scene `of`, from which the result
-/// was computed.
+/// Returns a report in a format, as bytes. `of` is the scene from which the result was computed. It
+/// is stated in reports as CSV and SVG.
 pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
     let mut written = Vec::new();
     let mut provenance = String::new();
@@ -268,8 +268,9 @@ pub fn reversals(
     })
 }
 
-/// Compares the results of a scene on profiles (lines) with the results in three dimensions.
-/// `cells` is the number of grid cells along the side of each square.
+/// Compares the results of a scene on profiles (lines) with the results on square surfaces in three
+/// dimensions. `cells` is the number of grid cells along the side of a square surface, and `maps`
+/// is the number of random square surfaces.
 #[pyfunction]
 pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
     let lines = call.1;
@@ -304,8 +305,8 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
     })
 }
 
-/// Value on an axis of a study: a number in the SI unit of the axis, or a text that may have a
-/// unit.
+/// Value on an axis of a study. It is a number in the SI unit of the axis, or a text that may have
+/// a unit.
 #[derive(FromPyObject)]
 pub enum AxisValue {
     Number(f64),

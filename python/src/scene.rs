@@ -16,8 +16,8 @@ use std::sync::Arc;
 /// Name that an equivalent line has in place of a file if it was made from heights in memory.
 const HEIGHTS: &str = "heights in memory";
 
-/// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of
-/// its computation.
+/// A checked scene. It states material, form, roughness, adhesion and loading of a contact, and how
+/// they are computed.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
@@ -61,8 +61,8 @@ impl Scene {
     }
 }
 
-/// Returns a simulation of a document. `in_memory` is a roughness that is used in place of the
-/// measured files of the document.
+/// Returns a simulation for the scene of a document. If `in_memory` is given, this roughness is
+/// used in place of the measured files of the document.
 pub fn simulation(document: &Document, in_memory: Option<&Arc<MeasuredRoughness>>) -> Simulation {
     let simulation = Simulation::new(document.resolve(""));
     match in_memory {

@@ -1,4 +1,5 @@
-//! Parses arguments of Python functions that are options of commands, and makes texts of errors.
+//! Options of commands: functions that parse the arguments of a Python function as options of a
+//! command, and that make the texts of errors.
 
 use crate::failure::Failure;
 use asperity::cli::arguments::{Arguments, Command};
@@ -11,8 +12,8 @@ use std::error::Error;
 /// the user, and is cut.
 const LONGEST_WORD: usize = 255;
 
-/// Returns a message for Python. Control characters of terminals are escaped, and long words are
-/// shortened.
+/// Returns `message` as it is shown in Python: control characters of terminals are escaped, and
+/// long words are shortened.
 pub fn sentence(message: &str) -> String {
     let mut shortened = String::new();
     let mut length = 0;

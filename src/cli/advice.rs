@@ -8,8 +8,8 @@ use asperity_study::StudyError;
 use asperity_surface::SurfaceError;
 use std::error::Error;
 
-/// Returns the words of the command line for a remedy: an option with its value and, if a field of
-/// the scene has the same effect, the path of this field.
+/// Returns the words of the command line for a remedy. These are an option with its value and, if a
+/// field of the scene has the same effect, the path of this field.
 pub fn option(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "--channel with its name, in a scene roughness.surface_name",
@@ -66,12 +66,14 @@ pub fn option(remedy: &Remedy) -> String {
     words.to_owned()
 }
 
-/// Returns the sentences of a note, with the options that are remedies.
+/// Returns a note as text. If the note has remedies, the text ends with the options of the command
+/// line that apply them.
 pub fn note(note: &Note) -> String {
     note.in_words(option)
 }
 
-/// Returns the text of an error, with the options that are remedies or that have caused the error.
+/// Returns an error as text, with the options of the command line that remove its cause or that
+/// have caused it.
 pub fn advised(error: &(dyn Error + 'static)) -> String {
     if let Some(error) = error.downcast_ref::<SurfaceError>() {
         return error.in_words(option);

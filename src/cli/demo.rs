@@ -85,8 +85,8 @@ fn side(text: &str) -> Option<u16> {
     (1..=1000).contains(&side).then_some(side)
 }
 
-/// Plays a script in the explorer: as an animation on a terminal, otherwise as frames of text. With
-/// `--at`, writes only one frame, as text or as a picture.
+/// Plays a script in the explorer. On a terminal, it is shown as an animation; otherwise its frames
+/// are written as text. With `--at`, only one frame is written, as text or as a picture.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments

@@ -87,7 +87,8 @@ impl EnsembleArguments {
     }
 }
 
-/// Compares measured curves with computed curves of `lines` random profiles, and writes the result.
+/// Compares measured curves with computed curves of `lines` random profiles, and writes the result
+/// to the destination that the user has chosen.
 pub(super) fn ensemble(
     arguments: &Curves<'_>,
     compared: &EnsembleArguments,

@@ -30,8 +30,8 @@ impl CliError {
         }
     }
 
-    /// Creates the error of a command that a signal has ended. Its exit code is the one that shells
-    /// use for this signal.
+    /// Creates the error of a command that a signal has ended. The process then has the exit code
+    /// that shells use for this signal.
     pub fn interrupted(signal: &AtomicUsize, message: impl Into<String>) -> CliError {
         let exit_code = 128 + u8::try_from(signal.load(Ordering::SeqCst)).unwrap_or_default();
         CliError {
@@ -45,8 +45,8 @@ impl CliError {
         self.exit_code > 128
     }
 
-    /// Creates an error whose message begins with `name` and ends with the options that are
-    /// remedies.
+    /// Creates an error whose message begins with `name`. The message ends with the options of the
+    /// command line that remove the cause of the error.
     pub fn advised(name: impl Display, error: &(dyn Error + 'static)) -> CliError {
         CliError::named(name, advised(error))
     }

@@ -79,11 +79,12 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// Returns the options of the explorer. If the usual configuration file has an error, the
-    /// explorer opens with a warning and with default values.
+    /// Returns the options of the explorer that follow from the arguments and the configuration
+    /// file. If the usual configuration file has an error, the explorer opens with a warning and
+    /// with default values.
     ///
     /// # Errors
-    /// Returns the first error of a configuration file that is named on the command line.
+    /// Returns the first error of a configuration file that the user has named on the command line.
     pub(super) fn options(&self) -> Result<Options, CliError> {
         let defaults = || Config::new(bindings());
         let (config, warning) = match (&self.config, default_path()) {

@@ -81,7 +81,7 @@ fn may_be_curve(path: &Path) -> bool {
     path.is_file() && !is_hidden && !is_scene
 }
 
-/// Shows the number of computed curves.
+/// Shows in the progress line how many force curves have been computed.
 pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
     line.show(&format!("{} curves computed", grouped(*computed)), None);
 }
@@ -113,8 +113,8 @@ pub(super) struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    /// Returns the options for reading the curves. The stiffness of the instrument comes from the
-    /// scene.
+    /// Returns the options for reading the measured curves. They contain the stiffness of the
+    /// instrument from the scene in `document`.
     pub(super) fn reading_for(&self, document: &Document) -> CurveOptions {
         CurveOptions {
             instrument: document.scene().loading_stiffness,

@@ -22,7 +22,7 @@ pub(super) const TEXT_OR_PICTURE: &[Format] =
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 pub(super) const WITHOUT_PICTURE: &[Format] =
     &[Format::Text, Format::Json, Format::Csv, Format::Npy];
-/// Formats of results that can be written neither as a table nor as a picture.
+/// Formats of a result that is neither a table nor a picture: text and JSON.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
 /// Smallest width and smallest height in mm of a printed figure.
@@ -92,13 +92,14 @@ fn length(text: &str, least: u32) -> Result<f64, String> {
     }
 }
 
-/// Origin of results. The origin is written into the files of the results, so that they can be
-/// computed again.
+/// Origin of a result: the scene or the files from which it was computed. It is written into the
+/// file of the result, so that the result can be computed again.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
-    /// A scene, with the document to whose folder the files of the scene are relative.
+    /// A scene, and the document from which it was read. Paths in the scene are relative to the
+    /// folder of the document.
     Scene(&'a Document, &'a Scene),
-    /// Named scenes that a figure shows.
+    /// Several scenes with their names, which a figure shows together.
     Scenes(&'a [(String, Scene)]),
     /// Measured files that were analysed without a scene.
     Files(&'a [PathBuf]),
@@ -163,9 +164,10 @@ impl OutputArguments {
         })
     }
 
-    /// Returns the format of the results: the format of the extension of FILE, otherwise the format
-    /// that the user has chosen, otherwise `usual`. Also checks that FILE can be written, so that
-    /// the user gets an error before the computation. Binary formats are refused on a terminal.
+    /// Returns the format of the results. It is the format of the extension of FILE, otherwise the
+    /// format that the user has chosen, otherwise `usual`. Also checks that FILE can be written, so
+    /// that the user gets an error before the computation. Binary formats are refused on a
+    /// terminal.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format =
             Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
@@ -192,8 +194,8 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report with its origin to the file or to standard output. In a figure, the width
-    /// and the box of parameters are those that the user has requested.
+    /// Writes a report with its origin to the file or to standard output. If the report is a
+    /// figure, it has the width and the box of parameters that the user has requested.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -265,8 +267,8 @@ impl OutputArguments {
     }
 }
 
-/// Checks that the name of a file has the given extension or no extension, and that the file can be
-/// written.
+/// Returns an error if a file has another extension than `extension`, or if the file cannot be
+/// written. A name without an extension is allowed.
 pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
     check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
     Ok(check_writable(path, overwrite)?)
@@ -281,7 +283,7 @@ pub struct AnswerFormat {
 }
 
 impl AnswerFormat {
-    /// Writes the answer as text, or as a JSON object whose first entries are version and command.
+    /// Writes an answer as text, or as a JSON object that begins with the version and the command.
     pub(super) fn write(
         self,
         stdout: &mut dyn Write,
@@ -307,8 +309,8 @@ pub(super) fn command() -> String {
     command_without(&[])
 }
 
-/// Returns the command line of this process for a POSIX shell. The options for format and
-/// destination, and the options `options` with their values, are left out.
+/// Returns the command line of this process for a POSIX shell. It lacks the options for format and
+/// destination, and also the options `options` with their values.
 pub(super) fn command_without(options: &[&str]) -> String {
     let mut words = vec!["asperity".to_owned()];
     let typed = TYPED.get().into_iter().flatten();

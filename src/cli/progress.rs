@@ -22,10 +22,10 @@ pub(super) struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// On a terminal, replaces the progress line by a text. A text without `plain` is skipped if
-    /// the previous text is younger than [`BETWEEN`]. If standard error is not a terminal, prints
-    /// the text `plain`, if there is one. Errors in writing are ignored, because standard error may
-    /// be closed.
+    /// Shows the text `text` in the progress line of a terminal. If `plain` is `None`, the text is
+    /// skipped when the previous text is younger than [`BETWEEN`]. If standard error is not a
+    /// terminal, `plain` is printed instead, unless it is `None`. Errors in writing are ignored,
+    /// because standard error may be closed.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {
@@ -40,14 +40,14 @@ impl ProgressLine {
         }
     }
 
-    /// Removes the text from the terminal.
+    /// Removes the text of the progress line from the terminal.
     pub(super) fn clear(&self) {
         if self.drawn.is_some() {
             let _ = write!(io::stderr(), "\r\x1b[K").and_then(|()| io::stderr().flush());
         }
     }
 
-    /// Keeps the text on the terminal, and moves to the next line.
+    /// Keeps the text of the progress line on the terminal, and moves to the next line.
     pub(super) fn keep(&self) {
         if self.drawn.is_some() {
             let _ = writeln!(io::stderr());
@@ -65,14 +65,14 @@ pub(super) struct Task<'a> {
     pub begins: String,
 }
 
-/// Function for a computation that is too short to show its progress. A signal can still end it.
+/// Shows no progress, for a computation that is too short. A signal can still end the computation.
 pub(super) fn show_nothing<P>(_: &P, _: &mut ProgressLine) {}
 
-/// Runs a computation. `show` shows its progress on a terminal, and at the end the progress is
-/// removed. If a signal (such as Ctrl-C) asks the process to end, the computation stops.
+/// Runs a computation that a signal, such as Ctrl-C, can stop. `show` shows the progress of the
+/// computation on a terminal. At the end the progress is removed.
 ///
 /// # Errors
-/// Returns the error of the computation, or an error if a signal ended it.
+/// Returns the error of the computation, or an error if a signal ended the computation.
 pub(super) fn watched<P, T, E: Into<CliError>>(
     task: Task<'_>,
     mut show: impl FnMut(&P, &mut ProgressLine),
@@ -111,9 +111,9 @@ struct Signals {
     first: Arc<AtomicUsize>,
 }
 
-/// Watches for signals that ask the process to end. While this value exists, the first signal is
-/// only recorded, and a second signal ends the process at once. Otherwise the first signal ends the
-/// process at once.
+/// Watch for signals that ask the process to end, such as Ctrl-C. While this value exists, the
+/// first signal is only recorded, and a second signal ends the process at once. Without this value,
+/// the first signal ends the process at once.
 pub(super) struct SignalWatch {
     signals: &'static Signals,
 }
@@ -136,7 +136,8 @@ impl SignalWatch {
         self.signals.first.load(Ordering::SeqCst) != 0
     }
 
-    /// Creates the error of a command that the recorded signal has ended.
+    /// Creates the error of a command that a signal has ended. The signal is the one that this
+    /// watch has recorded.
     pub(super) fn interrupted(&self, message: impl Into<String>) -> CliError {
         CliError::interrupted(&self.signals.first, message)
     }

@@ -71,7 +71,8 @@ pub(super) fn reference(
     )
 }
 
-/// Compares a scene on profiles with three dimensions, and shows the progress on standard error.
+/// Compares the results of a scene on profiles with the results in three dimensions. The progress
+/// is shown on standard error.
 pub(super) fn compared(
     document: &Document,
     options: ReferenceOptions,

@@ -89,13 +89,13 @@ pub(super) fn warn_of(name: &str, warning: &impl Display) {
     let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(name));
 }
 
-/// Returns true for the formats in which a result contains its warnings.
+/// Returns true if a result in this format contains its warnings.
 pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
-/// Opens the scene that an argument names. If the argument names a measured file instead of a
-/// scene, the error message names the commands that read such files.
+/// Opens the scene that an argument of the command line names. If the argument is a measured file
+/// and not a scene, the error message names the commands that read such files.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
     open_argument(name).map_err(|errors| match no_scene(Path::new(name)) {
         Some(way) => CliError::message(way),
@@ -130,9 +130,9 @@ pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outco
     })
 }
 
-/// Computes a scene with the function `run`. On a terminal, the number of computed loading stages
-/// is shown meanwhile. The first argument of `run` is a function that returns true if the
-/// computation is to stop, and the second one a function to be called after each stage.
+/// Computes a scene with the function `run`. Its first argument is a function that returns true if
+/// the computation should stop. Its second argument is a function that must be called after each
+/// loading stage. On a terminal, the number of computed loading stages is shown meanwhile.
 pub(super) fn compute_stages(
     document: &Document,
     scene: &Scene,

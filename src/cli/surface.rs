@@ -191,13 +191,14 @@ fn in_unicode(file: &Path) -> String {
     file.to_string_lossy().into_owned()
 }
 
-/// Task of analysing a measured surface and of computing its adhesion. The adhesion is computed on
-/// the equivalent line, a profile that replaces the surface.
+/// Task to analyse a measured surface and, if requested, to compute its adhesion. The adhesion is
+/// computed on the equivalent line, a profile that replaces the surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceTask {
     /// Files of the surface, and the options for reading and analysing them.
     pub measured: Measured,
-    /// Radius of the tip in m, for the reliability cut-off; `None` if it is unknown.
+    /// Radius in m of the tip with which the surface was measured; `None` if it is unknown. It
+    /// determines the reliability cut-off, beyond which the tip falsifies the measured spectrum.
     pub tip_radius: Option<f64>,
     /// Effective modulus E* in Pa; `None` if the elastic energy is not requested.
     pub modulus: Option<f64>,
@@ -215,7 +216,7 @@ pub struct SurfaceTask {
     pub wording: Wording,
 }
 
-/// Progress of the computation of the adhesion of a surface, as a number of random profiles.
+/// Progress of the computation of adhesion, counted in random profiles.
 pub struct ComputedProfiles {
     /// Number of computed profiles.
     pub computed: u64,

@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 /// the arguments of the process are others if a Python script runs the program.
 pub(super) static TYPED: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Returns the path with which scripts start the program: the path with which the program was
-/// started or, if this path is unknown, the executable file of the process.
+/// Returns the path of this program for scripts that start it. It is the path with which the
+/// program was started or, if this path is unknown, the executable file of the process.
 pub(super) fn program_path() -> io::Result<PathBuf> {
     let started = TYPED.get().and_then(|typed| typed.first()).map(Path::new);
     match started.filter(|path| path.components().count() > 1 && path.is_file()) {

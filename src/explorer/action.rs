@@ -24,7 +24,7 @@ pub enum Action {
     Elapse(Duration),
     Reply(Reply),
     Found(Finding),
-    /// A file has been written, or writing it has failed.
+    /// The explorer has written a file, or could not write it.
     Written(OutputFile, Result<(), WriteFailure>),
     /// The list of scenes and files that can be opened has been read.
     Listed(Vec<Openable>),
@@ -43,10 +43,10 @@ pub enum Action {
 /// file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
-    /// Asks the solver for the state that the screen shows next.
+    /// Asks the solver for the state of the contact that the screen shows next.
     Ask,
-    /// Starts the background computations (studies) that the scene still needs. All earlier ones
-    /// are cancelled.
+    /// Starts the studies (background computations) that the scene still needs. All studies that
+    /// were started before are cancelled.
     Study,
     Write(OutputFile),
     List,
@@ -54,14 +54,14 @@ pub enum Task {
     Open(String),
     /// Opens a measured curve with the options that the user has typed.
     OpenCurve(CurveQuestion),
-    /// Reads the measured curve with other options.
+    /// Reads the measured curve that is shown again, with other options.
     ReadCurve(CurveRequest),
     Copy(String),
     Redraw,
     Suspend,
 }
 
-/// Request to read the measured curve with other options.
+/// Request to read the measured curve that is shown again, with other options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
     pub options: CurveOptions,
@@ -80,15 +80,16 @@ pub struct OutputFile {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
     Exists,
-    /// The system refused to write, or there is nothing to write.
+    /// The explorer could not write the file because the system refused it, or because there is
+    /// nothing to write. The text is the reason.
     Refused(String),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Scene,
-    /// The selected pane in this format: a format for pictures gives the figure of the pane, a
-    /// format for data its numbers. The text format gives the text of all panes.
+    /// Export of the selected pane in this format. A format for pictures gives the figure of the
+    /// pane, and a format for data gives its numbers. The text format gives the text of all panes.
     Pane(Format),
 }
 

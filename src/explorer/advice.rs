@@ -1,11 +1,11 @@
-//! Words for the remedies of an error message: the row or the key of the explorer that applies the
-//! remedy.
+//! Words of the explorer for remedies. A remedy removes the cause of an error or a warning, and the
+//! words name the row or the key of the explorer that applies it.
 
 use asperity_data::Remedy;
 
-/// Returns how the user takes a remedy, a step that removes the cause of an error or a warning, in
-/// the explorer. If the explorer has no row for the remedy, the words describe an option of the
-/// command line.
+/// Returns words that state how the user applies a remedy in the explorer. A remedy is a step that
+/// removes the cause of an error or a warning. If the explorer has no row for the remedy, the words
+/// describe an option of the command line.
 pub fn row(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "the row roughness.surface_name",

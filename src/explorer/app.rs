@@ -31,9 +31,9 @@ use std::sync::Arc;
 pub struct CurveLook {
     pub quantities: LoopQuantities,
     /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
-    /// the rms height h or the length L; false to show all in SI units.
+    /// the rms height h or of the length L. False to show all values in SI units.
     pub normalised: bool,
-    /// True if the area that represents the dissipated energy is shaded.
+    /// True if the area in the force curve that represents the dissipated energy is shaded.
     pub loss: bool,
 }
 
@@ -42,16 +42,17 @@ pub struct CurveLook {
 pub enum Message {
     Done(String),
     Error(String),
-    /// The value that the user gave the selected parameter was refused for this reason.
+    /// The explorer has refused the value that the user gave the selected parameter. The text is
+    /// the reason.
     Refused(String),
 }
 
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane that has the main place on the screen. In this case the force curve is drawn below this
-    /// pane, where the profile and the close-up would be. `None` if the force curve has the main
-    /// place.
+    /// Pane that has the main place on the screen in place of the force curve. The force curve is
+    /// then drawn below this pane, where the profile and the close-up would be. `None` if the force
+    /// curve has the main place.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -63,18 +64,20 @@ pub struct View {
     pub preloads: AxisScale,
     /// True if the loops of random square surfaces on an elastic half-space are computed and shown.
     pub squares: bool,
-    /// Position of the crosshair, from 0 to 1: along the profile in the panes that show springs,
-    /// along the horizontal axis in other charts. `None` if there is no crosshair.
+    /// Position of the crosshair from 0 to 1; `None` if there is no crosshair. In the panes that
+    /// show springs, it is a position along the profile. In other charts, it is a position along
+    /// the horizontal axis.
     pub crosshair: Option<f64>,
     /// True if computing times are shown. A demo hides them, because they differ from one
     /// computation to the next.
     pub shows_times: bool,
-    /// Text that a demo shows instead of the keys, which have no effect while its script plays.
+    /// Text that a demo shows instead of the keys, which have no effect while its script plays;
+    /// `None` outside a demo.
     pub demo: Option<&'static str>,
 }
 
-/// State of the contact for which the screen waits: the generation of the scene, the requested
-/// snapshot, and the number of manual moves.
+/// Identification of the state of the contact for which the screen waits. It consists of the
+/// generation of the scene, the requested snapshot, and the number of manual moves.
 pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
 #[derive(Clone, Debug)]
@@ -91,16 +94,19 @@ pub struct App {
     pub studies: Findings,
     pub map: MapState,
     pub ghosts: Vec<Ghost>,
-    /// The scene with the value that the user is typing. Its outcome is computed as a preview.
+    /// The scene with the value that the user is typing; `None` if the user is typing no value. The
+    /// outcome of this scene is computed as a preview.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
     pub config: Config,
-    /// Command that the user has chosen in the list of commands, and that runs next.
+    /// Command that runs next, because the user has chosen it in the list of commands; otherwise
+    /// `None`.
     pub chosen: Option<KeyCommand>,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
-    /// State that was last requested from the solver.
+    /// State of the contact that was last requested from the solver; `None` before the first
+    /// request.
     pub(super) asked: Option<Awaited>,
 }
 
@@ -156,8 +162,8 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// Adds a warning and an offer, such as to restore unsaved changes, to the message that is
-    /// shown for the opened scene, so that all three are one message. Warnings and errors come
+    /// Adds a warning and an offer to the message that is shown for the opened scene, so that all
+    /// three are one message. The offer may be to restore unsaved changes. Warnings and errors come
     /// first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
@@ -187,8 +193,8 @@ impl App {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
-    /// Returns the style, such as a colour, that the theme of the user has for a text or a line
-    /// with this meaning.
+    /// Returns the style, such as a colour, of a text or a line with this meaning. The style
+    /// follows from the theme that the user has chosen.
     pub fn style(&self, meaning: Meaning) -> Style {
         self.view.appearance.theme.style(meaning)
     }
@@ -199,8 +205,9 @@ impl App {
             .is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt again with a typed text that the explorer could not use. `why` is the reason.
-    /// If `why` begins with the typed text, the beginning is left out.
+    /// Opens a prompt again with the text that the user has typed, because the explorer could not
+    /// use this text. `why` is the reason. If `why` begins with the typed text, this beginning is
+    /// left out.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let rest = why.strip_prefix(text);
         let reason = rest.and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
@@ -220,8 +227,9 @@ impl App {
         }
     }
 
-    /// Prepares for a command that changes the scene or the panes: removes the message, and ends a
-    /// series of moves of the mark on the map, which counts as one edit.
+    /// Prepares the state for a command that changes the scene or the panes. The message is
+    /// removed. If the last edit was a series of moves of the mark on the map, a later move is a
+    /// new edit.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
         // If the computation of the scene has failed, the message with the reason stays visible.
@@ -235,9 +243,9 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Returns the governing parameters of the present scene. They are known if the profile and the
-    /// material of the present scene are those of the scene computed last, even if the adhesion
-    /// differs; otherwise `None`.
+    /// Returns the governing parameters of the present scene, such as the effective modulus and the
+    /// work of adhesion; `None` if they are not known yet. They are known if the present scene has
+    /// the profile and the material of the scene that was computed last. The adhesion may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let before = &computed.scene;
@@ -252,7 +260,7 @@ impl App {
         Some(computed.outcome.governing.with_adhesion(present.adhesion))
     }
 
-    /// Returns true if the present scene has been computed.
+    /// Returns true if the outcome of the present scene is computed.
     pub fn is_current(&self) -> bool {
         self.current().is_some()
     }
@@ -265,9 +273,9 @@ impl App {
             .filter(|computed| computed.generation == self.edit.generation)
     }
 
-    /// Returns the warnings about premises of the model that the present result does not meet, in
-    /// the words that all reports use. If random profiles have been computed, the warnings concern
-    /// these profiles, otherwise the profile of the scene.
+    /// Returns warnings about the premises of the model that the present result does not meet, in
+    /// the words that all reports use. If random profiles have been computed, the warnings are for
+    /// these profiles. Otherwise they are for the profile of the scene.
     pub fn warnings(&self) -> Vec<String> {
         let Some(computed) = self.current() else {
             return Vec::new();
@@ -285,10 +293,10 @@ impl App {
         self.progress.is_some()
     }
 
-    /// Returns the outcome to show as a preview:
-    /// * While the user types a value: the outcome for the typed value. Until this outcome is
-    ///   computed, the outcome for the value typed before.
-    /// * After the user has accepted the value: the same outcome, until the scene itself is
+    /// Returns the outcome that is shown as a preview of a typed value; `None` if there is none:
+    /// * While the user types a value, this is the outcome for the typed value. Until this outcome
+    ///   is computed, it is the outcome for the value that was typed before.
+    /// * After the user has accepted the value, the preview remains until the scene itself is
     ///   computed.
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
@@ -312,8 +320,8 @@ impl App {
             .is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Returns the point of the map that represents the scene, as numbers on the axes. `None` if
-    /// the scene lacks the quantity of an axis, or if the value of this quantity is not known yet.
+    /// Returns the position of the scene on the map, as numbers on the axes. `None` if the scene
+    /// lacks the quantity of an axis, or if the value of this quantity is not known yet.
     pub fn place(&self) -> Option<GridPlace> {
         let (across, up) = self.map_axes()?;
         let scene = self.edit.document.scene();
@@ -333,8 +341,9 @@ impl App {
         }
     }
 
-    /// Returns the horizontal and the vertical axis of the map that is shown. Before a map is
-    /// computed, they are the axes of the live map.
+    /// Returns the horizontal and the vertical axis of the map that is shown. If no map is computed
+    /// yet, returns the axes of the live map, which the explorer will compute for the scene.
+    /// Returns `None` if the scene has no live map.
     pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
@@ -348,8 +357,8 @@ impl App {
         Some((axes.next()?, axes.next()))
     }
 
-    /// Returns the quantity that the map shows: the quantity chosen by the user or, if the map does
-    /// not contain it, the first quantity of the map.
+    /// Returns the quantity that the map shows. This is the quantity that the user has chosen or,
+    /// if the map does not contain it, the first quantity of the map.
     pub fn mapped(&self) -> Quantity {
         let chosen = self.map.quantity;
         let quantities = self.mappable();
@@ -364,8 +373,8 @@ impl App {
         self.grid().map(Grid::quantities).unwrap_or_default()
     }
 
-    /// Returns the quantity that follows the shown quantity of the map. The first quantity follows
-    /// the last one.
+    /// Returns the quantity that the map shows next. After the last quantity of the map comes the
+    /// first one.
     pub fn next_mapped(&self) -> Quantity {
         let present = self.mapped();
         let quantities = self.mappable();
@@ -375,7 +384,7 @@ impl App {
         next.copied().unwrap_or(present)
     }
 
-    /// Returns the panes that can be selected, the most important first.
+    /// Returns the panes that the user can select, the most important first.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
             Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
@@ -384,14 +393,14 @@ impl App {
         }
     }
 
-    /// Returns true if a pane is one of the selectable panes.
+    /// Returns true if the user can select this pane.
     pub fn is_shown(&self, pane: Pane) -> bool {
         self.panes().contains(&pane)
     }
 
-    /// Shows and selects a pane, or hides the pane if it is already shown. Exception: a map that is
-    /// shown but not selected is selected instead of hidden, because the user then wants to use its
-    /// keys.
+    /// Shows and selects a pane that is hidden, and hides a pane that is shown. A map that is shown
+    /// but not selected is not hidden but selected, because the user then wants to use the keys of
+    /// the map.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use {
@@ -426,9 +435,9 @@ impl App {
         self.view.pane = selected;
     }
 
-    /// Returns the context, which determines what the keys do. For example, the arrow keys move the
-    /// mark on a map, and the crosshair in a pane that shows one. In the list of parameters, a
-    /// digit begins a new value.
+    /// Returns the context, which determines what the keys do. In the context of a map, for
+    /// example, the arrow keys move the mark; in the context of a crosshair, they move the
+    /// crosshair. In the context of the list of parameters, a digit begins a new value.
     pub fn keys(&self) -> Context {
         if let Some(prompt) = &self.prompt {
             return prompt.context();
@@ -439,7 +448,8 @@ impl App {
         }
     }
 
-    /// The part of the profile that the selected pane shows.
+    /// Returns the part of the profile that the selected pane shows; `None` if the pane shows no
+    /// part.
     pub fn section(&self) -> Option<&Section> {
         let snapshot = self.snapshot.as_ref()?;
         match self.view.pane {
@@ -457,8 +467,8 @@ impl App {
         }
     }
 
-    /// Returns the newest snapshot, if it shows the present scene and the present kind of loading
-    /// (animation or manual); otherwise `None`.
+    /// Returns the newest snapshot of the contact if it shows the present scene and the present
+    /// kind of loading, which is the animation or manual loading. Otherwise `None`.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
         let is_present =
@@ -476,14 +486,13 @@ impl App {
         self.outcome().map_or(&[], |outcome| &outcome.history.legs)
     }
 
-    /// Returns true if the computed scene has a compliant instrument.
+    /// Returns true if the instrument of the computed scene is compliant, so that it deflects under
+    /// the force.
     pub fn deflects(&self) -> bool {
         self.outcome()
             .is_some_and(|outcome| outcome.instrument.is_some())
     }
 
-    /// Returns the given force in N, or zero if the force is only a rounding error of the largest
-    /// marked force. Such rounding errors occur after a stage that ends at zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, point) in Mark::all(self.legs()) {
@@ -496,19 +505,21 @@ impl App {
         }
     }
 
-    /// Returns true if forces are shown in units of F_a,max. This is possible only if a scene with
-    /// a positive F_a,max is computed.
+    /// Returns true if forces are shown in units of the ideal adhesion force F_a,max. This is
+    /// possible only if a scene with a positive F_a,max is computed.
     pub fn is_normalised(&self) -> bool {
         self.view.curve.normalised && self.ideal_adhesion_force().is_some()
     }
 
-    /// Returns F_a,max of the computed scene in N; `None` if it is not above zero.
+    /// Returns the ideal adhesion force F_a,max of the computed scene in N; `None` if no scene is
+    /// computed, or if the force is not above zero.
     pub fn ideal_adhesion_force(&self) -> Option<f64> {
         let force = self.outcome()?.ideal_adhesion_force?;
         if force > 0.0 { Some(force) } else { None }
     }
 
-    /// Returns a force (in N) of the computed scene as text, in N or in units of F_a,max.
+    /// Returns a force (in N) of the computed scene as text, in N or in units of the ideal adhesion
+    /// force F_a,max.
     pub fn force_in_words(&self, force: f64) -> String {
         match self.ideal_adhesion_force() {
             Some(ideal) if self.is_normalised() => {
@@ -518,21 +529,24 @@ impl App {
         }
     }
 
-    /// Returns F_a/F_a,max of the computed profile as text.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force as text, for
+    /// the computed profile. Returns `None` if there is no adhesion force.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
         let force = self.outcome()?.figures.adhesion_force?;
         Some(share_in_words(force / self.ideal_adhesion_force()?))
     }
 
-    /// Returns the median of F_a/F_a,max over the random profiles as text.
+    /// Returns the median over the random profiles of the ratio F_a/F_a,max as text. The ratio is
+    /// the adhesion force divided by the ideal adhesion force. Returns `None` until profiles are
+    /// computed, and if no profile has an adhesion force.
     pub fn median_share_in_words(&self) -> Option<String> {
         let ensemble = self.studies.value::<Ensemble>()?;
         let shares = ensemble.statistics(Quantity::AdhesionShare)?;
         Some(format!("median {}", share_in_words(shares.quartiles[1])))
     }
 
-    /// Returns the value of a parameter in the notation of the scene file. For a value that follows
-    /// from other parameters, returns the computed value; `None` until this value is computed.
+    /// Returns the value of a parameter in the notation of the scene file. If the value follows
+    /// from other parameters, it is the computed value, or `None` until it is computed.
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());

@@ -58,21 +58,21 @@ pub fn folder() -> Option<PathBuf> {
 }
 
 /// Unsaved changes of an ended session. The first document is the scene that the user was
-/// exploring. The file is locked while this value exists, so that no other process can take the
-/// file.
+/// exploring. The file with the changes is locked while this value exists, so that no other process
+/// can restore the same changes.
 pub struct Kept {
     path: PathBuf,
     lock: File,
     pub documents: Vec<Document>,
 }
 
-/// Unsaved changes of ended sessions that were found in the folder.
+/// Result of a search for the unsaved changes of ended sessions.
 #[derive(Default)]
 pub struct Newest {
-    /// The newest unsaved changes that can be read.
+    /// The newest unsaved changes that can be read; `None` if there are none.
     pub kept: Option<Kept>,
-    /// Names of newer files that cannot be read, each with the reason, the newest first. A power
-    /// cut may have damaged them.
+    /// Names of files that are newer than [`Newest::kept`] but cannot be read, each with the
+    /// reason, the newest first. A power cut may have damaged these files.
     pub unreadable: Vec<String>,
 }
 
@@ -153,9 +153,9 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Prepares the file with the unsaved changes of a new session. If the session continues an
-    /// ended session (`restored`), it takes over the file of the ended session; otherwise it has no
-    /// file yet.
+    /// Prepares the storage of the unsaved changes of a new session. If the session continues an
+    /// ended session (`restored`), it takes over the file of the ended session. Otherwise it has no
+    /// file until there are unsaved changes.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave {
@@ -178,9 +178,9 @@ impl Autosave {
         self.own.is_some()
     }
 
-    /// Writes these scenes to the file, in place of all scenes in it. If there are no scenes, the
-    /// file is removed. Even if the process is killed meanwhile, the file has either its complete
-    /// old content or its complete new content.
+    /// Writes these scenes to the file of this session, in place of the scenes that it contains. If
+    /// there are no scenes, the file is removed. Even if the process is killed meanwhile, the file
+    /// has either its complete old content or its complete new content.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return match self.own.take() {

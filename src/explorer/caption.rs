@@ -1,5 +1,5 @@
-//! Name of the event at the shown state of the contact: first contact, spreading, preload,
-//! detachment, pull-off or separation.
+//! Caption: the name of the event at the shown state of the contact. The events are first contact,
+//! spreading, preload, detachment, pull-off and separation.
 
 use super::app::App;
 use super::request::Drive;

@@ -7,8 +7,9 @@ use asperity_contact::motion::Leg;
 use asperity_report::{LineColumns, Part, SectionContact};
 use std::ops::Range;
 
-/// Makes the close-up, which shows a few springs of the profile enlarged: the requested springs,
-/// and the patch that is nearest to their middle.
+/// Makes the close-up, which shows a few springs of the profile enlarged. These are the springs
+/// that `request` names. The close-up also has the contact patch that is nearest to the middle of
+/// these springs.
 pub fn close_up(
     contact: &SectionContact<'_>,
     leg: &Leg,

@@ -1,4 +1,5 @@
-//! Shell commands that open the scene, or read the measured curve, as the explorer shows it now.
+//! Shell commands that repeat what the explorer shows now: a command that opens the scene, and
+//! options that read the measured curve.
 
 use asperity_experiment::{CurveOptions, Drift, Tilt};
 use asperity_scene::text::quoted;

@@ -1,4 +1,4 @@
-//! Completion of a typed path with existing files and folders.
+//! Completion of a path that the user is typing, with existing files and folders.
 
 use asperity_data::is_control;
 use asperity_scene::library::typed_path;

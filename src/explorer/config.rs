@@ -25,13 +25,14 @@ pub struct Config {
     pub speed: f64,
     /// True if the animation starts again after its end.
     pub repeat: bool,
-    /// True if the explorer reacts to the mouse; false if the terminal does, for example to select
-    /// text.
+    /// True if the explorer receives the mouse. False if the terminal itself receives the mouse,
+    /// for example to select text.
     pub mouse: bool,
-    /// Name of the scene that opens if the user names no scene.
+    /// Name of the scene that the explorer opens if the user names no scene.
     pub scene: String,
     keys: Vec<KeySetting>,
-    /// Keys with the changes of the file applied; empty before the file has been read.
+    /// Keys of all commands, with the changes that the configuration file makes. They are empty
+    /// until the file has been read.
     #[serde(skip)]
     pub bindings: Bindings,
 }
@@ -61,7 +62,7 @@ impl Default for Config {
 }
 
 /// Returns the path of the user's configuration file: `asperity/config.ron` in the configuration
-/// folder. The file may not exist.
+/// folder. The file may not exist. Returns `None` if the user has no configuration folder.
 pub fn default_path() -> Option<PathBuf> {
     let folder = choose_base_strategy().ok()?.config_dir();
     Some(folder.join("asperity").join("config.ron"))
@@ -75,9 +76,9 @@ impl Config {
         }
     }
 
-    /// Reads a configuration file. `bindings` are the default keys, which the file may change. If
-    /// the file does not exist, the defaults apply, except if the user has named the file
-    /// (`is_named`): then this is an error.
+    /// Reads a configuration file. `bindings` are the default keys, which the file may change.
+    /// `is_named` is true if the user has named the file. If the file does not exist, the defaults
+    /// apply, but a missing file that the user has named is an error.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         if !is_named && is_missing(path) {
             return Ok(Config::new(bindings));

@@ -7,16 +7,17 @@ use asperity_scene::fields::{Field, Range};
 use asperity_scene::text::ron_float;
 use std::ops::Bound::{Excluded, Included};
 
-/// Path of the group of rows for the measured curve in the list of parameters.
+/// Path of the group of rows that belong to the measured curve in the list of parameters.
 pub const GROUP: &str = "measured";
 
-/// Heading of the group, which shows the name of the file.
+/// Heading of the group of rows that belong to the measured curve. It shows the name of the file.
 pub static HEAD: Field = Field::beside(GROUP, "measured curve", Range::Group, "");
 
 /// Function that writes a number with its unit, as text.
 type Format = fn(f64, &str) -> String;
 
-/// Row in the list of parameters for one option. The user types its value as on the command line.
+/// Row in the list of parameters for one option that states how to read the measured curve. The
+/// user types the value of the option as on the command line.
 pub struct CurveOptionRow {
     pub field: Field,
     /// Text that is shown if the option is not set.
@@ -51,8 +52,8 @@ const fn option(
     Field::beside(path, name, range, meaning)
 }
 
-/// All options, in the order in which the list of parameters shows them. The options that are
-/// necessary to read certain files come first.
+/// All options for reading a measured curve, in the order of the list of parameters. Options
+/// without which certain files cannot be read come first.
 pub static OPTIONS: [CurveOptionRow; 10] = [
     CurveOptionRow {
         field: option(
@@ -288,7 +289,7 @@ fn count(typed: &str) -> Result<Option<usize>, String> {
 }
 
 impl CurveOptionRow {
-    /// Returns the value as the list shows it.
+    /// Returns the value of this option as the list of parameters shows it.
     pub fn shown(&self, measured: &Measured) -> String {
         let given = (self.written)(&measured.options, format_quantity);
         given.unwrap_or_else(|| match self.field.path {
@@ -297,8 +298,8 @@ impl CurveOptionRow {
         })
     }
 
-    /// Returns what the option does, followed by its allowed values or by the meaning of an empty
-    /// text.
+    /// Returns a text that explains this option, followed by its allowed values or by the meaning
+    /// of an empty text.
     pub fn explanation(&self) -> String {
         let meaning = self.field.meaning;
         match self.field.range {
@@ -307,24 +308,24 @@ impl CurveOptionRow {
         }
     }
 
-    /// Returns the text that the user edits when the row is opened. It is empty if the option is
-    /// not set.
+    /// Returns the text that the user edits to change this option. The text is empty if the option
+    /// is not set.
     pub fn editable(&self, options: &CurveOptions) -> String {
         (self.written)(options, exact_quantity).unwrap_or_default()
     }
 
-    /// Returns true if the option is set.
+    /// Returns true if this option is set in `options`.
     pub fn is_set(&self, options: &CurveOptions) -> bool {
         (self.written)(options, format_quantity).is_some()
     }
 
-    /// Returns the value as text for a list of changes.
+    /// Returns the value of this option as text for a list of changes.
     pub fn in_words(&self, options: &CurveOptions) -> String {
         (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())
     }
 
-    /// Returns the value as a number in the notation of a scene file; `None` if the option is not a
-    /// force or is not set.
+    /// Returns the value of this option as a number in the notation of a scene file; `None` if the
+    /// option is not set or is not a force.
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
         if self.field.unit != "N" {
             return None;
@@ -334,9 +335,9 @@ impl CurveOptionRow {
         Some(ron_float(force))
     }
 
-    /// Adds a unit to a typed force without a unit: the unit of the present value or, if the
-    /// present value is not a force, the unit of the noise. Values that are not forces stay
-    /// unchanged.
+    /// Adds a unit to a typed force that has no unit. This is the unit of the present value or, if
+    /// the present value is not a force, the unit of the noise. A value that is not a force is
+    /// returned unchanged.
     pub fn with_unit(&self, measured: &Measured, typed: &str) -> String {
         let is_force = self.field.unit == "N" || self.field.path == "measured.drift";
         if !is_force {
@@ -351,8 +352,8 @@ impl CurveOptionRow {
         in_unit(typed, unit_of(&noise))
     }
 
-    /// Returns the options with this option set to a typed value. An empty text, or the text that
-    /// is shown for an option that is not set, unsets the option.
+    /// Returns a copy of `options` in which this option has a typed value. The option is removed if
+    /// the text is empty, or if it is the text that the list shows for an option that is not set.
     ///
     /// # Errors
     /// Returns the reason if the option cannot have this value.
@@ -364,8 +365,9 @@ impl CurveOptionRow {
         Ok(changed)
     }
 
-    /// Returns the choice after the present value if `forwards` is true, otherwise the choice
-    /// before it. `None` if the value can only be typed.
+    /// Returns the allowed value that follows the present value of this option, or precedes it if
+    /// `forwards` is false. `None` if the option has no list of allowed values, so that the user
+    /// must type the value.
     pub fn next_choice(&self, options: &CurveOptions, forwards: bool) -> Option<&'static str> {
         let last = self.choices.len().checked_sub(1)?;
         let present = self.in_words(options);

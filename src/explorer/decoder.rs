@@ -1,6 +1,6 @@
-//! Converts the bytes of a terminal to keys, pasted texts and gestures of the mouse. If the line to
-//! the terminal breaks, only the beginning of a key or of a paste may arrive. After a pause the
-//! decoder ends such a beginning, so that later keys are read correctly.
+//! Decoder, which converts the bytes of a terminal to keys, pasted texts and gestures of the mouse.
+//! If the line to the terminal breaks, only the beginning of a key or of a paste may arrive. After
+//! a pause the decoder takes this beginning as complete, so that later keys are read correctly.
 
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
@@ -52,7 +52,7 @@ enum Pending {
     Paste(Vec<u8>),
 }
 
-/// Converts the bytes of a terminal to events.
+/// Decoder, which converts the bytes of a terminal to events such as a pressed key.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: Pending,
@@ -75,8 +75,8 @@ impl Decoder {
         std::mem::take(&mut self.events)
     }
 
-    /// Returns how long to wait for the rest of the incomplete input; `None` if no input is
-    /// incomplete.
+    /// Returns how long the caller should wait for the rest of an incomplete key or paste. `None`
+    /// if the input so far is complete.
     pub fn pause(&self) -> Option<Duration> {
         match self.pending {
             Pending::Nothing => None,
@@ -85,8 +85,9 @@ impl Decoder {
         }
     }
 
-    /// Ends the incomplete input, because the rest does not arrive. A single ESC becomes the escape
-    /// key, and an incomplete paste becomes the text read so far.
+    /// Takes the incomplete input as complete, because the rest does not arrive, and returns its
+    /// events. A single ESC becomes the escape key, and an incomplete paste becomes the text read
+    /// so far.
     pub fn give_up(&mut self) -> Vec<Event> {
         self.end();
         std::mem::take(&mut self.events)

@@ -1,4 +1,4 @@
-//! The edited scene: its list of parameters, its history, and whether it is saved.
+//! The edited scene: its parameters, the history of its edits, and whether it is saved.
 
 use super::curve_options;
 use super::measured::Measured;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const UNDO_DEPTH: usize = 1000;
 
-/// Scene and measured curve, as they were before or after an edit.
+/// Scene and measured curve at one place in the history, before or after an edit.
 #[derive(Clone, Debug)]
 pub struct Edited {
     pub document: Document,
@@ -41,19 +41,20 @@ impl Edited {
     }
 }
 
-/// The edited scene, its history, and its list of parameters.
+/// The edited scene, the history of its edits, and the list of its parameters.
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
-    /// The measured curve that is compared with the scene.
+    /// The measured curve that is compared with the scene; `None` if there is none.
     pub measured: Option<Measured>,
     /// The checked scene of the document. The paths of its files are relative to the working
     /// folder.
     pub scene: Arc<CheckedScene>,
-    /// Scenes and curves before each edit that can be undone, the newest last.
+    /// Scene and measured curve before each edit that can be undone. The state before the newest
+    /// edit is the last element.
     pub past: Vec<Edited>,
     future: Vec<Edited>,
-    /// For each name of a scene, the document as it was last saved or opened.
+    /// Documents as they were last saved or opened, by the names of the scenes.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene has been saved or opened.
     pub saves: u64,
@@ -87,12 +88,12 @@ impl Editor {
         self.parameters.get(self.selected)
     }
 
-    /// Selects the parameter in this row, or in the last row if there is no such row.
+    /// Selects the parameter in row number `row`, or in the last row if there are fewer rows.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }
 
-    /// Selects the row of a loading stage. Does nothing if there is no such row.
+    /// Selects the row of a stage of the loading. Does nothing if there is no such row.
     pub fn select_stage(&mut self, stage: usize) {
         let mut rows = self.parameters.iter();
         if let Some(row) = rows.position(|parameter| parameter.leg == Some(stage)) {
@@ -100,7 +101,8 @@ impl Editor {
         }
     }
 
-    /// Moves the selection by a number of rows. It stops at the first and the last row.
+    /// Moves the selection by a number of rows, downwards if the number is positive. The selection
+    /// stays between the first and the last row.
     pub fn move_selection(&mut self, rows: i32) {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
@@ -160,16 +162,15 @@ impl Editor {
         }
     }
 
-    /// Continues the last edit: the document takes the place of its result, so that one undo
-    /// reverts both.
+    /// Extends the last edit, so that it results in `document`. One undo then reverts both changes.
     pub fn replace(&mut self, document: Document) {
         self.document = document;
         self.future.clear();
         self.renew();
     }
 
-    /// Undoes the last edit if `back` is true; otherwise redoes the edit that was undone last.
-    /// Returns the changes as text; `None` if there is no edit to undo or redo.
+    /// Undoes the last edit if `back` is true. Otherwise redoes the edit that was undone last.
+    /// Returns a text that states what has changed; `None` if there is no edit to undo or redo.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let next = if back {
             self.past.pop()?
@@ -199,7 +200,7 @@ impl Editor {
         Some(changes.join(", "))
     }
 
-    /// Stores a document with unsaved changes before another scene takes its place.
+    /// Stores a document with unsaved changes, because another scene takes the place of its scene.
     pub fn leave(&mut self, document: Document) {
         if self.is_changed(&document) {
             self.left.insert(document.name().to_owned(), document);
@@ -247,8 +248,8 @@ impl Editor {
         unsaved
     }
 
-    /// Continues with the unsaved changes of another session. The first document becomes the
-    /// explored scene.
+    /// Restores the unsaved changes of another session. The first document becomes the explored
+    /// scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
             let name = document.name().to_owned();

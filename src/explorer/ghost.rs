@@ -1,4 +1,5 @@
-//! Ghosts: computed scenes that the user keeps for comparison.
+//! Ghosts: computed scenes that the user keeps on the screen to compare them with the present
+//! scene.
 
 use asperity_scene::fields::Change;
 use asperity_scene::{Document, Outcome};
@@ -11,8 +12,8 @@ pub struct Ghost {
 }
 
 impl Ghost {
-    /// Returns the changes from the ghost, a scene kept for comparison, to the scene `present` as
-    /// text. `words` formats a single change.
+    /// Returns as text the changes that lead from this ghost, a scene kept for comparison, to the
+    /// scene `present`. `words` converts a single change to text.
     pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();

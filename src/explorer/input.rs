@@ -1,11 +1,11 @@
-//! Input: reads keys and mouse on threads of its own, and converts them to actions.
+//! Input of the explorer: reads keys and mouse on separate threads, and converts them to actions.
 
 use super::action::{Action, Gesture, Mouse};
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
-/// Reads input on two new threads, which end when the terminal disappears or the explorer ends.
-/// Each event is passed to `send`, and `None` when the input ends. `send` returns false if the
-/// receiver of the events has ended.
+/// Reads keys and mouse on two new threads. The threads end when the terminal disappears or the
+/// explorer ends. Each event is passed to `send`; when the input ends, `None` is passed. `send`
+/// returns false if the receiver of the events has ended.
 #[cfg(unix)]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     use super::decoder::Decoder;
@@ -91,9 +91,9 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     }
 }
 
-/// Reads input on a new thread, which ends when the terminal disappears or the explorer ends. Each
-/// event is passed to `send`, and `None` when the input ends. `send` returns false if the receiver
-/// of the events has ended.
+/// Reads keys and mouse on a new thread. The thread ends when the terminal disappears or the
+/// explorer ends. Each event is passed to `send`; when the input ends, `None` is passed. `send`
+/// returns false if the receiver of the events has ended.
 #[cfg(not(unix))]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()

@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 pub struct Layout {
     pub title: Option<Rect>,
     pub panes: Vec<(Pane, Rect)>,
-    /// Lines for the main results, or for the line that the user is typing.
+    /// Lines below the panes, for the main results or for the line that the user is typing.
     pub status: Rect,
     pub footer: Option<Rect>,
 }
@@ -89,8 +89,8 @@ impl Layout {
     }
 }
 
-/// Returns the area below the title of a pane, without the last column, which stays blank. If a
-/// pane is too small for a title, returns the whole area.
+/// Returns the area of a pane for its content: below the title and without the last column, which
+/// stays blank. If the pane is too small for a title, returns the whole `area`.
 pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
         return area;

@@ -1,4 +1,5 @@
-//! The body under manual loading, and the force curve of the body since manual loading began.
+//! The body under manual loading, in which the user moves the body step by step, and the force
+//! curve since manual loading began.
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
@@ -12,17 +13,17 @@ const POINTS: u32 = 16;
 /// Largest number of points that a move to separation adds to the force curve.
 const MOST_POINTS: u32 = 512;
 
-/// State of the contact in which manual loading begins.
+/// State of the contact at which manual loading begins.
 pub struct ManualBegin {
-    /// Indentation in m.
+    /// Indentation in m at which manual loading begins.
     pub indentation: f64,
     /// True if the contact is already separated.
     pub is_separated: bool,
-    /// Distance in m between the points of the curve when the body is pulled off.
+    /// Distance in m between neighbouring points of the force curve when the body is pulled off.
     pub step: f64,
     /// Loading stages after which manual loading begins.
     pub loading: Vec<Move>,
-    /// Direction of the last of these stages; `None` if there are none.
+    /// Direction of the last stage in [`ManualBegin::loading`]; `None` if there are no stages.
     pub direction: Option<Direction>,
 }
 
@@ -65,7 +66,7 @@ impl ManualBody {
         self.body.leg()
     }
 
-    /// Returns the path of the body since the last call.
+    /// Returns the path along which the body has moved since this function was last called.
     pub fn travel(&mut self) -> ManualPath {
         let further = ManualPath {
             released_energy: self.travel.released_energy,
@@ -75,7 +76,7 @@ impl ManualBody {
         std::mem::replace(&mut self.travel, further)
     }
 
-    /// Moves the body. If the move is refused, the body stays where it is.
+    /// Moves the body by a manual move. If the move is refused, the body stays where it is.
     pub fn follow(&mut self, order: ManualMove) {
         let from = self.body.point();
         let target = match order {

@@ -1,5 +1,5 @@
-//! State of the pane of the map, which shows either the live map over H and κ or a map of a study
-//! over the axes of the study.
+//! State of the pane of the map. The pane shows the live map, which is computed for the present
+//! scene over H and κ, or a map of a study over axes of this study.
 
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};
@@ -11,12 +11,13 @@ pub struct MapState {
     /// Quantity that the user has chosen. If the map does not contain it, the first quantity of the
     /// map is shown.
     pub quantity: Quantity,
-    /// A finished study. It stays open until another study is opened.
+    /// The finished study that the user has opened; `None` if the user has opened none. It stays
+    /// open until the user opens another study.
     pub study: Option<OpenStudy>,
     /// True if the map of the study is shown instead of the live map, which the explorer computes
     /// for the present scene.
     pub of_study: bool,
-    /// True if the last edit moved the mark. A further move of the mark then belongs to the same
+    /// True if the last edit moved the mark on the map. If the mark moves again, both moves are one
     /// edit.
     pub moving: bool,
 }
@@ -56,14 +57,14 @@ impl OpenStudy {
         }
     }
 
-    /// Returns true if a scene belongs to the shown map, so that it differs from the scene of the
-    /// study at most in the quantities of the axes.
+    /// Returns true if a scene belongs to the map of the study that is shown. The scene may then
+    /// differ from the scene of the study only in the quantities of the axes.
     pub fn is_of(&self, scene: &Scene) -> bool {
         self.study_map.is_of(self.slice, scene)
     }
 
-    /// Returns the index of the map that is `steps` maps after the shown one. The first map follows
-    /// the last one.
+    /// Returns the index of the map that is `steps` maps after the shown map. After the last map
+    /// comes the first map.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
         (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64
@@ -88,9 +89,9 @@ impl MapState {
         Plan::of_map(scene).ok()
     }
 
-    /// Returns a text that identifies the live map, which the explorer computes for a scene. The
-    /// text does not depend on κ and H, which are the axes of the map. Returns `None` if the scene
-    /// has no live map.
+    /// Returns a text that identifies the live map of a scene, which the explorer computes for this
+    /// scene. The text does not depend on the roughness parameter κ and the Hurst exponent, because
+    /// they are the axes of the map. Returns `None` if the scene has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -1,5 +1,5 @@
-//! A measured force curve that is compared with the scene: force over the displacement of the
-//! instrument.
+//! A measured force curve that the explorer compares with the scene. The curve is the force as a
+//! function of the displacement of the instrument.
 
 use super::studies::Findings;
 use crate::explorer::advice;
@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Path of the file as shown on the screen, without control characters.
+    /// Path of the file without control characters, as it is shown on the screen.
     pub name: String,
     pub path: PathBuf,
     pub curve: Arc<MeasuredCurve>,
     /// Options with which the curve has been read.
     pub options: CurveOptions,
-    /// Displacement in m of the instrument at first touch.
+    /// Displacement of the instrument at first touch, m.
     pub offset: f64,
 }
 
@@ -47,8 +47,9 @@ impl Measured {
         Ok(measured)
     }
 
-    /// Returns the sentences on the preparation of the curve. Each sentence names the rows in which
-    /// the user can change what it states.
+    /// Returns sentences that state how the curve was prepared, for example how its units were
+    /// found. Each sentence names the rows of the list of parameters in which the user can change
+    /// this.
     pub fn statements(&self) -> String {
         let notes = self.curve.statements.iter();
         let sentences: Vec<String> = notes.map(|note| note.in_words(advice::row)).collect();
@@ -79,7 +80,7 @@ impl Measured {
     }
 }
 
-/// Fit of parameters to the measured curve, while it is being computed.
+/// Fit of parameters to the measured curve, as far as it is computed.
 #[derive(Clone, Debug)]
 pub struct Fitting {
     pub free: Vec<Free>,
@@ -87,9 +88,9 @@ pub struct Fitting {
     pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
-/// Returns the fit of the present scene to the measured curve; `None` if it is not computed yet.
-/// The fit always determines the displacement at first touch, and other parameters only at the
-/// user's request.
+/// Returns the fit of the present scene to the measured curve; `None` if the fit is not computed
+/// yet. The fit always determines the displacement at first touch. It determines other parameters
+/// only if the user has requested this.
 pub fn fitted(studies: &Findings) -> Option<&FitResult> {
     studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }

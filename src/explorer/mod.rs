@@ -1,6 +1,6 @@
-//! The explorer. The threads for input, solver and background computations (studies) send actions
-//! into one channel. The main thread receives the actions; `update` changes the state, and the
-//! views draw it. The main thread computes no contact, and sleeps while there are no actions.
+//! The explorer. Threads for the input, the solver and the studies (background computations) send
+//! actions through one channel to the main thread. There `update` changes the state, and the views
+//! draw it. The main thread computes no contact, and sleeps while there are no actions.
 
 // This module is public only for the tests. Documentation of every item would repeat its name and
 // its type.

@@ -1,4 +1,4 @@
-//! List of what the user can open: scenes, and studies, plans and measured files of the working
+//! List of what the user can open: scenes, and the studies, plans and measured files of the working
 //! folder.
 
 use super::recognition::{MeasuredFile, lacks_options};
@@ -16,14 +16,14 @@ const MOST_READ: u64 = 16 << 20;
 /// Largest number of characters of a file that are shown beside the list.
 const SHOWN: usize = 4_000;
 
-/// Entry of the list of what can be opened.
+/// Entry in the list of what the user can open.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Openable {
     Scene(Box<Entry>),
     File(ListedFile),
 }
 
-/// A file or a folder of the working folder that is not a scene.
+/// File or folder of the working folder that can be opened and is not a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListedFile {
     pub name: String,
@@ -42,7 +42,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// Returns the word for this kind in the list.
+    /// Returns the word that the list shows for this kind of file.
     pub fn word(self) -> &'static str {
         match self {
             FileKind::Study => "study",
@@ -52,7 +52,7 @@ impl FileKind {
         }
     }
 
-    /// Returns a sentence on what opening a file of this kind does.
+    /// Returns a sentence that states what happens when a file of this kind is opened.
     pub fn effect(self) -> &'static str {
         match self {
             FileKind::Study => "Enter shows the maps of the study and its scene.",
@@ -75,9 +75,10 @@ impl Openable {
         }
     }
 
-    /// Returns the texts in which a search looks for words: the number of a built-in scene, the
-    /// name, and the title and the notice of a scene or the kind of a file. Built-in scenes come
-    /// first in the list, so the number of such a scene follows from its index.
+    /// Returns the texts in which a search looks for words. For a scene, these are its name, its
+    /// title and its notice, and for a built-in scene also its number. For another file, these are
+    /// its name and its kind. `index` is the index of the entry in the list. The number of a
+    /// built-in scene follows from it, because built-in scenes come first.
     pub fn texts(&self, index: usize) -> Vec<String> {
         match self {
             Openable::Scene(entry) => {
@@ -93,8 +94,9 @@ impl Openable {
     }
 }
 
-/// Lists what can be opened: first all scenes, then the studies, plans, force curves and surfaces
-/// of the folder `working`, sorted by kind and name. `own` is the folder of the user's own scenes.
+/// Lists what the user can open: first all scenes, then the studies, plans, force curves and
+/// surfaces of the folder `working`, sorted by kind and name. `own` is the folder of the user's own
+/// scenes.
 pub fn openables(own: Option<&Path>, working: &Path) -> Vec<Openable> {
     let mut list: Vec<Openable> = Vec::new();
     list.extend(

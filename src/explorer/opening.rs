@@ -1,5 +1,5 @@
-//! What the explorer shows when it starts (a scene, or a finished study with its scene), and what
-//! the user opens later by typing a path.
+//! What the explorer opens: at its start a scene, or a finished study with its scene, and later
+//! everything of which the user types the path.
 
 use super::curve_options::{CurveOptionRow, OPTIONS};
 use super::ghost::Ghost;
@@ -30,7 +30,7 @@ pub struct Opening {
 
 #[derive(Debug, Error)]
 pub enum OpeningError {
-    /// There is no such scene, or it is invalid.
+    /// The scene does not exist, or it is invalid.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
     #[error(
@@ -62,7 +62,7 @@ impl Opening {
     }
 
     /// Opens what an argument of the command line names: a scene, the folder of a study, or a
-    /// stream such as standard input.
+    /// stream such as standard input from which a scene is read.
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }
@@ -103,13 +103,13 @@ pub enum Opened {
     Scene(Box<Opening>),
     /// Measured force curve, to be shown beside the present scene.
     Curve(Box<Measured>),
-    /// Measured force curve that cannot be read before the user has typed an option.
+    /// Measured force curve that cannot be read yet, because the user has to type an option first.
     Question(Box<CurveQuestion>),
-    /// Measured surface, to be made the roughness of the present scene.
+    /// Path of a measured surface, which becomes the roughness of the present scene.
     Surface(PathBuf),
 }
 
-/// Question for an option without which a measured curve cannot be read.
+/// Question to the user for an option that is necessary to read a measured curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveQuestion {
     pub path: PathBuf,
@@ -154,9 +154,9 @@ impl Opened {
         }
     }
 
-    /// Opens a measured curve with the option that the user has typed. If the curve cannot be read
-    /// with this option, the result is the same question with the reason, or the question for
-    /// another option that is missing.
+    /// Opens a measured curve with the option that the user has typed in answer to `question`. If
+    /// the curve still cannot be read, the result is another question: for the same option with the
+    /// reason, or for another missing option.
     pub fn of_curve(question: CurveQuestion) -> Self {
         let error = match Measured::read(&question.path, question.options.clone()) {
             Ok(measured) => return Opened::Curve(Box::new(measured)),

@@ -1,4 +1,5 @@
-//! The panes of the explorer. The context of a pane determines what the keys do.
+//! The panes of the explorer. Each pane has a context, which determines what the keys do while the
+//! pane is selected.
 
 use super::keys::bindings::Context;
 
@@ -7,14 +8,15 @@ pub enum Pane {
     Force,
     Profile,
     CloseUp,
-    /// Accuracy: errors and their cost in computing time, the sources of the errors, and other
-    /// theories.
+    /// Accuracy of the adhesion force: errors and computing times, the sources of the errors, and
+    /// the verdicts of other theories.
     Trust,
     Spectrum,
     Preloads,
-    /// Sensitivity: how the results change with each number of the scene.
+    /// Sensitivity: how much the results change when each number of the scene changes.
     Sensitivity,
-    /// Regimes over κ and H, or a map of a study.
+    /// Map of the regimes of adhesion over the roughness parameter κ and the Hurst exponent H, or a
+    /// map of a study.
     Map,
     Parameters,
 }
@@ -32,8 +34,8 @@ impl Pane {
         )
     }
 
-    /// Returns the name of an exported file for this pane. From the list of parameters, the force
-    /// curve is exported.
+    /// Returns the name of the file to which this pane is exported. For the list of parameters,
+    /// this is the file of the force curve, which is exported in its place.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Force | Self::Parameters => "force",
@@ -47,8 +49,9 @@ impl Pane {
         }
     }
 
-    /// Returns the context, which determines what the keys do while this pane is selected. The keys
-    /// of a crosshair apply only while the crosshair is shown.
+    /// Returns the context of this pane, which determines what the keys do while the pane is
+    /// selected. A pane with a crosshair has the context of the crosshair only while the crosshair
+    /// is shown.
     pub fn keys(self) -> Context {
         match self {
             Self::Sensitivity => Context::Explore,

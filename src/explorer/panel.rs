@@ -1,5 +1,5 @@
-//! Panels: the content of panes as data. One function draws all panels; another one returns what a
-//! panel shows in a given cell. Both divide the area in the same way.
+//! Panels: the contents of panes as data. One function draws any panel. Another function returns
+//! what a panel shows in a given character cell. Both functions divide the area in the same way.
 
 use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
@@ -16,7 +16,7 @@ pub struct Panel {
     pub head: Vec<Line<'static>>,
     pub body: Body,
     pub foot: Vec<Line<'static>>,
-    /// Texts on the right of the title line, the most important first.
+    /// Texts at the right end of the title line, the most important first.
     pub edge: Vec<Part>,
 }
 
@@ -27,7 +27,7 @@ pub enum Body {
         rows: Vec<Line<'static>>,
         selected: usize,
     },
-    /// Text instead of a chart, such as the reason why there is no chart.
+    /// Text in place of a chart, such as the reason why there is no chart.
     Text(String),
 }
 
@@ -72,9 +72,9 @@ impl Panel {
         }
     }
 
-    /// Adds a vertical line at a position on the horizontal axis (`share` from 0 to 1), and the
-    /// values that all named curves have there. The values are written beside the title or, if they
-    /// do not fit into `width` columns, below the chart.
+    /// Adds a crosshair to the chart: a vertical line, and the values of all named curves at this
+    /// line. `share`, from 0 to 1, is the position of the line on the horizontal axis. The values
+    /// are written beside the title or, if they do not fit into `width` columns, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else {
             return;
@@ -453,14 +453,15 @@ fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
-    /// Numbers on the two axes of a chart. For a cell outside the plot area, these are the numbers
-    /// of the nearest cell inside.
+    /// Numbers on the horizontal and on the vertical axis of a chart at this cell. For a cell
+    /// outside the plot area, these are the numbers at the nearest cell inside.
     Data(f64, f64),
     Row(usize),
     Frame,
 }
 
-/// Returns what a panel that is drawn into `area` shows in the cell `cell`.
+/// Returns what a panel shows in the character cell `cell` of the screen. `area` is the area into
+/// which the panel is drawn.
 pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Under {
     let inner = inside(area);
     let legend = heading(panel, area, look).legend;

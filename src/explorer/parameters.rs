@@ -1,4 +1,5 @@
-//! The list of parameters: the fields of the present scene that can be changed, arranged in groups.
+//! The list of parameters, which shows the fields of the present scene that the user can change,
+//! arranged in groups.
 
 use super::curve_options;
 use super::measured::Measured;
@@ -60,14 +61,14 @@ const FIRST: [&str; 7] = [
 pub struct Parameter {
     pub field: &'static Field,
     pub path: String,
-    /// Name of the group, which is the path of its first row.
+    /// Name of the group to which the row belongs. It is the path of the first row of this group.
     pub group: &'static str,
     /// Index of the loading stage; `None` if the row is not a loading stage.
     pub leg: Option<usize>,
-    /// Value in the notation of the scene file.
+    /// Value of the parameter in the notation of the scene file.
     pub written: String,
-    /// Value as shown to the user. It is empty if the value follows from other values and must be
-    /// computed.
+    /// Value as the user sees it. The text is empty if the value follows from other values and must
+    /// be computed.
     pub shown: String,
     pub effect: Option<Effect>,
     pub setting: Setting,
@@ -78,14 +79,16 @@ pub enum Setting {
     Field,
     /// The row cannot be changed, because it is the heading of a group.
     Heading,
-    /// The row is κ or e_el/γ. The scene file states only one of γ, κ and e_el/γ, so a new value
-    /// here replaces the stated one.
+    /// The row is a roughness parameter: κ, or the ratio e_el/γ of elastic energy to work of
+    /// adhesion. The scene file states only one of these two and the work of adhesion γ. A new
+    /// value in this row therefore replaces the stated one.
     RoughnessParameter(RoughnessParameter),
-    /// The row is γ. The scene file states only one of γ, κ and e_el/γ, so a new value here
-    /// replaces the stated one.
+    /// The row is the work of adhesion γ. The scene file states either γ or a roughness parameter
+    /// (κ or e_el/γ) from which γ follows. A new value in this row therefore replaces the stated
+    /// one.
     WorkOfAdhesion,
-    /// Option for reading the measured curve. The number is its index in
-    /// [`curve_options::OPTIONS`].
+    /// The row is an option for reading the measured curve. The number is the index of the option
+    /// in [`curve_options::OPTIONS`].
     CurveOption(usize),
 }
 
@@ -129,9 +132,10 @@ impl Parameter {
         }
     }
 
-    /// Returns the symbol or the name of the quantity that the scene states and from which the
-    /// shown value follows. If the user types a value, the typed value replaces this quantity in
-    /// the scene. Returns `None` if the scene states the shown value itself.
+    /// Returns the symbol or the name of the quantity that the scene states in place of this
+    /// parameter. The shown value of the parameter follows from that quantity. If the user types a
+    /// value, the typed value replaces that quantity in the scene. Returns `None` if the scene
+    /// states this parameter itself.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
         if !is_computed {
@@ -156,8 +160,8 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Returns the texts in which a search looks for words: the symbol, the symbol with spelled
-    /// Greek letters, the path, the name and the meaning. In the path, blanks replace the
+    /// Returns the texts in which a search looks for words: the symbol, the symbol with Greek
+    /// letters in words, the path, the name and the meaning. In the path, blanks replace the
     /// separators, because the path `length` of the length L is also a word in other paths.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
@@ -202,8 +206,9 @@ fn group_of(path: &str) -> &'static str {
     group.unwrap_or("form")
 }
 
-/// Returns the path of the field whose value is removed when the field `path` gets a value. Of
-/// modes and wavelengths, and of rms height and rms gradient, a scene states only one each.
+/// Returns the path of the field that loses its value when the field `path` gets a value. A scene
+/// states either modes or wavelengths, and either the rms height or the rms gradient. `None` if no
+/// field loses its value.
 pub fn replaced_by(path: &str) -> Option<&'static str> {
     match path {
         "roughness.modes" => Some("roughness.wavelengths"),
@@ -419,8 +424,8 @@ fn shown_choice(field: &Field, written: &str) -> String {
     }
 }
 
-/// Returns the text of a string in the notation of RON, on one line. Any other value is returned as
-/// it is written.
+/// Returns the text of a string that is written in the notation of RON, on one line. If `written`
+/// is not a string, returns it unchanged.
 pub(super) fn text_of(written: &str) -> String {
     match ron::from_str::<String>(written) {
         Ok(text) => on_one_line(&text),

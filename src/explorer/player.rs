@@ -1,4 +1,4 @@
-//! State of the animation of the loading, and the indentation that the animation shows.
+//! State of the animation of the loading, and the indentation that the animation shows now.
 
 use asperity_contact::{Branch, LegRecord};
 
@@ -11,8 +11,8 @@ const LIFT: f64 = 0.12;
 pub enum At {
     Start,
     Indentation(f64),
-    /// The pull-off of the loading, to which the animation returns after it has been played to its
-    /// end. If there is no pull-off, this is the end of the stage.
+    /// Point of pull-off, to which the animation returns after it has been played to its end. If
+    /// the loading has no pull-off, this is the end of the stage.
     PullOff,
     /// The end of the stage. After a stage to separation, nothing is in contact.
     End,
@@ -46,9 +46,10 @@ impl Player {
         }
     }
 
-    /// Adapts this position to loading stages that may have changed. If its stage no longer exists,
-    /// the position becomes the end of the last stage. Otherwise it is limited to the range of its
-    /// stage. A position at the pull-off becomes the position of the new pull-off.
+    /// Adapts this position of the animation to loading stages that may have changed. If the stage
+    /// of the position no longer exists, the position becomes the end of the last stage. A position
+    /// at the pull-off becomes the position of the new pull-off. Any other position is limited to
+    /// the range of its stage.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         let Some(last) = legs.len().checked_sub(1) else {
             return self;
@@ -79,7 +80,7 @@ impl Player {
         }
     }
 
-    /// Returns the share of the stage that has been played, from 0 to 1.
+    /// Returns the share of the loading stage that the animation has shown, from 0 to 1.
     pub fn share(&self, legs: &[LegRecord]) -> f64 {
         let Some(end) = legs.get(self.leg).map(LegRecord::end) else {
             return 0.0;
@@ -93,8 +94,8 @@ impl Player {
         }
     }
 
-    /// Returns the position of the animation after it has moved on by `share` times the length of
-    /// the stage. The position stays between the ends of the stage.
+    /// Returns the position of the animation after it has moved on by `share` of the loading stage.
+    /// The position stays between the ends of the stage.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
         let reached = self.share(legs) + share;
         let start = start_of(legs, self.leg);
@@ -118,8 +119,8 @@ fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
     Some((leg, point.indentation))
 }
 
-/// Returns the lowest and the highest indentation (m) on the curves of loading stages; `None` if
-/// there are no points.
+/// Returns the lowest and the highest indentation in m on the curves of the given loading stages;
+/// `None` if the curves have no points.
 pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     let mut range: Option<(f64, f64)> = None;
     for point in legs.iter().flat_map(|leg| &leg.curve) {
@@ -132,8 +133,8 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     range
 }
 
-/// Returns the indentation in m at which the animation of a loading stage begins. The animation of
-/// the first stage begins a little above first touch.
+/// Returns the indentation in m at which the animation of loading stage number `leg` begins. The
+/// animation of the first stage begins a little above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
     let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };

@@ -1,5 +1,5 @@
-//! Prompts: a line that the user types, possibly with a list of matching entries; questions to the
-//! user; and the help.
+//! Prompts: a line that the user types, with or without a list of matching entries; a question to
+//! the user; or the help.
 
 use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
@@ -22,10 +22,10 @@ pub struct Prompt {
     pub found: Vec<usize>,
     /// Index in `found` of the selected entry.
     pub selected: usize,
-    /// Words of the list that are similar to the typed words, as a corrected search. `None` if the
-    /// list contains the typed words.
+    /// Corrected search: the typed words, replaced by similar words of the list. `None` if the list
+    /// contains the typed words.
     pub corrected: Option<String>,
-    /// Paths that begin with the typed path, if there are several.
+    /// Paths that begin with the typed path. Empty unless there are several such paths.
     pub paths: Vec<String>,
     pub refused: Option<String>,
 }
@@ -34,9 +34,10 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
-    /// Target of an inverse question: a quantity and the value that it is to have.
+    /// Target of an inverse question: a quantity and the value that the quantity should have.
     Target,
-    /// Relative error that is to be reached by the choice of the number of springs.
+    /// Relative error of the result. The explorer then chooses the number of springs so that the
+    /// error is at most this large.
     Tolerance,
     /// Names of the parameters to be fitted to the measured curve.
     Fit,
@@ -44,9 +45,10 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
-    /// Words of a search in this list of what can be opened, or a path.
+    /// Path of a file to open, or words of a search in the contained list of what the user can
+    /// open.
     Open(Vec<Openable>),
-    /// Value of an option without which a measured curve cannot be read.
+    /// Value of an option that is necessary to read a measured curve.
     Curve(CurveQuestion),
     Parameter {
         before: Pane,
@@ -62,19 +64,19 @@ pub enum Purpose {
     Leave,
 }
 
-/// Entry in the help, or in the list of commands, parameters or scenes.
+/// Entry in the help, or in the list of commands, parameters or scenes, that a search can find.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
     /// Name of the entry: its keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    /// Further, everyday words with which a search finds the entry.
+    /// Further everyday words with which a search finds the entry.
     pub words: String,
     pub aim: Aim,
 }
 
-/// What happens if the user chooses an entry.
+/// Effect of an entry of a list when the user chooses it.
 #[derive(Clone, Debug)]
 pub enum Aim {
     Nothing,
@@ -107,7 +109,8 @@ impl Topic {
         }
     }
 
-    /// Creates the entry for the parameter that has this row in the list of parameters.
+    /// Creates the entry for a parameter of the scene. `row` is the index of its row in the list of
+    /// parameters.
     pub fn of_parameter(row: usize, parameter: &Parameter) -> Self {
         Topic {
             section: "Parameters of this scene",
@@ -145,9 +148,9 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt whose line contains this text. `parameters` are the parameters of the
-    /// scene. If the text is a value or the name of a file, the first character that the user types
-    /// replaces the text.
+    /// Creates a prompt whose line contains `text`. `parameters` are the parameters of the scene.
+    /// If `text` is a value or the name of a file, the first character that the user types replaces
+    /// it.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_replaced = matches!(
             purpose,
@@ -171,8 +174,8 @@ impl Prompt {
         prompt
     }
 
-    /// Returns the context, which determines what the keys do: that of the help, a list, a line or
-    /// a question.
+    /// Returns the context of this prompt, which determines what the keys do. There is one context
+    /// for each of the help, a list, a line and a question.
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Topics {
@@ -217,7 +220,8 @@ impl Prompt {
         self.found.get(self.selected).copied()
     }
 
-    /// Returns the selected entry of the list of what can be opened.
+    /// Returns the selected entry, if this prompt has the list of what the user can open; otherwise
+    /// `None`.
     pub fn openable(&self) -> Option<&Openable> {
         if let Purpose::Open(entries) = &self.purpose {
             entries.get(self.choice()?)

@@ -1,5 +1,6 @@
-//! Recognition of measured files that the user has named where the program expects another kind of
-//! file. A file is a force curve or a surface if the reader for this kind can read it.
+//! Recognition of measured files, for messages to a user who has named such a file in place of
+//! another kind of file. A file is a force curve or a surface if the reader for this kind can read
+//! it.
 
 use asperity_data::{Remedied, Remedy, Wording, path_name, printable};
 use asperity_experiment::{CurveOptions, ExperimentError, MeasuredCurve};
@@ -16,8 +17,8 @@ pub enum MeasuredFile {
 }
 
 impl MeasuredFile {
-    /// Recognises a file that can be read as a force curve or as a surface; `None` if it is
-    /// neither.
+    /// Returns the kind of a measured file: a force curve or a surface. `None` if the file cannot
+    /// be read as either of the two.
     pub fn of(path: &Path) -> Option<MeasuredFile> {
         if !path.is_file() {
             None
@@ -48,8 +49,8 @@ impl MeasuredFile {
     }
 }
 
-/// Returns true if a file is a table of numbers from which a force curve could be read if its
-/// columns, their units or the travel of the instrument were stated.
+/// Returns true if a file is a table of numbers that could be read as a force curve with further
+/// options. Such options state the columns, their units or the travel of the instrument.
 pub fn lacks_options(path: &Path) -> bool {
     let Err(error) = MeasuredCurve::read(path, &CurveOptions::default()) else {
         return false;
@@ -81,15 +82,15 @@ fn is_surface(path: &Path) -> bool {
     read(path, &assumed).is_ok()
 }
 
-/// Returns a line that states what kind of measured file the user has named in place of a scene;
-/// `None` if the file is not a measured file.
+/// Returns a line of text for a user who has named a measured file in place of a scene. The line
+/// states the kind of the file. `None` if the file is not a measured file.
 pub fn no_scene(path: &Path) -> Option<String> {
     let file = MeasuredFile::of(path)?;
     Some(format!("{}: {}", path_name(path), file.way(path)))
 }
 
-/// Returns the reason why a file cannot be read as a force curve. If the file is a surface, the
-/// reason also states which commands can use the file.
+/// Returns the reason why a file cannot be read as a force curve. `why` is the error of the reader.
+/// If the file is a surface, the reason also names the commands that can use it.
 pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match (why, MeasuredFile::of(path)) {
@@ -100,8 +101,8 @@ pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String 
     }
 }
 
-/// Returns the reason why a file cannot be read as a surface. If the file is a force curve, the
-/// reason also states which commands can use the file.
+/// Returns the reason why a file cannot be read as a surface. `why` is the error of the reader. If
+/// the file is a force curve, the reason also names the commands that can use it.
 pub fn no_surface(path: &Path, why: &SurfaceError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match MeasuredFile::of(path) {

@@ -1,11 +1,11 @@
-//! Requests from the explorer to the solver.
+//! Requests from the explorer to the solver for a state of the contact.
 
 use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a snapshot: the state of the contact in a scene, after manual moves. If the solver
-/// has not solved the scene yet, it solves the scene first.
+/// Request for a snapshot, which is the state of the contact in a scene after manual moves. If the
+/// solver has not computed the scene yet, it computes the scene first.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
@@ -16,8 +16,9 @@ pub struct Request {
 }
 
 impl Request {
-    /// Combines this request with an earlier request that the solver has not answered. If both
-    /// requests are for the same scene, the manual moves of the earlier request come first.
+    /// Combines this request with an earlier request that the solver has not answered. The combined
+    /// request is for the scene of this request. If both requests are for the same scene, the
+    /// manual moves of the earlier request come first.
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);
@@ -29,7 +30,8 @@ impl Request {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Begins manual loading with the state at this position of a loading stage.
+    /// Begins manual loading. The body starts with the state of the contact at this position of a
+    /// loading stage.
     Take {
         leg: usize,
         at: At,
@@ -41,16 +43,17 @@ pub enum ManualMove {
     Separate,
 }
 
-/// Part of a request that describes the snapshot. The snapshot has as many columns as the panes.
+/// Part of a request that states what the snapshot shows. The snapshot has as many columns as the
+/// panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Position of the animation within its loading stage. Manual loading does not use it.
+    /// Position of the animation within its loading stage. It has no meaning during manual loading.
     pub at: At,
-    /// Width of the profile pane in columns of dots.
+    /// Width of the profile pane in columns of dots, of which several may be in one character cell.
     pub profile_columns: usize,
     pub profile: LineView,
-    /// Width of the close-up in columns of dots.
+    /// Width of the close-up in columns of dots, of which several may be in one character cell.
     pub close_up_columns: usize,
     pub focus: Focus,
     /// Number of springs in the close-up; `None` to show the whole patch.
@@ -77,12 +80,12 @@ impl LineView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
     pub focus: Focus,
-    /// Number of springs; `None` to show the whole patch.
+    /// Number of springs in the close-up; `None` to show the whole contact patch.
     pub springs: Option<usize>,
 }
 
 impl CloseUpTarget {
-    /// The whole patch at the point of first touch.
+    /// Close-up of the whole contact patch at the point of first touch.
     pub const WHOLE: CloseUpTarget = CloseUpTarget {
         focus: Focus::Summit,
         springs: None,
@@ -93,15 +96,15 @@ impl CloseUpTarget {
 pub enum Focus {
     Summit,
     Spring(usize),
-    /// The patch after the patch that is nearest to this spring.
+    /// The contact patch that follows the patch nearest to this spring, along the profile.
     After(Option<usize>),
-    /// The patch before the patch that is nearest to this spring.
+    /// The contact patch that precedes the patch nearest to this spring, along the profile.
     Before(Option<usize>),
 }
 
 impl Focus {
-    /// Returns true if only the solver can determine which spring is the focus, the middle of the
-    /// close-up.
+    /// Returns true if the request does not state the spring in the middle of the close-up, so that
+    /// the solver has to find this spring.
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }

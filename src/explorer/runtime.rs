@@ -1,6 +1,6 @@
-//! Performs the tasks of the explorer, in the same way for sessions, demos and tests. In a session,
-//! the solver and the background computations (studies) have threads of their own. In demos and
-//! tests they answer at once, so that the same actions always give the same screens.
+//! The runtime performs the tasks of the explorer in the same way for sessions, demos and tests. In
+//! a session, the solver and the studies (background computations) have threads of their own. In
+//! demos and tests they answer at once, so that the same actions always give the same screens.
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -21,8 +21,8 @@ use asperity_scene::library::own_folder;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// The solver and the background computations (studies). Both answer either at once, or later by
-/// sending actions.
+/// The solver and the studies (background computations). Both answer either at once or, if they
+/// have threads, later by sending actions.
 pub struct Engine {
     /// Sends a request to the solver. Returns the answers that are available at once.
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
@@ -48,8 +48,8 @@ impl Engine {
         }
     }
 
-    /// Creates an engine in which solver and studies (background computations) answer at once. It
-    /// performs only the studies for which `performs` returns true.
+    /// Creates an engine in which the solver and the studies (background computations) answer at
+    /// once. Only those studies are performed for which `performs` returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         Engine {
@@ -79,20 +79,20 @@ fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
     actions
 }
 
-/// The explorer with everything that it needs to perform its tasks, except the terminal.
+/// The explorer without its terminal: the state, and everything that is needed to perform tasks.
 pub struct Runtime {
     pub app: App,
     pub engine: Engine,
     /// Generation of the scene in the last request to the solver. The generation is a number that
-    /// grows by 1 whenever the scene changes.
+    /// increases by 1 whenever the scene changes.
     pub asked: u64,
     /// Folder to which the paths of files are relative; empty for the working folder.
     pub folder: PathBuf,
 }
 
 impl Runtime {
-    /// Applies an action, and performs the tasks that follow from it. Returns those tasks that only
-    /// the owner of the terminal can perform.
+    /// Applies an action to the state, and performs the tasks that follow from the action. Tasks
+    /// that only the owner of the terminal can perform are returned.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
         if let Action::Reply(reply) = &action
             && reply.is_answer()
@@ -123,8 +123,8 @@ impl Runtime {
         }
     }
 
-    /// Performs tasks, and all further tasks that follow from their results. Returns those tasks
-    /// that only the owner of the terminal can perform.
+    /// Performs tasks, and all further tasks that follow from their results. Tasks that only the
+    /// owner of the terminal can perform are returned.
     pub fn perform(&mut self, tasks: Vec<Task>) -> Vec<Task> {
         let mut waiting = VecDeque::from(tasks);
         let mut of_terminal = Vec::new();
@@ -140,7 +140,7 @@ impl Runtime {
         of_terminal
     }
 
-    /// Performs a task. Returns the actions that follow from the task at once.
+    /// Performs a task. Returns the actions to which the task leads at once.
     pub fn answer(&mut self, task: Task) -> Vec<Action> {
         let action = match task {
             Task::Ask => return self.ask(),

@@ -9,10 +9,10 @@ const LONGEST_QUERY: usize = 256;
 /// Number of ranks: each describes how well a word matches a text, from 0 (best) to 3.
 const RANKS: usize = 4;
 
-/// Returns the indices of the candidates that contain every word of a query, the best first.
-/// Equally good candidates keep their order. The texts of each candidate must be ordered by
-/// importance, the most important first. An empty query finds all candidates, and a query longer
-/// than 256 bytes finds none.
+/// Returns the indices of the candidates that contain every word of a query, the best first. Each
+/// candidate consists of several texts, of which the first is the most important. Equally good
+/// candidates keep their order. An empty query finds all candidates, and a query longer than 256
+/// bytes finds none.
 pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Vec<usize> {
     if query.len() > LONGEST_QUERY {
         return Vec::new();

@@ -53,18 +53,19 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session, with which this session continues. The opened scene is
-    /// the first scene in them.
+    /// Unsaved changes of another session, with which this session continues; `None` if it
+    /// continues no other session. Their first scene is the scene that is opened.
     pub restored: Option<Kept>,
-    /// Configuration. The fields `theme` and `marker` have precedence over it.
+    /// Configuration of the explorer. The fields `theme` and `marker` replace the corresponding
+    /// settings.
     pub config: Config,
     pub warning: Option<String>,
-    /// Folder for copies of unsaved changes; `None` to make no copies.
+    /// Folder for copies of unsaved changes. If it is `None`, no copies are made.
     pub unsaved: Option<PathBuf>,
 }
 
 impl Options {
-    /// Returns options with which the configuration alone determines the session.
+    /// Returns options for a session that only the configuration determines.
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,

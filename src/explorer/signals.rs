@@ -5,20 +5,21 @@ use std::io;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemSignal {
-    /// A signal with this number asks the process to end.
+    /// The signal with this number asks the process to end.
     End(i32),
-    /// The process continues after it was stopped.
+    /// The process continues after it was stopped, for example by Ctrl-Z.
     Continue,
     /// The size of the window has changed.
     Resize,
 }
 
-/// Calls `report` when a signal asks the process to end, continues the process, or announces
-/// another size of the window. `report` returns false if the receiver of the signals has ended.
+/// Calls `report` on a new thread when a signal arrives. The signal asks the process to end,
+/// continues the process, or announces another size of the window. `report` returns false if the
+/// receiver of the signals has ended.
 ///
 /// After a signal to end, the explorer may not end soon, for example if the terminal accepts no
-/// output. Then this thread restores the attributes of the terminal, and the signal ends the
-/// process.
+/// output. The thread then restores the attributes of the terminal, and ends the process by the
+/// signal.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
@@ -53,14 +54,15 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
         .map(drop)
 }
 
-/// On other systems these signals do not exist, so there is nothing to watch.
+/// Does nothing: these signals exist only on Unix, so that there is nothing to watch on other
+/// systems.
 #[cfg(not(unix))]
 pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the process in the way in which the signal ends it by default, so that the parent process
-/// can see which signal it was.
+/// Ends the process in the way in which the signal `signal` ends a process by default. The parent
+/// process can then see which signal it was.
 #[cfg(unix)]
 pub fn end_by(signal: i32) {
     // The call returns only if the signal does not end the process by default.

@@ -1,5 +1,6 @@
-//! Results of the solver. A result never changes. It carries the generation of its scene, and
-//! contains only as many columns as the panes show.
+//! Results of the solver for the screen. A result is never changed. It carries the generation of
+//! its scene (a number that increases whenever the scene changes), and contains only as many
+//! columns as the panes show.
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::motion::PatchState;
@@ -22,10 +23,10 @@ pub struct ContactSnapshot {
     pub generation: u64,
     pub drive: Drive,
     pub line: LineFacts,
-    /// Spring or patch in the middle of the close-up, as the request named it.
+    /// Spring or contact patch that is in the middle of the close-up, as the request named it.
     pub focus: Focus,
-    /// Point of the force curve that the snapshot shows, with the indentation, the force, the
-    /// number of springs in contact and the number of patches.
+    /// Point of the force curve that the snapshot shows: indentation, force, number of springs in
+    /// contact and number of contact patches.
     pub point: CurvePoint,
     /// Half the distance between the outermost edges of the contact in m; zero if nothing is in
     /// contact.
@@ -35,7 +36,8 @@ pub struct ContactSnapshot {
     pub close_up: CloseUp,
     /// Values at the crosshair on the profile; `None` if there is no crosshair.
     pub probe: Option<Probe>,
-    /// Path of manual loading to this state; `None` if there is no manual loading.
+    /// Path of manual loading up to the state that the snapshot shows; `None` if there is no manual
+    /// loading.
     pub manual: Option<ManualPath>,
 }
 
@@ -88,8 +90,8 @@ impl Probe {
 }
 
 impl ContactSnapshot {
-    /// Returns a part of the profile with its contact, reduced to columns; `None` if the solver no
-    /// longer holds the springs.
+    /// Returns a part of the profile with its contact, reduced to the columns of a chart. `None` if
+    /// the solver has already begun another profile, and the springs are lost.
     pub fn section(&self, part: Part) -> Option<Section> {
         let gaps = self.springs.gaps.upgrade()?;
         let contact = SectionContact {
@@ -121,8 +123,8 @@ pub struct ManualPath {
     /// Points added to the force curve since the previous snapshot, each with the index of its
     /// loading stage.
     pub path: Vec<(usize, CurvePoint)>,
-    /// Loading history from separation to this state: first the stages of the scene, then the
-    /// targets at which manual loading changed its direction.
+    /// Loading from separation to this state. First come the stages of the scene, then the targets
+    /// at which manual loading changed its direction.
     pub loading: Vec<Move>,
     /// Number of springs that have attached or detached since the previous snapshot.
     pub changed: u64,
@@ -132,7 +134,7 @@ pub struct ManualPath {
     pub refused: Option<String>,
 }
 
-/// Manual loading from its beginning to the present state.
+/// State of manual loading, with its path from the beginning to the present state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
     /// Points of the force curve under manual loading, the newest last.
@@ -154,7 +156,7 @@ pub struct CloseUp {
     /// The visible part of the profile.
     pub section: Section,
     /// Ends of the visible patches, each as the index of a spring and the height of this spring in
-    /// m. They are drawn like the white circles of Fig. 3 of the paper.
+    /// m. They are drawn like the white circles of Fig. 3 of Popov and Filippov (2012).
     pub boundaries: Vec<(usize, f64)>,
     /// The patch nearest to the middle of the close-up; `None` if nothing is in contact.
     pub patch: Option<PatchFacts>,
@@ -162,13 +164,13 @@ pub struct CloseUp {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFacts {
-    /// Index of the patch along the profile, from 0.
+    /// Index of the patch, counted from 0 along the profile.
     pub number: usize,
     pub patch: Patch,
     pub state: PatchState,
 }
 
-/// Outcome for the value that the user is typing.
+/// Preview: outcome of the scene with the value that the user is typing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// Text of the scene to which the outcome belongs.
@@ -185,7 +187,8 @@ impl Reply {
         }
     }
 
-    /// Returns true for a reply that answers a request; a report of progress is followed by others.
+    /// Returns true if this reply is the answer to a request. Returns false if it is a report of
+    /// progress, which other replies follow.
     pub fn is_answer(&self) -> bool {
         !matches!(self, Reply::Progress { .. })
     }

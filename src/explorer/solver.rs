@@ -1,6 +1,6 @@
-//! The solver. It holds the simulation and the legs of the newest scene (a leg is a motion of the
-//! body in one direction), and answers the newest request of the explorer. It runs on a thread of
-//! its own or, in tests and demos, answers at once.
+//! The solver of the explorer, which answers the newest request. It holds the simulation of the
+//! newest scene and the legs of its loading (a leg is a motion of the body in one direction). The
+//! solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
 use super::manual_body::{ManualBegin, ManualBody};
@@ -92,9 +92,10 @@ struct ShownState {
 }
 
 impl Solver {
-    /// Creates a solver that computes scenes with the function `solve`. It stops the computation of
-    /// a scene when `awaited` is no longer the generation of this scene, a number that grows
-    /// whenever the scene changes.
+    /// Creates a solver that computes scenes with the function `solve`. `awaited` is the generation
+    /// of the scene for which the explorer waits, a number that increases whenever the scene
+    /// changes. The solver stops the computation of a scene whose generation differs from
+    /// `awaited`.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
         Solver {
             solve,
@@ -104,14 +105,15 @@ impl Solver {
         }
     }
 
-    /// Answers a request. Computations for earlier or later versions of the scene stop.
+    /// Answers a request by calling `report`. Only the scene of this request is computed;
+    /// computations of other versions of the scene stop.
     pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);
     }
 
-    /// Answers a request. If the computation panics, only this request fails, and the explorer goes
-    /// on.
+    /// Answers a request by calling `report`. If the computation panics, only this request fails,
+    /// and the explorer continues.
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         let served = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report)));
@@ -465,7 +467,8 @@ impl SolverThread {
     }
 }
 
-/// Answers requests until the explorer ends. Requests that are waiting are combined to one.
+/// Answers requests until the explorer ends. If several requests are waiting, they are combined to
+/// one.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
         let newest = requests

@@ -1,8 +1,10 @@
-//! Studies: background computations whose values are computed after the outcome of a scene.
-//! Examples are the error of the outcome, the number of springs for a tolerance, the data of a
-//! shown pane, and the curve for a typed value. The explorer holds one value of each type, with a
-//! key that identifies the data from which it was computed. A separate thread performs the newest
-//! list of studies, and stops when a newer list arrives.
+//! Studies: background computations that follow the computation of a scene. Examples are the error
+//! of the outcome, the number of springs for a tolerance, the data of a shown pane, and the curve
+//! for a typed value.
+//!
+//! Each study has a value of its own type. The explorer holds one value of each type, with a key
+//! that identifies the data from which it was computed. A separate thread performs the newest list
+//! of studies, and stops when a newer list arrives.
 
 use crate::explorer::advice;
 use asperity_data::Control;
@@ -36,8 +38,9 @@ pub struct Study {
 }
 
 impl Study {
-    /// Creates a study (background computation). Its key identifies the scene or the parameters on
-    /// which its value depends. The explorer shows each intermediate value that `run` reports.
+    /// Creates a study (background computation) that `run` performs. `key` identifies the scene or
+    /// the parameters on which the value of the study depends. The explorer shows each intermediate
+    /// value that `run` reports.
     pub fn new<T: Any + Clone + Send + Sync, E: Remedied>(
         key: impl ToString,
         is_long: bool,
@@ -61,7 +64,7 @@ impl Study {
         }
     }
 
-    /// Returns true if the study computes a value of this type.
+    /// Returns true if this study computes a value of the type `T`.
     pub fn is<T: Any>(&self) -> bool {
         self.kind == TypeId::of::<T>()
     }
@@ -106,8 +109,8 @@ impl Study {
     }
 }
 
-/// Returns the key for studies (background computations) on random profiles of a scene. It does not
-/// depend on the texts of the scene, such as its title.
+/// Returns the key for studies (background computations) on random profiles of a scene. The key
+/// does not depend on the texts of the scene, such as its title.
 pub fn ensemble_key(scene: &Scene) -> String {
     let scene = Scene {
         title: String::new(),
@@ -143,19 +146,20 @@ impl Findings {
         self.0.get(&TypeId::of::<T>())
     }
 
-    /// Returns the newest value of this type, possibly an intermediate one; `None` if there is no
-    /// value.
+    /// Returns the newest value of the type `T`, which may be an intermediate value; `None` if
+    /// there is no value of this type.
     pub fn value<T: Any>(&self) -> Option<&T> {
         self.slot::<T>()?.value.as_ref()?.downcast_ref()
     }
 
-    /// Returns true if the value of this type is final.
+    /// Returns true if there is a value of the type `T` and it is final.
     pub fn is_done<T: Any>(&self) -> bool {
         self.slot::<T>()
             .is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
-    /// Returns the reason for which the study of this type failed; `None` if it has not failed.
+    /// Returns the reason why the study with a value of the type `T` failed; `None` if it has not
+    /// failed.
     pub fn failure<T: Any>(&self) -> Option<&str> {
         self.slot::<T>()?
             .end
@@ -165,8 +169,8 @@ impl Findings {
             .map(String::as_str)
     }
 
-    /// Sets a value. If `is_done` is true, the value is final; otherwise the study with this key
-    /// still has to compute the final value.
+    /// Sets the value of the type `T`. If `is_done` is true, the value is final. Otherwise the
+    /// study with this key still has to compute the final value.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
         self.0.insert(
@@ -201,8 +205,8 @@ impl Findings {
         }
     }
 
-    /// Returns the studies (background computations) in this list that have not ended yet. From now
-    /// on, their messages are stored.
+    /// Returns those studies (background computations) of the list that have not ended yet. From
+    /// now on, the messages of the listed studies are stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
             let slot = self.0.entry(study.kind).or_insert_with(|| Slot {
@@ -238,8 +242,8 @@ impl StudyThread {
         Ok(StudyThread { orders, newest })
     }
 
-    /// Stops the studies (background computations) that are being performed, and starts the given
-    /// ones.
+    /// Stops the studies (background computations) that are being performed, and starts the studies
+    /// `studies`.
     pub fn ask(&self, studies: Vec<Study>) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
         // Sending cannot fail, because the thread ends only together with the explorer.

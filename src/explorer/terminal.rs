@@ -1,5 +1,5 @@
-//! The terminal. The explorer takes it over when it starts, and restores it in whatever way it
-//! ends.
+//! The terminal. The explorer takes the terminal over when it starts. When the explorer ends, the
+//! terminal is restored, even after a panic.
 
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
@@ -114,7 +114,8 @@ fn wait_until_written() {
 #[cfg(not(unix))]
 fn wait_until_written() {}
 
-/// Returns an error if a window of this size needs too much memory, before any memory is allocated.
+/// Returns `size` if there is enough memory for a window of this size, otherwise an error. The
+/// check is made before any memory is allocated.
 pub fn checked(size: Size) -> io::Result<Size> {
     let Size { width, height } = size;
     if u32::from(width) * u32::from(height) > MOST_CELLS {
@@ -125,7 +126,8 @@ pub fn checked(size: Size) -> io::Result<Size> {
     Ok(size)
 }
 
-/// Returns the size of the window. Returns an error if the window needs too much memory.
+/// Returns the size of the window in columns and rows. Returns an error if the window needs too
+/// much memory.
 pub fn window() -> io::Result<Size> {
     let (width, height) = crossterm::terminal::size()?;
     checked(Size { width, height })
@@ -144,8 +146,9 @@ fn stop_until_continued() {}
 
 /// Calls `gone` when the connection to the terminal is lost.
 ///
-/// The process may ignore the signal for this event (`nohup`). Then crossterm would read the end of
-/// its input again and again without a pause. Therefore a thread waits for the event.
+/// The system announces this event by a signal, but the process may ignore the signal (`nohup`).
+/// crossterm would then read the end of its input again and again without a pause. A thread
+/// therefore waits for the event.
 #[cfg(unix)]
 pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -166,7 +169,8 @@ pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()>
         .map(drop)
 }
 
-/// On other systems, reading the input returns an error at its end, so nothing has to be watched.
+/// Does nothing. On systems other than Unix, reading the input returns an error at its end, so that
+/// nothing has to be watched.
 #[cfg(not(unix))]
 pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())

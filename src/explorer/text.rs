@@ -1,5 +1,5 @@
-//! Text that has to fit into a number of columns. It is broken into lines between words, composed
-//! of parts that stay whole, or shortened with `…`.
+//! Text that has to fit into a number of columns of the screen. It is broken into lines between
+//! words, composed of parts that stay whole, or shortened with `…`.
 //!
 //! ratatui can break lines too. But if a word has wide characters or begins with a combining mark,
 //! ratatui writes beyond its area and panics. Titles and typed values may contain such words.
@@ -91,7 +91,7 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     lines
 }
 
-/// Returns the line if it is at most `columns` wide; otherwise the line shortened with `…`.
+/// Returns `line` if it is at most `columns` wide. Otherwise returns `line` shortened with `…`.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     if line.width() > usize::from(columns) {
         clipped(&line, columns)
@@ -125,8 +125,8 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     clipped.style(line.style)
 }
 
-/// Distributes parts over as many lines as needed. `between` is written between two parts of a
-/// line. A part that is wider than a line is left out.
+/// Distributes parts over as many lines as needed, each at most `columns` wide. `between` is
+/// written between two parts of a line. A part that is wider than a line is left out.
 pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {

@@ -58,14 +58,14 @@ impl TextLine {
         (before, under, characters.collect())
     }
 
-    /// Returns a message if the last insertion was incomplete; otherwise `None`.
+    /// Returns a message if the last inserted text was not inserted completely; otherwise `None`.
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out
     }
 
-    /// Inserts a text before the cursor. If the present text is selected, the inserted text
-    /// replaces it. Control characters are left out, and also the end of the text if the line would
-    /// become too long.
+    /// Inserts a text into the typed line, before the cursor. If the line is selected, the text
+    /// replaces the line. Control characters are left out. If the line would become too long, the
+    /// end of the text is left out too.
     pub fn insert(&mut self, text: &str) {
         let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
         if self.selected && !inserted.is_empty() {
@@ -84,8 +84,8 @@ impl TextLine {
         };
     }
 
-    /// Moves the cursor or deletes text. If the text is selected, a deletion removes all of it.
-    /// Afterwards the text is not selected.
+    /// Moves the cursor in the typed line, or deletes text. If the line is selected, a deletion
+    /// removes the whole line. The line is not selected afterwards.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
@@ -116,7 +116,7 @@ impl TextLine {
         format!("{start}…{end}")
     }
 
-    /// Returns the part of the line around the cursor that fits into this number of columns.
+    /// Returns the part of the typed line around the cursor that fits into `columns` columns.
     pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
         let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
         if self.selected && !self.text().is_empty() {

@@ -1,5 +1,5 @@
-//! Colours and text styles for each kind of content, such as loading. Characters distinguish the
-//! same kinds, so that colours are not necessary.
+//! Colours and text styles for each kind of content, such as the curve of loading. Different
+//! characters distinguish the kinds too, so that colours are not necessary.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -138,7 +138,7 @@ impl Theme {
     }
 }
 
-/// Option with several values. A key switches from each value to the next one.
+/// Option with several values, through which a key steps one by one.
 pub trait Cycle: ValueEnum + PartialEq + 'static {
     /// Returns the next value. The first value follows the last one.
     fn next(self) -> Self {

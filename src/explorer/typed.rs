@@ -1,5 +1,5 @@
-//! Values that the user is typing. A number without a unit gets the unit that the row of the
-//! parameter shows.
+//! Values that the user is typing. If a number has no unit, it gets the unit that the list of
+//! parameters shows for the value.
 
 use crate::explorer::app::App;
 use crate::explorer::curve_options::OPTIONS;
@@ -13,8 +13,8 @@ use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stag
 /// the computed curve contains a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// Returns a value as the list of parameters shows it. A value that follows from other values
-/// begins with `=`.
+/// Returns the value of a parameter as the list of parameters shows it. If the value follows from
+/// other values, the text begins with `=`.
 pub fn shown(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
@@ -31,8 +31,9 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
     }
 }
 
-/// Returns the unit for a force that is typed without a unit. Its prefix suits the largest force of
-/// the loading or, if the loading has no force, the largest force of the computed curve.
+/// Returns the unit that a typed force gets if it has no unit. The prefix of the unit suits the
+/// largest force of the loading or, if the loading has no force, the largest force of the computed
+/// curve.
 pub fn unit_of_force(app: &App) -> String {
     let of_loading = pressing_force(&app.edit.document.scene().loading);
     let of_curve = app
@@ -49,8 +50,8 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// Adds the unit of the row to a typed value that has no unit. In the row of a loading stage
-/// without a number, a typed number becomes a force.
+/// Adds a unit to a typed value that has no unit: the unit that the list of parameters shows. If
+/// the parameter is a stage of the loading that has no number, a typed number becomes a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     if let Setting::CurveOption(index) = parameter.setting
         && let Some(measured) = &app.edit.measured
@@ -65,8 +66,9 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
 }
 
-/// Returns a typed number without a unit together with the unit that it gets: `50 mJ/m²` for `50`.
-/// `None` if the text contains a unit, or if the quantity has no unit.
+/// Returns the number that the user has typed without a unit, together with the unit that it gets,
+/// such as `50 mJ/m²` for `50`. `None` if the typed text contains a unit, or if the quantity has no
+/// unit.
 pub fn understood(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();

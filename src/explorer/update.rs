@@ -1,5 +1,5 @@
 //! Effect of each action on the state of the explorer. This file does not use the terminal, files
-//! or the solver. Work that needs them is returned as tasks.
+//! or the solver. Work that needs one of these is returned as a task.
 
 use super::action::Action;
 use super::action::Task;
@@ -108,8 +108,8 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// Returns the request for the state for which the screen waits. The manual moves that wait for the
-/// solver become part of the request.
+/// Returns the request to the solver for the state of the contact for which the screen waits. The
+/// request takes over the manual moves that the solver has not received yet.
 pub fn request(app: &mut App) -> Request {
     let moves = match &mut app.manual {
         Some(manual) => std::mem::take(&mut manual.moves),

@@ -23,10 +23,10 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
 
-/// Writes a regular file; its path is relative to `folder`. Pipes are refused, because writing
-/// could wait for ever. A scene file without an extension gets the extension `.ron`, unless its
-/// path leads to something other than a file, such as a folder. Returns the file with its final
-/// name, and the result.
+/// Writes a file, whose path is relative to `folder`. Only regular files are written: a pipe is
+/// refused, because writing to a pipe could wait for ever. A scene file without an extension gets
+/// the extension `.ron`, unless its path leads to something other than a file, such as a folder.
+/// Returns the action that reports the final name of the file and whether it was written.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let is_scene = file.content == Content::Scene;
     if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {

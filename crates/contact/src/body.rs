@@ -1,6 +1,6 @@
 //! The exact solver: a body that moves along any loading history. The computing time is linear in
 //! the number of springs, and there is no error from finite steps. A reversal is the unloading from
-//! one turning point to separation; many reversals need only one loading.
+//! one turning point to separation. The reversals from many turning points need only one loading.
 
 use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
@@ -14,8 +14,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// Rigid body that the exact solver moves. It stores the present indentation and a [`Leg`], the
-/// contact at all indentations of the present motion.
+/// Rigid body that the exact solver moves. The body stores its present indentation and a [`Leg`]:
+/// the contact at all indentations of the present motion.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -43,7 +43,7 @@ pub struct Body {
 }
 
 /// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Leg`] of
-/// the motion, which gives the contact at each of them.
+/// the motion. The leg gives the contact at each indentation of this range.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -111,15 +111,15 @@ impl SampledMotion {
 }
 
 impl Body {
-    /// Creates a separated body at the indentation d = 0, just before first touch. The force curve
-    /// of each motion is computed at `samples` points, at least 2.
+    /// Creates a separated body at the indentation d = 0, just before first touch. `samples` is the
+    /// number of points, at least 2, at which the force curve of each motion is computed.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         let leg = Leg::apart(contact, Direction::Unloading);
         Self::on(leg, ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation in m within the motion `leg`. The body can continue this
-    /// motion or turn back.
+    /// Creates a body in the state that the motion `leg` has at an indentation in m. The body can
+    /// continue this motion or turn back.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the motion was computed by the [stepwise
@@ -150,8 +150,9 @@ impl Body {
         self.point_of(self.state)
     }
 
-    /// Moves the body to a target without recording a force curve. Returns `None` if the body is at
-    /// the target already.
+    /// Moves the body to a target without recording a force curve. Returns the range of
+    /// indentations that the body passed and the leg of the motion; `None` if the body is at the
+    /// target already.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
@@ -433,11 +434,13 @@ impl Body {
         Ok(self.point_of(smallest))
     }
 
-    /// Computes the unloading to separation from several turning points. Each turning point is the
-    /// point at which a loading from separation reaches one of the targets. `see` is called for
-    /// each target in ascending order of the indentation at the turning point. Its arguments are
-    /// the index of the target and the [`Reversal`]. [`Reversal::forces`] are computed at the
-    /// indentations `points`, in m and in ascending order.
+    /// Computes the unloading to separation from several turning points. At a turning point, a
+    /// loading from separation reaches one of the targets. The body must be separated. It does not
+    /// move.
+    ///
+    /// `see` is called once for each target, in ascending order of the indentation at the turning
+    /// point. The arguments of `see` are the index of the target and the [`Reversal`].
+    /// [`Reversal::forces`] are computed at the indentations `points`, in m and in ascending order.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach, and for a target at which the
@@ -480,10 +483,14 @@ impl Body {
         Ok(indentation)
     }
 
-    /// Returns two adhesion forces in N. The first, F_a(d=0), follows a loading that ends at first
-    /// touch. The second, F_a(F=0), follows a loading that ends where the force has returned to
-    /// zero. An adhesion force is `None` if the force of the unloading stays above zero. F_a(F=0)
-    /// is also `None` if the force of the loading never returns to zero.
+    /// Returns two adhesion forces in N of unloadings that no preload precedes:
+    ///
+    /// * F_a(d=0): the adhesion force of the unloading that begins at first touch.
+    /// * F_a(F=0): the adhesion force of the unloading that begins where the force of the loading
+    ///   has returned to zero.
+    ///
+    /// An adhesion force is `None` if the force stays above zero on the unloading. F_a(F=0) is also
+    /// `None` if the force of the loading never returns to zero.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;

@@ -12,8 +12,7 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// displacement that it already has.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
-/// Consecutive loading stages that move the body in the same direction, taken together as one
-/// motion.
+/// Motion of a body in one direction: consecutive loading stages in this direction, taken together.
 ///
 /// ```
 /// use asperity_contact::Branch;
@@ -39,7 +38,8 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Divides the stages of a history into branches, and returns the branches in their order.
+    /// Divides a history into branches, and returns the branches in their order. `legs` are the
+    /// records of all loading stages.
     pub fn all(legs: &[LegRecord]) -> Vec<Branch> {
         let mut branches: Vec<Branch> = Vec::new();
         for (stage, leg) in legs.iter().enumerate() {
@@ -64,8 +64,8 @@ impl Branch {
         branches
     }
 
-    /// Returns the last branch that moves a body in contact away from the foundation. Returns
-    /// `None` if no branch does so.
+    /// Returns the last branch that moves a body in contact away from the foundation; `None` if
+    /// there is no such branch.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
         let mut branches = Branch::all(legs).into_iter();
         branches.rfind(|branch| {
@@ -82,8 +82,9 @@ impl Branch {
         stages_in_contact(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the point of the preload, and the index of its stage. The preload is the largest force
-    /// on loading before the last unloading; only the loading since the last separation counts.
+    /// Finds the point of the preload. Returns the index of its stage and the point. The preload is
+    /// the largest force on loading before the last unloading. Forces before an earlier separation
+    /// of the body do not count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
@@ -127,8 +128,8 @@ impl Branch {
         largest.max_by(|(_, point), (_, other)| point.force.total_cmp(&other.force))
     }
 
-    /// Finds the point of the pull-off, and the index of its stage. The pull-off is the smallest
-    /// force of the last unloading. Returns `None` in three cases:
+    /// Finds the point of the pull-off. Returns the index of its stage and the point. The pull-off
+    /// is the smallest force of the last unloading. Returns `None` in three cases:
     ///
     /// * the smallest force is above zero;
     /// * the unloading ends in contact while the force is still falling;
@@ -185,8 +186,8 @@ impl Branch {
             .map_or(0.0, |first| ROUNDING * first.largest.force.abs())
     }
 
-    /// Returns the point of the smallest force while the branch is in contact, and the index of its
-    /// stage. Returns `None` if the branch has no contact.
+    /// Finds the point of the smallest force while the body is in contact on this branch. Returns
+    /// the index of its stage and the point; `None` if the body is never in contact on this branch.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let stages = self.touching(legs);
         let smallest = stages.map(|(stage, leg)| (stage, leg.smallest));

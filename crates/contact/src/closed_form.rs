@@ -1,12 +1,13 @@
-//! Closed forms against which the solvers are checked: the adhesive contact of a power-law body b
-//! rⁿ, of a flat punch and of a flat face. The power law includes the sphere of Johnson, Kendall
-//! and Roberts (n = 2) and the cone (n = 1).
+//! Closed-form solutions against which the solvers are checked. They describe the adhesive contact
+//! of a body with the depth b rⁿ, of a flat punch and of a flat face. The power law includes the
+//! sphere of Johnson, Kendall and Roberts (n = 2) and the cone (n = 1).
 
 use super::modulus::Modulus;
 use std::f64::consts::PI;
 
 /// Closed-form solution for a body with the equivalent profile g(x) = c |x|ⁿ on an elastic
-/// half-space with adhesion. It gives the force and the indentation at any contact radius.
+/// half-space with adhesion. The solution has the force and the indentation as functions of the
+/// contact radius.
 ///
 /// ```
 /// use asperity_contact::ClosedForm;
@@ -110,8 +111,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where
-    /// dF/da = 0.
+    /// Returns the contact radius a in m and the force F in N at pull-off under force control.
+    /// There the derivative dF/da is zero.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
@@ -119,8 +120,8 @@ impl ClosedForm {
         (radius, factor * self.detaching(radius))
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under displacement control,
-    /// where the indentation d has dd/da = 0.
+    /// Returns the contact radius a in m and the force in N at pull-off under displacement control.
+    /// There the derivative dd/da of the indentation d is zero.
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);

@@ -1,5 +1,5 @@
-//! The contact of a rigid profile with an elastic half-space. It combines the properties that
-//! remain the same while the body moves: profile, modulus and adhesion.
+//! The contact of a rigid profile with an elastic half-space. A contact combines the properties
+//! that remain the same while the body moves: profile, modulus and adhesion.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;
@@ -82,8 +82,9 @@ impl ContactBuilder {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is the energy per area gained where the
-    /// interface closes, and γ the energy per area spent where it opens. γ₁ must not exceed γ.
+    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is the energy per area that is gained where
+    /// the interface closes. γ is the energy per area that is spent where the interface opens. γ₁
+    /// must not exceed γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
@@ -169,9 +170,9 @@ impl Contact {
         }
     }
 
-    /// Creates a builder for a contact with the same profile and edge model, but another modulus.
-    /// The edge model states where the edges of contact patches may lie. The new contact has no
-    /// adhesion and a rigid instrument unless the builder sets them.
+    /// Creates a builder for a contact with the profile and the edge model of this contact, but
+    /// with another modulus. The edge model states where the edges of contact patches may lie. The
+    /// new contact has no adhesion and a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -217,8 +218,8 @@ impl Contact {
         self.spring_stiffness() * compression
     }
 
-    /// Returns the displacement D = d + F/k in m of the drive of the instrument, at the indentation
-    /// d in m and the force F in N. k is the stiffness of the instrument in N/m.
+    /// Returns the displacement D = d + F/k in m of the drive of the instrument. d = `indentation`
+    /// is in m, F = `force` is in N, and k is the stiffness of the instrument in N/m.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }
@@ -249,8 +250,9 @@ impl Contact {
         self.foundation.spring_stiffness()
     }
 
-    /// Returns half the distance between the outermost edges of the contact in m; zero in
-    /// separation. `patches` are the contact patches at the point `point` of the force curve.
+    /// Returns the contact radius in m: half the distance between the outermost edges of the
+    /// contact. It is zero in separation. `patches` are the contact patches at the point `point` of
+    /// the force curve.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         self.foundation.contact_radius(patches, point)
     }
@@ -267,8 +269,8 @@ impl Contact {
     }
 
     /// Returns the closing thresholds: the indentations at which the nodes of the contact tree
-    /// close on a loading from separation. They are computed with `close` at the first call, and
-    /// stored.
+    /// close on a loading from separation. A node is a local maximum of the gap. The first call
+    /// computes the thresholds with `close` and stores them.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,

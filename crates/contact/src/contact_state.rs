@@ -88,8 +88,8 @@ impl ContactState {
 /// Converts a number of springs or patches in contact to an unsigned number.
 ///
 /// # Panics
-/// Panics for a negative number. Such a number occurs only if the sums have a defect, and must not
-/// appear in a result.
+/// Panics for a negative number, because a negative number must not appear in a result. Such a
+/// number occurs only if the sums have a defect.
 pub fn counted(number: i64) -> u64 {
     assert!(
         number >= 0,
@@ -121,8 +121,8 @@ impl Tally {
         })
     }
 
-    /// Returns the index of the first point that is at least `indentation` in m. If there is none,
-    /// returns the number of points.
+    /// Returns the index of the first point of the grid that is at least `indentation` in m. If
+    /// there is no such point, returns the number of points.
     #[inline]
     pub fn place(&self, indentation: f64) -> usize {
         if indentation > self.grid.high() {
@@ -133,7 +133,8 @@ impl Tally {
     }
 
     /// Returns the range of indentations in m for which [`Tally::place`] returns the index `place`.
-    /// The first value does not belong to the range; the second does.
+    /// The range is given by its two ends. The lower end does not belong to the range; the upper
+    /// end does.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = match place {
@@ -159,9 +160,10 @@ impl Tally {
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds the edge cells of a patch, the cells at its ends that are only partly in contact. They
-    /// bear load at the points of the grid with the indices `carries`. Their lengths and
-    /// compressions differ from point to point, so they are computed at each point.
+    /// Adds the edge cells of a patch: the cells at the ends of the patch that are only partly in
+    /// contact. The edge cells bear load at the points of the grid with the indices `carries`. They
+    /// are computed at each of these points, because their lengths and compressions differ from
+    /// point to point.
     #[inline]
     pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
@@ -185,8 +187,9 @@ impl Tally {
     }
 }
 
-/// Returns the intervals between neighbouring points of a sampled motion in which a searched point
-/// may lie. The function `may_lie` decides this from the contacts at the two ends of an interval.
+/// Returns those intervals between neighbouring points of a sampled motion in which a searched
+/// point may lie. Each interval is returned as the contacts at its two ends. The function `may_lie`
+/// decides from these contacts.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -204,10 +207,10 @@ pub enum Extreme {
 
 impl Extreme {
     /// Returns true if the force of `state` is more extreme than the force of `best`. In a search
-    /// for the smallest force, more extreme means smaller; in a search for the largest force it
-    /// means larger. If both forces are equal, the smaller indentation counts in the first case,
-    /// and the larger one in the second. The result of a search then does not depend on the order
-    /// of its steps.
+    /// for the smallest force, this means a smaller force, or an equal force at a smaller
+    /// indentation. In a search for the largest force, this means a larger force, or an equal force
+    /// at a larger indentation. The indentations decide so that the result of a search does not
+    /// depend on the order of its steps.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let order = (state.compression, state.indentation);
         let order_of_best = (best.compression, best.indentation);
@@ -217,8 +220,8 @@ impl Extreme {
         }
     }
 
-    /// Returns the contact of the extreme force among the points of a sampled motion, which must
-    /// have at least one point.
+    /// Returns the contact with the extreme force among the points of a sampled motion. The motion
+    /// must have at least one point.
     pub fn among(self, leg: &[ContactState]) -> ContactState {
         let mut best = leg[0];
         for state in leg {
@@ -229,8 +232,9 @@ impl Extreme {
         best
     }
 
-    /// Returns true if the force between the indentations of `low` and `high` may be more extreme
-    /// than the force of `best`. The bounds of the force between the two indentations decide this.
+    /// Returns true if a force more extreme than the force of `best` may lie between the
+    /// indentations of `low` and `high`. Bounds of the force between the two indentations decide
+    /// this.
     pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
         match self {
             Extreme::Smallest => lower_bound(low, high) < best.compression,
@@ -239,13 +243,15 @@ impl Extreme {
     }
 }
 
-/// Returns a lower bound, in m, of the compression between two indentations.
+/// Returns a lower bound, in m, of the compression at all indentations between those of `low` and
+/// `high`. The compression is the force divided by the stiffness of one spring.
 pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     high.compression - rise - slack(low, high, rise)
 }
 
-/// Returns an upper bound, in m, of the compression between two indentations.
+/// Returns an upper bound, in m, of the compression at all indentations between those of `low` and
+/// `high`. The compression is the force divided by the stiffness of one spring.
 pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     low.compression + rise + slack(low, high, rise)
@@ -257,8 +263,9 @@ fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// Ascending indentations in m. They are either points given by the caller, or evenly spaced
-/// between two exact ends. In the second case the last interval may be shorter than the others.
+/// Ascending indentations in m, the points at which a motion is evaluated. The points are either
+/// given by the caller, or evenly spaced between two exact ends. Between evenly spaced points the
+/// last interval may be shorter than the others.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -299,7 +306,8 @@ impl Grid {
         }
     }
 
-    /// Returns the grid that consists of every `stride`-th point and the last point.
+    /// Returns the grid that consists of every `stride`-th point of this grid, from the first, and
+    /// of the last point.
     pub fn coarser(&self, stride: usize) -> Self {
         let last = self.points.len() - 1;
         let points = (0..last)

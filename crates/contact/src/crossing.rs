@@ -7,7 +7,7 @@ const HALVINGS: usize = 2200;
 /// Number of guesses by interpolation before a crossing is searched by halving alone.
 const GUESSES: usize = 20;
 
-/// Finds the smallest floating-point number in (low, high] for which `is_past` is true;
+/// Finds the smallest floating-point number in (low, high] for which `is_past` returns true.
 /// `is_past(high)` must be true.
 pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {

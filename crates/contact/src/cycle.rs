@@ -17,7 +17,7 @@ use asperity_data::Warning;
 const SAMPLES: usize = 512;
 
 /// Options of [`Contact::load_with`]: the number of points of the force curve, further indentations
-/// at which it is computed, and a function that is called before each stage.
+/// at which forces are computed, and a function that is called before each stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
@@ -61,8 +61,8 @@ impl<'a> LoadOptions<'a> {
         }
     }
 
-    /// Sets further indentations in m, in ascending order, at which forces are computed.
-    /// [`Cycle::at`] returns the points.
+    /// Sets further indentations in m, in ascending order, at which each stage computes points of
+    /// the force curve. [`Cycle::at`] returns these points.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions {
@@ -178,8 +178,8 @@ impl Contact {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Moves the body as [`Contact::load`] does, with [`LoadOptions`] such as the number of points
-    /// of the force curve.
+    /// Loads the body as [`Contact::load`] does, but with [`LoadOptions`] such as the number of
+    /// points of the force curve.
     ///
     /// # Errors
     /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of
@@ -335,12 +335,12 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl History {
-    /// Returns a warning for each premise of the model that the loading of a profile does not meet.
-    /// The premises are:
+    /// Returns a warning for each premise of the model that this loading history does not meet.
+    /// `profile` is the profile of the contact. The premises are:
     ///
-    /// * the contact of a curved body ends inside the profile;
-    /// * the last unloading reaches separation or passes the smallest force;
-    /// * enough springs are in contact.
+    /// * If the body is curved, its contact ends inside the profile.
+    /// * The last unloading reaches separation or passes the smallest force.
+    /// * Enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
         let springs = self.legs.iter().map(LegRecord::most_springs);
@@ -353,10 +353,10 @@ impl History {
 
 impl Reversal {
     /// Returns a warning for each premise of the model that the loading to the turning point does
-    /// not meet. The premises are:
+    /// not meet. `profile` is the profile of the contact. The premises are:
     ///
-    /// * the contact of a curved body ends inside the profile;
-    /// * enough springs are in contact.
+    /// * If the body is curved, its contact ends inside the profile.
+    /// * Enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         warnings_of_contact(profile, self.reaches_ends, self.turn.springs)
     }
@@ -382,8 +382,8 @@ fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64)
 
 impl Cycle {
     /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite
-    /// sign. Returns `None` if the smallest force is above zero, or if the unloading ends in
-    /// contact while the force is still falling.
+    /// sign. Returns `None` if this smallest force is above zero. Also returns `None` if the
+    /// unloading ends in contact before it has passed the smallest force.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
@@ -396,9 +396,9 @@ impl Cycle {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N: the largest force on loading before the last unloading. Only the
-    /// loading since the last separation counts. Returns `None` if the body is never in contact on
-    /// this loading.
+    /// Returns the preload in N: the largest force on loading before the last unloading. Forces
+    /// before an earlier separation of the body do not count. Returns `None` if the body is never
+    /// in contact on this loading.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
@@ -442,8 +442,9 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of the force curve at the [`LoadOptions::indentations`] that a stage
-    /// passes, in ascending order of the indentation. `stage` is the index of the stage, from 0.
+    /// Returns points of the force curve of one stage at the indentations that
+    /// [`LoadOptions::indentations`] has set, in ascending order. Indentations that the stage does
+    /// not pass are left out. `stage` is the index of the stage, from 0.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.points.get(stage).map_or(&[], Vec::as_slice)
@@ -456,8 +457,8 @@ impl Cycle {
         &self.history.legs
     }
 
-    /// Returns a warning for each premise of the model that this loading does not meet, such as a
-    /// contact that reaches the ends of the profile of a curved body. The list is empty if the
+    /// Returns a warning for each premise of the model that this loading does not meet. An example
+    /// is a curved body whose contact reaches the ends of the profile. The list is empty if the
     /// heights and the loading show no unmet premise.
     ///
     /// ```

@@ -59,8 +59,8 @@ pub enum ContactError {
         /// Reason why the stage cannot be computed, as an error of another variant.
         reason: Box<ContactError>,
     },
-    /// An array that the computation needs does not fit into memory. The message states its size in
-    /// MiB.
+    /// An array that the computation needs does not fit into memory. The message states the size of
+    /// the array in MiB.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// A target is infinite or not a number. The field is the value of the target.
@@ -69,8 +69,8 @@ pub enum ContactError {
     /// A body that is separated cannot move to a tensile force.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// The body is not in contact at a target of [`Contact::reversals`](crate::Contact::reversals),
-    /// where it should turn back.
+    /// At a target of [`Contact::reversals`](crate::Contact::reversals), where the body should turn
+    /// back, the body is not in contact.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
     /// The contact detaches before the force falls to the target force.
@@ -82,8 +82,8 @@ pub enum ContactError {
     /// No finite indentation on this foundation has the target force.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
-    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps. The field is the
-    /// length of a step in m.
+    /// The [stepwise solver](crate::motion::Stepwise) would need more steps than it allows. The
+    /// field is the length of a step in m.
     #[error(
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
@@ -104,8 +104,8 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// Returns the index of the refused stage of a loading, from 0; `None` for an error that does
-    /// not concern one stage.
+    /// Returns the index, from 0, of the loading stage that was refused. Returns `None` for an
+    /// error that does not concern one stage.
     pub fn stage(&self) -> Option<usize> {
         if let ContactError::Stage { index, .. } = self {
             Some(*index)
@@ -114,8 +114,8 @@ impl ContactError {
         }
     }
 
-    /// Returns the smallest force in N that the contact can bear, if the target is a smaller force.
-    /// Returns `None` for other errors.
+    /// Returns the smallest force in N that the contact reaches on the unloading, if the target is
+    /// a smaller force. Returns `None` for other errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() {
             Some(*smallest)
@@ -173,7 +173,8 @@ impl ContactError {
     }
 }
 
-/// Returns true if a value is positive and within the allowed magnitudes.
+/// Returns true if a value is positive and its magnitude is in the allowed range, from 1e-50 to
+/// 1e50.
 pub fn is_positive(value: f64) -> bool {
     (LARGEST.recip()..=LARGEST).contains(&value)
 }

@@ -25,14 +25,15 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N: the largest force on loading before the last unloading. Only the loading
-    /// since the last separation counts. `None` if the body is never in contact on this loading.
+    /// Preload F_n in N: the largest force on loading before the last unloading. Forces before an
+    /// earlier separation of the body do not count. `None` if the body is never in contact on this
+    /// loading.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign.
-    /// `None` if this force is above zero, or if the unloading ends in contact while the force is
-    /// still falling.
+    /// `None` if this smallest force is above zero. Also `None` if the unloading ends in contact
+    /// before it has passed the smallest force.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n. `None` if F_a is `None`, or if the preload is not a positive
     /// force.
@@ -60,8 +61,8 @@ impl Figures {
         Figures::of_points(preload, pull_off, energy)
     }
 
-    /// Computes the figures of a history with two stages. The first stage loads the separated body
-    /// to the target `leg`. The second stage is `reversal`, the unloading back to separation.
+    /// Computes the figures of a history with two stages: a loading of the separated body to the
+    /// target `leg`, and the unloading `reversal` back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {
@@ -160,8 +161,8 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Finds the points of a force curve that have a mark, in the order of the variants of
-    /// [`Mark`]. `legs` has the record of each loading stage.
+    /// Finds the special points of a force curve. Returns each mark with its point, in the order of
+    /// the variants of [`Mark`]. `legs` are the records of all loading stages.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let marked = Mark::in_stages(legs).into_iter();
         marked.map(|marked| (marked.mark, marked.point)).collect()

@@ -14,9 +14,9 @@ pub struct Foundation {
 }
 
 impl Foundation {
-    /// Returns the contact length in m of `cells` cells in contact. If the cells cover the whole
-    /// foundation, the length is exactly the length of the foundation, although N Δx may differ
-    /// from this length by a rounding.
+    /// Returns the length in m of `cells` cells in contact. A cell has the length Δx, the distance
+    /// between springs. If the cells cover the whole foundation, the length is exactly `length`,
+    /// although the number of cells times Δx may differ from `length` by rounding.
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
@@ -28,9 +28,8 @@ impl Foundation {
     }
 
     /// Returns half the distance in m between the outermost edges of the contact; zero in
-    /// separation. The distance is the contact length plus the length of the springs between the
-    /// patches that are not in contact. `patches` and `point` must belong to the same state of the
-    /// body.
+    /// separation. This distance is the contact length plus the length of the open springs between
+    /// the patches. `patches` and `point` must belong to the same state of the body.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let separated_springs = match patches {
             [] => 0,

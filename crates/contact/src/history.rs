@@ -8,8 +8,8 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of one loading stage, the motion of a body to one target: the force curve, its extremes
-/// and the energies.
+/// Record of one loading stage: the force curve, the extremes of the force and the energies. A
+/// loading stage is the motion of a body to one target.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -56,9 +56,9 @@ pub struct LegRecord {
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
-    /// Point of the smallest force that a further unloading to separation would reach, if this
-    /// motion is an unloading that ends in contact. `None` for any other motion, and if the force
-    /// is not known.
+    /// Point of the smallest force that a further unloading to separation would reach. It is
+    /// computed only if this motion is an unloading that ends in contact. `None` for any other
+    /// motion, and if the force is not known.
     pub smallest_of_rest: Option<CurvePoint>,
 }
 
@@ -77,9 +77,9 @@ pub(super) struct Extremes {
 }
 
 impl LegRecord {
-    /// Largest number of points of [`LegRecord::curve`] that are added to the regularly spaced
-    /// points: the point of the smallest force, the point at which an instrument loses the contact,
-    /// and two points of a jump at the beginning or the end of the motion.
+    /// Largest number of points that [`LegRecord::curve`] has besides its regularly spaced points:
+    /// the point of the smallest force, the point at which an instrument loses the contact, and two
+    /// points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
     /// Creates the record of a motion in which the body stays in place.
@@ -99,8 +99,8 @@ impl LegRecord {
         }
     }
 
-    /// Creates the record of a motion of a separated body that touches nothing, from one
-    /// indentation to another in m.
+    /// Creates the record of a motion on which a separated body touches no spring. The body moves
+    /// from the indentation `from` to the indentation `to`, both in m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
         let end = CurvePoint::free(to);
         let direction = if to > from {
@@ -178,7 +178,7 @@ impl LegRecord {
         }
     }
 
-    /// Returns the last point of the curve; `None` if the body is separated there.
+    /// Returns the last point of the force curve; `None` if the body is separated at this point.
     pub fn end_in_contact(&self) -> Option<CurvePoint> {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
@@ -239,9 +239,9 @@ pub struct History {
     pub work: Work,
 }
 
-/// Counts of computing work, such as how often the rule of Hess was evaluated and how often the
-/// solver passed over the [contact tree](crate::motion::ContactTree). Unlike times, they are the
-/// same on every machine.
+/// Counts of computing work. Examples are how often the rule of Hess was evaluated, and how often
+/// the solver passed over the [contact tree](crate::motion::ContactTree). Unlike computing times,
+/// the counts are the same on every machine.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -264,9 +264,9 @@ pub struct History {
 pub struct Work {
     /// Number of springs of the profile.
     pub springs: u64,
-    /// Number of random phases drawn for the profile.
+    /// Number of random phases drawn for the waves of a random profile.
     pub random_phases: u64,
-    /// Number of Fourier transforms over the whole profile.
+    /// Number of Fourier transforms of the whole profile that were computed.
     pub transforms: u64,
     /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree). A node is a point of the
     /// profile at which two patches can merge.
@@ -295,7 +295,7 @@ pub struct Work {
     pub steps: u64,
     /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
     pub relaxation_sweeps: u64,
-    /// Number of visits of the stepwise solver to springs. A spring counts again at each visit.
+    /// Number of springs that the stepwise solver visited. A spring counts again at each visit.
     pub spring_updates: u64,
     /// Number of heights of the profile that were sorted into the bins of a histogram.
     pub heights_binned: u64,
@@ -358,7 +358,8 @@ pub struct CurvePoint {
 }
 
 impl CurvePoint {
-    /// Returns the point of a body that touches nothing at an indentation in m.
+    /// Returns the point of the force curve for a body that touches nothing, at an indentation in
+    /// m.
     pub(crate) fn free(indentation: f64) -> Self {
         CurvePoint {
             indentation,
@@ -367,7 +368,7 @@ impl CurvePoint {
     }
 
     /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
-    /// at this point. The instrument has the stiffness k = `stiffness` in N/m.
+    /// at this point of the force curve. k = `stiffness` is the stiffness of the instrument in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
     }
@@ -404,8 +405,8 @@ impl Patch {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Returns the contact patches from left to right. `contact` has one value for each spring:
-    /// true if the spring is in contact.
+    /// Returns the contact patches from left to right. `contact` has one value for each spring,
+    /// from left to right: true if the spring is in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for (spring, is_in_contact) in contact.enumerate() {
@@ -433,13 +434,13 @@ impl From<Patch> for (usize, usize) {
 /// Condition that ends a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
-    /// An indentation in m.
+    /// The body reaches this indentation in m.
     Indentation(f64),
-    /// A force in N.
+    /// The force reaches this value in N.
     Force(f64),
-    /// A displacement in m of an instrument that is not rigid.
+    /// The drive of an instrument that is not rigid reaches this displacement in m.
     Displacement(f64),
-    /// Detachment of the last patch. The value is the indentation in m to which the body moves
+    /// The last patch detaches. The value is the indentation in m to which the body moves
     /// afterwards, if the target states one.
     Separation(Option<f64>),
 }

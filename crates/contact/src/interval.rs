@@ -51,8 +51,9 @@ pub struct Interval<R> {
 pub struct Intervals<R>(Vec<Interval<R>>);
 
 impl<R: DetachmentRule> Intervals<R> {
-    /// Creates one interval for each item of `ends`, the contacts at the lower and at the upper end
-    /// of the interval. `instrument` is the number of springs parallel to the contact that
+    /// Creates one interval for each item of `ends`. An item has the contact at the lower end and
+    /// the contact at the upper end of the interval. `slides` is true if edges of patches move
+    /// between springs. `instrument` is the number of springs parallel to the contact that
     /// represent the instrument.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let mut intervals = Vec::with_capacity(ends.len());
@@ -91,8 +92,9 @@ impl<R: DetachmentRule> Intervals<R> {
         first..end.max(first)
     }
 
-    /// Adds two events to the intervals: springs or cells attach at the indentation `from` and
-    /// detach at the indentation `to`, both in m.
+    /// Adds springs or cells that are in contact at the indentations from `from` to `to` in m.
+    /// `totals` are the sums over these springs or cells. Each of the two indentations is an event,
+    /// at which the contact changes.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
             // At most one interval contains the threshold, because an event at the lower end of an
@@ -104,7 +106,7 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Adds the edge cells of a patch to all intervals in which the patch consists of the same
+    /// Adds the edge cells of a patch to all intervals in which this patch consists of the same
     /// springs.
     pub fn add_piece(&mut self, piece: Piece<R>) {
         let range = self.between(piece.from, piece.to);
@@ -113,8 +115,8 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Sorts the events of all intervals, and returns the intervals. An event is an indentation at
-    /// which springs attach or detach. Adds the number of sorted events to `sorted`.
+    /// Sorts the events of each interval, and returns the intervals. An event is an indentation at
+    /// which springs attach or detach. The number of sorted events is added to `sorted`.
     pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval<R>> {
         for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
@@ -244,9 +246,9 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Searches the interval for a more extreme force than that of `best`. If there is one,
-    /// replaces `best` by the contact with this force. The forces at both ends of the interval must
-    /// not be more extreme than the force of `best`.
+    /// Searches the interval for a force that is more extreme than the force of `best`. If there is
+    /// such a force, replaces `best` by the contact with this force. The forces at both ends of the
+    /// interval must not be more extreme than the force of `best`.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -274,8 +276,8 @@ impl<R: DetachmentRule> Interval<R> {
     }
 
     /// Computes ∫ (E − C) dd, in cells times m², over the parts of the interval that a loading with
-    /// an instrument passes in jumps. C(d) is the compression of contact and instrument together at
-    /// the indentation d, and E(d) is its largest value up to d. A loading jumps where C < E.
+    /// an instrument passes in jumps. C(d) is the common compression of contact and instrument in m
+    /// at the indentation d, and E(d) is the largest C up to d. A loading jumps where C < E.
     /// `largest` is E at the lower end of the interval, and is replaced by E at the upper end.
     pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
@@ -305,8 +307,8 @@ impl<R: DetachmentRule> Interval<R> {
     }
 
     /// Computes ∫ (C − E) dd, in cells times m², over the parts of the interval that an unloading
-    /// with an instrument passes in jumps. C(d) is the compression of contact and instrument
-    /// together at the indentation d, and E(d) is its smallest value on the unloading down to d. An
+    /// with an instrument passes in jumps. C(d) is the common compression of contact and instrument
+    /// in m at the indentation d, and E(d) is the smallest C on the unloading down to d. An
     /// unloading jumps where C > E. `smallest` is E at the upper end of the interval, and is
     /// replaced by E at the lower end.
     pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
@@ -353,9 +355,10 @@ impl<R: DetachmentRule> Interval<R> {
         sliders.map(|slider| slider.surface(indentation)).sum()
     }
 
-    /// Returns the smallest indentation in the interval at which the compression is at least
-    /// `wanted`; `None` if there is no such indentation. The compression at the lower end must be
-    /// less than `wanted`.
+    /// Returns the smallest indentation in m in the interval at which the compression is at least
+    /// `wanted` in m. Returns `None` if there is no such indentation. The compression is the force
+    /// divided by the stiffness of one spring. At the lower end of the interval the compression
+    /// must be less than `wanted`.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
             return None;
@@ -377,9 +380,10 @@ impl<R: DetachmentRule> Interval<R> {
         (self.high.compression >= wanted).then_some(to)
     }
 
-    /// Returns the largest indentation in the interval at which the compression is at most
-    /// `wanted`; `None` if there is no such indentation. The compression at the upper end must be
-    /// more than `wanted`.
+    /// Returns the largest indentation in m in the interval at which the compression is at most
+    /// `wanted` in m. Returns `None` if there is no such indentation. The compression is the force
+    /// divided by the stiffness of one spring. At the upper end of the interval the compression
+    /// must be more than `wanted`.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {

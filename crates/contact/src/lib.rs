@@ -11,9 +11,10 @@
 //!   separation, for each of many turning points.
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
 //!   a [`LegRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
-//!   a point of the curve, a [`Branch`] joins stages in one direction, and a [`Patch`] is a run of
-//!   springs in contact. [`Events`] are the jumps and marks of a loading, each as an [`Event`]. The module [`motion`] also returns a [`History`] of all stages and counts
-//!   of computing [`Work`].
+//!   a special point of the curve. A [`Branch`] joins successive stages in one direction. A
+//!   [`Patch`] is a group of neighbouring springs in contact. [`Events`] are the jumps and the
+//!   special points of a loading, each as an [`Event`]. A [`History`], which the module [`motion`]
+//!   returns, has the records of all stages and counts of computing [`Work`].
 //! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by
 //!   theory.
 //! * Errors: [`ContactError`] names the value or the stage that is refused.
@@ -25,9 +26,9 @@
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and
 //! detaches by the equilibrium rules of the method of dimensionality reduction, with the rule of
 //! Hess for adhesion. A *patch* is a group of neighbouring springs in contact. The gap c of a
-//! spring is its depth below the highest point of the profile, d is the indentation, and Δl_max(n)
-//! is the largest stretch that a patch of n springs bears. The equation numbers refer to Popov and
-//! Filippov (2012). The rules are:
+//! spring is the depth of the profile at this spring below the highest point of the profile. The
+//! indentation is d. Δl_max(n) is the largest stretch that a patch of n springs bears. The equation
+//! numbers refer to Popov and Filippov (2012). The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
@@ -82,9 +83,9 @@ pub use target::Move;
 
 pub use asperity_data::Warning;
 
-/// Bodies that move from one target to the next, for models of instruments and for simulations of
-/// particles. [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the
-/// stepwise solver, serves to check it.
+/// Solvers for bodies that move from one target to the next, for models of instruments and for
+/// simulations of particles. [`Body`](motion::Body) is the exact solver.
+/// [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check the exact solver.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};

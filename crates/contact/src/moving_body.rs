@@ -7,8 +7,8 @@ use super::leg::Leg;
 use super::target::Move;
 
 /// A rigid body that moves from target to target on its springs. The exact solver
-/// [`Body`](crate::motion::Body) and the stepwise solver [`Stepwise`](crate::motion::Stepwise) have
-/// this trait.
+/// [`Body`](crate::motion::Body) and the stepwise solver [`Stepwise`](crate::motion::Stepwise)
+/// implement this trait.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -34,20 +34,21 @@ pub trait MovingBody {
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
-    /// Returns the [`Leg`] of the present motion. It gives the contact at each indentation of the
-    /// motion.
+    /// Returns the [`Leg`] of the present motion. The leg gives the contact at each indentation of
+    /// the motion.
     fn leg(&self) -> Leg;
 
     /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
 
-    /// Returns the time in s that this body has spent on force curves and their extremes since it
-    /// was created. The time to find the patches is not included.
+    /// Returns the time in s that the solver has spent on force curves and their extremes since the
+    /// body was created. The time to find the patches is not included.
     fn curve_seconds(&self) -> f64;
 }
 
-/// Moves the body `solver` to the targets one after the other; each target is one loading stage.
-/// `after` is called at the end of each stage with the record and the leg of the stage.
+/// Moves the body `solver` to the targets one after the other, and returns the records of all
+/// stages. Each target is one loading stage. `after` is called at the end of each stage. Its
+/// arguments are the record and the leg of the stage.
 ///
 /// # Errors
 /// Returns the error of the first stage that fails, or the first error that `after` returns.

@@ -15,8 +15,8 @@ const LEAST_FALL_AT_ENDS: f64 = 0.75;
 /// relative to the depth of the parabola. The limit allows for heights in files with four digits.
 const SMOOTH: f64 = 1e-3;
 
-/// Form of the body behind a profile, without its roughness, as the author of the profile states
-/// it.
+/// Form of the body behind a profile, without the roughness of the body, as the author of the
+/// profile states this form.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, NominalForm, Profile};
@@ -46,9 +46,9 @@ pub enum NominalForm {
     Curved,
 }
 
-/// Returns true if a profile falls to both ends as a curved body does. For this decision the
-/// profile is divided into 16 parts. Their mean gaps must grow from the part with the smallest mean
-/// gap to both ends, and near the ends almost as fast as on average.
+/// Returns true if a profile falls to both ends as a curved body does. `gaps` are in m. The profile
+/// is divided into 16 parts. The mean gap must grow from the part with the smallest mean gap to
+/// both ends, and near the ends almost as fast as on average.
 pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     let part = gaps.len() / PARTS;
     if part == 0 {
@@ -81,9 +81,9 @@ fn falls_to_end(means: &[f64]) -> bool {
     always_grow && last - before >= LEAST_FALL_AT_ENDS * mean_growth
 }
 
-/// Returns the radius R in m of a sphere whose cut has these gaps: x²/(2R). The gaps are in m, and
-/// neighbouring points have the distance `spacing` in m. Returns `None` for rough gaps and for gaps
-/// of another form.
+/// Returns the radius R in m of the sphere of which a cut has the gaps `gaps` in m, which are then
+/// x²/(2R). Neighbouring points have the distance `spacing` in m. Returns `None` for rough gaps and
+/// for gaps of another form.
 pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     let [offset, slope, bend] = parabola(gaps)?;
     let middle = 0.5 * (gaps.len() - 1) as f64;

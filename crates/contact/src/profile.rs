@@ -1,5 +1,5 @@
 //! The rigid profile above the springs: its gaps at equally spaced points, and the contact trees
-//! that follow from them.
+//! that are built from the gaps. A contact tree states where patches in contact can merge.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::tree::ContactTree;
@@ -16,11 +16,11 @@ const MOST_POINTS: usize = 1 << 28;
 /// the half-space, so the highest point touches first.
 ///
 /// The equivalent line is not a cut through the body. A body of revolution with the depth f(r) has
-/// the equivalent line g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr, so a sphere of the radius R has x²/R,
-/// while a cut through it has x²/(2R). For a rough surface both lines have the same rms height, but
-/// the rms gradient of a cut is 29 % smaller. With a cut in place of the equivalent line the
-/// pull-off force of a sphere is twice too large. `asperity_surface` makes the equivalent line of
-/// forms and of measured surfaces.
+/// the equivalent line g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr. The equivalent line of a sphere of
+/// the radius R is therefore x²/R, while a cut through the sphere is x²/(2R). If a cut were used as
+/// the equivalent line, the pull-off force of a sphere would be twice too large. For a rough
+/// surface, the equivalent line and a cut have the same rms height, but the rms gradient of the cut
+/// is 29 % smaller. `asperity_surface` makes the equivalent line of forms and of measured surfaces.
 ///
 /// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the
 /// last point. Clones of a profile share their memory.
@@ -45,8 +45,9 @@ pub struct Profile {
     nominal_form: NominalForm,
 }
 
-/// The gaps under a profile, and its contact trees. A tree depends only on the gaps and on where
-/// the edges of patches may lie. It is built when a contact first needs it.
+/// The gaps under a profile, and its contact trees. A contact tree states where patches in contact
+/// can merge. It depends only on the gaps and on where the edges of patches may lie, and is built
+/// when a contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
@@ -80,9 +81,9 @@ impl Profile {
     }
 
     /// Creates a profile from the gaps in m of an equivalent line. Neighbouring points have the
-    /// distance `spacing` in m. A gap is the depth of a point of the equivalent line below its
-    /// highest point, so at least one gap is 0. The equivalent line of a sphere of the radius R has
-    /// the gaps x²/R. They are twice the depths x²/(2R) of a cut through the sphere.
+    /// distance `spacing` in m. A gap is the depth of a point below the highest point of the
+    /// equivalent line, so at least one gap is 0. The equivalent line of a sphere of the radius R
+    /// has the gaps x²/R. These gaps are twice the depths x²/(2R) of a cut through the sphere.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -199,8 +200,8 @@ impl Profile {
     }
 
     /// Returns a warning that the heights may not be those of an equivalent line. Returns `None` if
-    /// the form has been stated. Also returns `None` for a profile without height differences,
-    /// because a flat profile is its own equivalent line.
+    /// the form of the body has been stated. Also returns `None` for a profile without height
+    /// differences, because a flat profile is its own equivalent line.
     pub fn doubt(&self) -> Option<Warning> {
         if self.nominal_form != NominalForm::Unstated || self.deepest() == 0.0 {
             return None;
@@ -251,22 +252,22 @@ impl Profile {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
 
-    /// Returns the position x in m of the point with this index, from the left end of the
-    /// foundation.
+    /// Returns the position x in m of the point with this index. Positions are measured from the
+    /// left end of the foundation.
     pub fn position(&self, index: usize) -> f64 {
         self.place(index as f64 + 0.5)
     }
 
-    /// Returns the position in m of a point from the left end of the foundation. `cells` is the
-    /// distance of the point, in spacings, from the left end of the first cell under the body.
+    /// Returns the position of a point in m from the left end of the foundation. `cells` is the
+    /// distance of the point from the left end of the profile, in units of the spring spacing.
     pub(super) fn place(&self, cells: f64) -> f64 {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) of the profile. `edges` states where the edges of
-    /// contact patches may lie. The tree is built in the memory of `memory`, a tree that is no
-    /// longer needed. Without this call, the first contact with adhesion builds the tree in new
-    /// memory.
+    /// Builds the contact tree of the profile, which states where patches in contact can merge.
+    /// `edges` states where the edges of contact patches may lie. The new tree reuses the memory of
+    /// `memory`, a [tree](ContactTree) that is no longer needed. Without this call, the first
+    /// contact with adhesion builds the tree in new memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
@@ -315,8 +316,8 @@ impl Springs {
         GapScale::for_gaps_up_to(self.deepest)
     }
 
-    /// Returns the contact tree of the gaps. `edges` states where the edges of contact patches may
-    /// lie.
+    /// Returns the contact tree of the gaps, which states where patches in contact can merge.
+    /// `edges` states where the edges of contact patches may lie.
     pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
         self.tree_in(ContactTree::default(), edges)
     }

@@ -30,13 +30,13 @@ pub enum Move {
     ToForce(f64),
     /// Moves to this indentation in m; 0 is the first touch.
     ToIndentation(f64),
-    /// Moves until the drive of the instrument first reaches this displacement D = d + F/k in m. k
-    /// is the stiffness of the instrument in N/m.
+    /// Moves until the drive of the instrument first reaches this displacement D = d + F/k in m. d
+    /// is the indentation, F the force, and k the stiffness of the instrument in N/m.
     ToDisplacement(f64),
     /// Moves to the indentation of first touch, d = 0.
     ToTouch,
-    /// Moves until the force is zero. A separated body moves past first touch until the force is
-    /// zero again.
+    /// Moves until the force is zero. A separated body is moved into contact beyond first touch,
+    /// until the force has returned to zero.
     ToZeroForce,
     /// Moves until the bodies separate.
     ToSeparation,

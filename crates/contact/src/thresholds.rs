@@ -19,8 +19,8 @@ use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
-/// The springs of a contact in which each spring attaches on its own. Each spring has the smallest
-/// indentation at which it is in contact, its threshold.
+/// The springs of a contact in which each spring attaches on its own. The threshold of a spring is
+/// the smallest indentation at which the spring is in contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
@@ -79,8 +79,8 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the springs that attach, and the cells in partial contact, to `intervals`. These are
-    /// the parts of a motion in which a crossing of the force is searched.
+    /// Adds the springs that attach, and the cells in partial contact, to `intervals`. The
+    /// intervals are the parts of a motion in which a crossing of the force is searched.
     pub fn search(&self, intervals: &mut Intervals<ContactRule>) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Totals of the springs in contact: the numbers of springs and patches, and the sums of gaps. The
 //! sums are integers, so no digits cancel.
 
-/// Scale that converts the gaps of one profile to integers. Its unit, the quantum, is 2⁻⁶² of the
-/// smallest power of two above the largest gap.
+/// Scale that converts the gaps of one profile to integers. The unit of the integers is called the
+/// quantum. It is 2⁻⁶² of the smallest power of two above the largest gap.
 ///
 /// A sum of integers does not depend on the order of the springs, and a spring that attaches and
 /// detaches again changes no bit. If a loading and an unloading lead to the same contact, their
@@ -39,7 +39,7 @@ fn power_of_two(exponent: i32) -> f64 {
 }
 
 impl GapScale {
-    /// Creates the scale for gaps up to `largest` (m, finite, at least zero).
+    /// Creates the scale for gaps from zero to `largest` in m. `largest` must be finite.
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
         let bits = largest.max(f64::MIN_POSITIVE).to_bits();
@@ -51,8 +51,8 @@ impl GapScale {
         }
     }
 
-    /// Returns a gap in m as a whole number of quanta, the unit of this scale. The number is
-    /// rounded down.
+    /// Returns a gap in m as a whole number of quanta, rounded down. The quantum is the unit of
+    /// this scale.
     #[inline]
     pub fn quanta(&self, gap: f64) -> i64 {
         (gap * self.quanta_per_metre) as i64
@@ -71,7 +71,8 @@ impl GapScale {
 const SQUARE_BITS: u32 = 28;
 
 /// Returns the sum of the gaps and the sum of their squares over at most four springs, or over at
-/// most four cells, which have five springs. The units are those of [`ContactTotals`].
+/// most four cells, which lie between five springs. The first sum is in quanta, the units of
+/// `scale`. The second sum is in units of 2^28 squared quanta.
 ///
 /// The sum of four gaps, each below 2^62 quanta, fits into 64 bits, and the sum of their squares
 /// into 128 bits. The profile is straight between springs. The mean square along a cell is
@@ -112,19 +113,20 @@ fn twelfth(number: u128) -> u128 {
         + u128::from(low / 12)
 }
 
-/// The springs in contact at one indentation: their number, the number of patches, and the sums of
-/// their gaps and squared gaps.
+/// The springs in contact at one indentation: the number of these springs, the number of patches,
+/// and the sums of the gaps and of the squared gaps of the springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Number of springs in contact.
     pub springs: i64,
     /// Number of patches.
     pub patches: i64,
-    /// Sum of the gaps of the springs in contact, or of the mean gaps of the cells between them.
-    /// The unit is the quantum of a [`GapScale`].
+    /// Sum of the gaps of the springs in contact. If the sums are over the cells between these
+    /// springs, it is the sum of the mean gaps of the cells. The unit is the quantum of a
+    /// [`GapScale`].
     pub quanta: i128,
-    /// Sum of the squared gaps of the springs, or of the cells between them. The unit is 2^28
-    /// squared quanta.
+    /// Sum of the squared gaps of the springs in contact, or of the cells between these springs.
+    /// The unit is 2^28 squared quanta.
     pub squares: i128,
 }
 
@@ -159,8 +161,8 @@ impl ContactTotals {
         }
     }
 
-    /// Computes the compression in m at the indentation d, which is the force divided by the
-    /// stiffness of one spring. For `count` springs with the gaps c_i, the compression is Σ (d −
+    /// Computes the compression in m: the force divided by the stiffness of one spring. d =
+    /// `indentation` is in m. For `count` springs with the gaps c_i, the compression is Σ (d −
     /// c_i). For `count` cells with the gap c, it is ∫ (d − c) dx, where x is in cells.
     ///
     /// For n springs and a largest gap below 2^e m, the error is at most 2u |result| plus n
@@ -223,8 +225,9 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit in which sums of squared stretches are integers. It is usually the quantum of the gaps,
-/// squared. The unit is coarser if an indentation is much larger than all gaps.
+/// Unit in which sums of squared stretches are integers. It is usually 2^28 squared quanta, where a
+/// quantum is the unit of the gaps. The unit is coarser if an indentation is much larger than all
+/// gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -234,8 +237,8 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Creates the unit for gaps with this scale, and for indentations from `−largest` to `largest`
-    /// in m.
+    /// Creates the unit for gaps that are converted to integers with `scale`, and for indentations
+    /// from `−largest` to `largest` in m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let mut squares = SquareScale {
             quanta_per_metre: scale.quanta_per_metre,
@@ -251,7 +254,8 @@ impl SquareScale {
     }
 
     /// Computes Σ (c − θ)² over `count` springs or cells with the gaps c, where θ is an indentation
-    /// in m. The sum has two parts: an integer in this unit, and a remainder in m².
+    /// in m. The result has two parts, which are to be added: an integer in the unit `self`, and a
+    /// remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let gaps = totals.quanta.checked_shr(self.coarser).unwrap_or(0);
         let squared_gaps = totals.squares.checked_shr(2 * self.coarser).unwrap_or(0);
@@ -273,7 +277,7 @@ impl SquareScale {
         (sum, remainder * self.quantum * self.quantum)
     }
 
-    /// Converts a sum of squares from this unit to m².
+    /// Converts a sum of squares from the unit `self` to m².
     pub fn in_metres(&self, squares: i128) -> f64 {
         squares as f64 * self.quantum * self.quantum * f64::from(1 << SQUARE_BITS)
     }

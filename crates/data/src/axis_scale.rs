@@ -1,6 +1,7 @@
 //! Linear and logarithmic scales of axes.
 
-/// Scale of an axis. It maps each number to a coordinate along the axis.
+/// Scale of an axis of a chart, linear or logarithmic. The scale maps each number to a coordinate
+/// along the axis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
@@ -12,8 +13,8 @@ pub enum AxisScale {
 }
 
 impl AxisScale {
-    /// Returns the coordinate of a number. On a logarithmic scale, zero and negative numbers have
-    /// no finite coordinate.
+    /// Returns the coordinate of a number along the axis. On a logarithmic scale, zero and negative
+    /// numbers have no finite coordinate.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -29,10 +30,10 @@ impl AxisScale {
         }
     }
 
-    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index.
-    /// For example, 1.5 means the middle between the values with the indices 1 and 2. Outside the
-    /// range of the values, the index is extrapolated. If there are fewer than two values, the
-    /// index is 0.
+    /// Returns a fractional index that states where `number` lies among the ascending `values`. For
+    /// example, 1.5 means the middle, on this scale, between the values with the indices 1 and 2.
+    /// Outside the range of the values, the index is extrapolated. If there are fewer than two
+    /// values, the index is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let coordinates: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let coordinate = self.coordinate(number);

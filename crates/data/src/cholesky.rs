@@ -48,7 +48,7 @@ impl Cholesky {
         self.factor[row * self.size + column]
     }
 
-    /// Returns the solution x of M x = `right`.
+    /// Returns the solution x of the equations M x = `right`, where M is the matrix given to `new`.
     pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
         for row in 0..self.size {
             let sum: f64 = (0..row).map(|k| self.element(row, k) * right[k]).sum();
@@ -57,7 +57,7 @@ impl Cholesky {
         self.solve_transposed(right)
     }
 
-    /// Returns the solution x of Lᵀ x = `right`.
+    /// Returns the solution x of the equations Lᵀ x = `right`, where L is the Cholesky factor.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
         for row in (0..self.size).rev() {
             let sum: f64 = (row + 1..self.size)
@@ -68,17 +68,18 @@ impl Cholesky {
         right
     }
 
-    /// Returns the square root of element (i, i) of M⁻¹, where i is `index`. If M⁻¹ is the
-    /// covariance matrix of fitted parameters, this is the standard error of parameter i.
+    /// Returns the square root of element (i, i) of M⁻¹, where M is the matrix given to `new` and i
+    /// is `index`. If M⁻¹ is the covariance matrix of fitted parameters, the result is the standard
+    /// error of parameter i.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
         self.variance(&gradient).sqrt()
     }
 
-    /// Returns vᵀ M⁻¹ v, where v is `gradient`. If M⁻¹ is the covariance matrix of fitted
-    /// parameters, and v contains the derivatives of a quantity with respect to these parameters,
-    /// this is the variance of the quantity.
+    /// Returns vᵀ M⁻¹ v, where M is the matrix given to `new` and v is `gradient`. If M⁻¹ is the
+    /// covariance matrix of fitted parameters, and v contains the derivatives of a quantity with
+    /// respect to these parameters, the result is the variance of the quantity.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
         gradient

@@ -7,7 +7,7 @@ use std::borrow::Borrow;
 /// function that receives its progress. With the default settings, the computation uses all cores,
 /// is never stopped and reports no progress.
 ///
-/// `P` is the type of the progress. It is the number of finished parts, or the result so far.
+/// `P` is the type of the progress, such as the number of finished parts or the result so far.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -63,8 +63,8 @@ impl<'a, P> Control<'a, P> {
         }
     }
 
-    /// Returns settings for a part of this computation, with the same number of threads and the
-    /// same stop function. The progress of the part may have another type. At first, no function
+    /// Returns settings for a part of this computation. The part has the same number of threads and
+    /// the same stop function, but its progress may have another type. At first, no function
     /// receives the progress of the part.
     pub fn of_part<'part, Q>(&self) -> Control<'part, Q>
     where
@@ -82,7 +82,8 @@ impl<'a, P> Control<'a, P> {
         self.threads
     }
 
-    /// Returns the function that stops the computation.
+    /// Returns the stop function: as soon as this function returns true, the computation has to
+    /// stop.
     pub fn stop(&self) -> &'a (dyn Fn() -> bool + Sync) {
         self.stop
     }

@@ -25,7 +25,7 @@ pub struct CountedWarning {
 
 impl CountedWarning {
     /// Counts one more profile that has the warning `warning`. `counted` is the list of all
-    /// premises that were found not to be met so far.
+    /// warnings of the profiles so far, each with the number of its profiles.
     pub fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
         match counted
             .iter_mut()

@@ -1,5 +1,5 @@
-//! SHA-256 of files, with which copies of a file are recognised. The program `sha256sum` prints the
-//! same digits.
+//! SHA-256 hashes of files, by which copies of a file are recognised. The program `sha256sum`
+//! prints the same digits.
 
 use super::read::{ReadError, open_regular};
 use sha2::{Digest, Sha256};

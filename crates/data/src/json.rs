@@ -6,8 +6,8 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line. `head` are further entries, each a key with its text. If the
-/// value is an object, `head` is written before the entries of the object.
+/// Writes a value as JSON on one line. `head` contains further entries, each with a key and a text.
+/// If the value is an object, these entries are written at the beginning of the object.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,

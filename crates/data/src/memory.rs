@@ -1,5 +1,5 @@
-//! Functions for large arrays. They reuse memory, and return an error if there is not enough
-//! memory.
+//! Functions that allocate large arrays. These functions reuse memory, and return an error if there
+//! is not enough memory.
 
 // Reuse saves time: the system clears each page of new memory at its first access, which takes
 // about as long as one pass over the memory. Arrays whose length depends on the input reserve their
@@ -63,8 +63,8 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
 }
 
 /// Returns a vector of the length `count`. The vector begins with the content of `values`, and the
-/// rest is filled with copies of `fill`. It reuses the memory of `values` if possible. Returns an
-/// error if there is not enough memory.
+/// rest is filled with copies of `fill`. The memory of `values` is used again if possible. Returns
+/// an error if there is not enough memory.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());

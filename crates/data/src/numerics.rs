@@ -79,9 +79,9 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
-/// Returns a quantile of ascending values. Between neighbouring values the quantile is interpolated
-/// linearly. A `share` of 0 gives the first value, 0.5 the median, and 1 the last value. Returns
-/// `None` if there are no values, or if the share is below 0 or above 1.
+/// Returns a quantile of `ascending`, values in ascending order. A `share` of 0 gives the first
+/// value, 0.5 the median, and 1 the last value. Between two values the quantile is interpolated
+/// linearly. Returns `None` if there are no values, or if the share is below 0 or above 1.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), Some(5.0));
@@ -102,8 +102,9 @@ pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     Some(between(ascending[lower], ascending[lower + 1], fraction))
 }
 
-/// Returns the lower quartile, the median and the upper quartile of ascending values, which are
-/// [quantiles](quantile()); `None` if there are no values.
+/// Returns the lower quartile, the median and the upper quartile of ascending values, in this
+/// order. The quartiles are the [quantiles](quantile()) for the shares 0.25 and 0.75. Returns
+/// `None` if there are no values.
 ///
 /// ```
 /// assert_eq!(asperity_data::quartiles(&[1.0, 2.0, 3.0, 4.0, 5.0]), Some([2.0, 3.0, 4.0]));
@@ -115,8 +116,8 @@ pub fn quartiles(ascending: &[f64]) -> Option<[f64; 3]> {
     Some([lower, median, upper])
 }
 
-/// Interpolates linearly between two values. A `share` of 0 gives `from`, and a `share` of 1 gives
-/// `to`.
+/// Interpolates linearly between the values `from` and `to`. A `share` of 0 gives `from`, and a
+/// `share` of 1 gives `to`.
 #[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)
@@ -141,13 +142,13 @@ pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     slope.is_finite().then_some(slope)
 }
 
-/// Returns the nodes of the Gauss-Legendre quadrature on the interval (−1, 1), each with its
+/// Returns the nodes of the Gauss-Legendre quadrature for an integral from −1 to 1, each with its
 /// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
 
-/// Returns the nodes of the Gauss-Legendre quadrature on the interval (0, π/2), each with its
+/// Returns the nodes of the Gauss-Legendre quadrature for an integral from 0 to π/2, each with its
 /// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
@@ -182,9 +183,9 @@ thread_local! {
     static LAST_QUANTILE: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// Returns the quantile of Student's distribution for intervals of 95 %. If t has this distribution
-/// with `freedom` degrees of freedom (at least 1), |t| exceeds the quantile with a probability of 5
-/// %.
+/// Returns the quantile of Student's distribution for intervals of 95 %. A variable t that has this
+/// distribution lies between minus and plus the quantile with a probability of 95 %. `freedom` is
+/// the number of degrees of freedom, at least 1.
 pub fn student_quantile(freedom: u32) -> f64 {
     let (last_freedom, last_quantile) = LAST_QUANTILE.get();
     if last_freedom == freedom {

@@ -13,8 +13,8 @@ thread_local! {
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `work` on this thread. If `work` calls functions of this module, they start no further
-/// threads.
+/// Runs `work` on the present thread. If `work` calls functions of this module, these functions
+/// start no further threads.
 pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -22,9 +22,9 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on each of `count` new threads of a scope. If the system refuses some threads,
-/// `work` runs on fewer threads. Inside `work`, the functions of this module start no further
-/// threads.
+/// Runs `work` on each of `count` new threads. The threads end with `scope`, a scope of the
+/// standard library. If the system refuses some threads, `work` runs on fewer threads. Inside
+/// `work`, the functions of this module start no further threads.
 ///
 /// # Errors
 /// Returns the error of the system if `count` is at least 1 and no thread could be started.
@@ -100,8 +100,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Returns the number of threads for a computation: the number of cores of the processor. Inside
-/// [`on_this_thread`], and on threads that this module has started, the number is 1.
+/// Returns the number of threads for a computation: the number of cores of the processor. The
+/// number is 1 inside [`on_this_thread`] and on threads that this module has started.
 pub fn threads() -> usize {
     if ONE_OF_MANY.get() {
         return 1;
@@ -109,9 +109,9 @@ pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
-/// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true, both
-/// run at the same time, with `first` on a second thread. If `is_worth` is false, or if no second
-/// thread can be started, one runs after the other.
+/// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true, a
+/// second thread runs `first` while the present thread runs `second`. If `is_worth` is false, or if
+/// no second thread can be started, the present thread runs both functions, one after the other.
 pub fn in_parallel<A: Send, B>(
     is_worth: bool,
     first: impl FnOnce() -> A + Send,

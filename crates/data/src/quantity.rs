@@ -35,7 +35,7 @@ const DIMENSIONS: &[Dimension] = &[
 ];
 
 /// Error for a typed text that is not a number with the expected unit. The string is the whole
-/// message.
+/// error message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);
@@ -104,7 +104,7 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
 }
 
 /// Appends `unit` to a typed number that has no unit. For example, `50` with the unit `mJ/m²`
-/// becomes `50 mJ/m²`. Other texts remain unchanged.
+/// becomes `50 mJ/m²`. A text that is not a number without a unit remains unchanged.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let number = typed.trim();
     let has_no_unit =
@@ -284,7 +284,7 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
 /// below the smallest prefix, so that only rounding errors are smaller.
 const ROUNDING: f64 = 1e-36;
 
-/// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
+/// Formats a value with its unit, rounded to `digits` significant digits, from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     // Plain numbers are written as zero only below the smallest normal number. A number next to
     // zero may mark the state just after a jump at zero.
@@ -299,8 +299,9 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.decimals$e}"), unit)
 }
 
-/// Formats a value with its unit. The value is rounded to the second significant digit of its
-/// `uncertainty`, which is not written: `50.05 mJ/m²` for an uncertainty of 0.13 mJ/m².
+/// Formats a value with its unit. The value is rounded at the decimal place of the second
+/// significant digit of `uncertainty`. For example, 50.0512 mJ/m² with an uncertainty of 0.13 mJ/m²
+/// becomes `50.05 mJ/m²`. The uncertainty itself is not written.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
@@ -318,7 +319,8 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits - 1), unit)
 }
 
-/// Formats a range of values with their unit, to `digits` significant digits: `0.33 to 35 µN`.
+/// Formats a range of values with their unit, such as `0.33 to 35 µN`. Both ends are rounded to
+/// `digits` significant digits.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
@@ -331,8 +333,8 @@ pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
     ])
 }
 
-/// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. If both ends have
-/// the same unit, the unit is written once.
+/// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. The unit is
+/// written only once if it is the same at both ends.
 pub fn one_unit(ends: [String; 2]) -> String {
     let [low, high] = ends;
     if low == high {
@@ -347,8 +349,8 @@ pub fn one_unit(ends: [String; 2]) -> String {
     format!("{low} to {high}")
 }
 
-/// Formats a value with its unit and with all its digits, so that [`parse_quantity`] returns
-/// exactly the same value.
+/// Formats a value with its unit and with all its digits. If [`parse_quantity`] reads the result,
+/// it returns exactly the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }

@@ -1,7 +1,7 @@
 //! Reading of files that users name. Only regular files up to a given size are read.
 //!
 //! Other files are refused, because opening a pipe would wait for its writer, opening a terminal
-//! would wait for its user, and a device may never end. The bytes that are read are counted,
+//! would wait for its user, and a device may never end. The bytes are counted while they are read,
 //! because the size that the system states for a file may be zero or too small.
 
 use std::fs::{File, OpenOptions};
@@ -19,7 +19,7 @@ pub enum ReadError {
     /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
-    /// The file is a NumPy array, where a scene is expected.
+    /// The file is a NumPy array, although the caller expects a scene.
     #[error("an array of NumPy holds no scene; allowed: a scene, or a table of results in CSV")]
     Array,
     /// The file is longer than the caller allows.
@@ -101,8 +101,8 @@ pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadErro
     }
 }
 
-/// Converts bytes in UTF-8 to text, without copying them. Returns an error if the bytes are not
-/// valid UTF-8.
+/// Converts bytes in UTF-8 to a text, without copying the bytes. Returns an error if the bytes are
+/// not valid UTF-8.
 pub fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| ReadError::NotText {
         byte: error.utf8_error().valid_up_to(),

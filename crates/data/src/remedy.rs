@@ -1,111 +1,123 @@
-//! Steps that remove the cause of an error or a warning. The steps are data, so that each interface
-//! states them in its own words.
+//! Remedies: steps by which the user removes the cause of an error or a warning. The steps are
+//! data, so that each interface states them in its own words.
 
 use std::convert::Infallible;
 use std::fmt;
 
-/// Step that removes the cause of an error or a warning. Libraries return the step as a value of
-/// this type. The command line, the explorer and Python each have their own words for the step: an
-/// option, a row or a keyword argument.
+/// Step by which the user removes the cause of an error or a warning. The libraries return this
+/// step without words. The command line, the explorer and Python express the step each in their own
+/// words: as an option, as a row or as a keyword argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// Name one of the surfaces of a container.
+    /// State the name of one of the surfaces in an archive with several surfaces.
     SurfaceName,
-    /// Name no surface, since the file has a single one.
+    /// Omit the name of a surface, because the file has only one surface.
     NoSurfaceName,
-    /// State the number of a channel of the file.
+    /// State the number of the channel to read from a file with several channels.
     Channel,
-    /// State the unit of positions and heights. The value is a likely unit, such as `um`.
+    /// State the unit of the positions and heights in the file. The value is a likely unit, such as
+    /// `um`.
     Unit(String),
-    /// State the unit of the heights alone. The value is a likely unit, such as `nm`.
+    /// State the unit of only the heights in the file. The value is a likely unit, such as `nm`.
     HeightUnit(String),
-    /// State the distance between points.
+    /// State the distance between the points of a surface.
     Spacing,
     /// Fill missing points of a measured surface from neighbouring points.
     Interpolate,
-    /// Interpolate an uneven profile at even distances.
+    /// Resample a profile with uneven distances between points, so that its points are evenly
+    /// spaced.
     Resample,
-    /// Replace heights that differ much from all others.
+    /// Replace outliers of a measured surface, which are heights far from the heights around them.
     Robust,
-    /// Take account of a tip with this radius, such as `10nm`.
+    /// Take account of the tip that measured a surface. The value is the radius of the tip, such as
+    /// `10nm`.
     TipRadius(String),
-    /// State the columns of a measured curve.
+    /// State which columns of a file contain the measured force curve.
     Columns,
-    /// State the units of displacement and force.
+    /// State the units of the displacement and of the force in a measured force curve.
     Units,
-    /// State the factor of the forces: the force in N for the value 1 in the column of forces.
+    /// State the factor that converts the measured forces to N. This factor is the force in N that
+    /// the value 1 in the column of forces means.
     ForceOfOne,
-    /// State the length of the ramp: the distance over which the forces of a curve without
-    /// displacements are evenly spaced.
+    /// State the length of the ramp for a measured force curve without displacements. The ramp is
+    /// the distance over which the forces are evenly spaced.
     Ramp,
-    /// Reverse the sign of the displacement.
+    /// Reverse the sign of the displacement in a measured force curve.
     NegateDisplacement,
-    /// Reverse the sign of the force.
+    /// Reverse the sign of the force in a measured force curve.
     NegateForce,
-    /// Reverse no sign.
+    /// Reverse neither the sign of the displacement nor the sign of the force in a measured force
+    /// curve.
     NegateNone,
-    /// State how many points of a measured curve are without contact.
+    /// State how many points of a measured force curve are without contact.
     FreePoints,
-    /// Use one segment of the measured curve alone: 1 is the approach, 2 the retraction.
+    /// Use only one segment of a measured force curve. The value is the number of the segment: 1
+    /// for the approach, 2 for the retraction.
     Segment(usize),
-    /// Subtract a drift, a straight line over time, from the force.
+    /// Subtract a drift from the measured force. The drift is a straight line over time.
     RemoveDrift,
-    /// Subtract a tilt, a straight line over the displacement, from the force.
+    /// Subtract a tilt from the measured force. The tilt is a straight line over the displacement.
     RemoveTilt,
-    /// State the noise of the force.
+    /// State the noise of the measured force.
     Noise,
-    /// Fit also the parameter with this name.
+    /// Fit a further parameter to the measured force curve. The value is the name of the parameter.
     Free(String),
-    /// Search a parameter in another range.
+    /// Search a fitted parameter in another range of its values.
     FreeRange,
-    /// Search a parameter in this range, such as `work=1mJ/m^2..2mJ/m^2`.
+    /// Search a fitted parameter in another range. The value states the parameter and the range,
+    /// such as `work=1mJ/m^2..2mJ/m^2`.
     FreeIn(String),
-    /// Compare a measured curve with many random profiles.
+    /// Compare a measured force curve with the computed curves of many random profiles.
     ManyProfiles,
-    /// Compute this number of random profiles.
+    /// Compute random profiles. The value is the number of profiles.
     Profiles(u64),
     /// Compute more random profiles.
     MoreProfiles,
     /// Use only the profile of the scene, without random profiles.
     NoProfiles,
-    /// State the standard errors of the parameters of a random roughness.
+    /// State the standard errors of the parameters of a random roughness in the scene.
     RoughnessErrors,
-    /// State no standard errors of the parameters of a roughness.
+    /// Do not state standard errors of the parameters of a roughness.
     NoRoughnessErrors,
-    /// Compute square surfaces on an elastic half-space with this number of cells along a side.
+    /// Compute square surfaces on an elastic half-space. The value is the number of cells along a
+    /// side of the square.
     Grid(usize),
-    /// Compute square surfaces on an elastic half-space with more cells.
+    /// Compute square surfaces on an elastic half-space with more cells along a side of the square.
     FinerGrid,
     /// Compute more random square surfaces on an elastic half-space.
     Maps,
     /// State a smaller tolerance for the error due to the finite number of springs.
     Tolerance,
-    /// Press the body before it is pulled.
+    /// Press the body against the elastic foundation before it is pulled off.
     Preload,
-    /// State the range in which a value is searched.
+    /// State the range of values in which a parameter is searched.
     Range,
     /// State a form, such as a paraboloid, in a scene whose roughness is a measured surface.
     FormOfScene,
-    /// Choose the axes of a figure.
+    /// Choose the two axes of a figure that shows a study of several parameters.
     FigureAxes,
-    /// Fix an axis at one of its values, such as `form.radius=1um`.
+    /// Fix one axis of a study of several parameters at one of the values of this axis, such as
+    /// `form.radius=1um`.
     FixAxis(String),
-    /// Fix the axis with this path at another value.
+    /// Fix one axis of a study of several parameters at another of the values of this axis. The
+    /// value is the path of the axis, such as `form.radius`.
     OtherValue(String),
     /// Compute on fewer threads.
     FewerThreads,
 }
 
-/// Words for a remedy in one interface, such as the option of the command line with its value.
+/// Function that returns the words of one interface for a remedy. For the command line, for
+/// example, the words are an option with its value.
 pub type Wording = fn(&Remedy) -> String;
 
-/// Error that may have remedies. Its text states the place, what was found and what is allowed. The
-/// remedies are not part of this text.
+/// Error that may have remedies, which are steps that remove its cause. `Display` writes the error
+/// without the remedies: the place, what was found there and what is allowed there.
 pub trait Remedied: fmt::Display {
     /// Returns the steps that remove the cause of the error; an empty list if no single step does.
     fn remedies(&self) -> Vec<Remedy>;
 
-    /// Returns the text of the error with its remedies in the words of an interface.
+    /// Returns the text of the error, followed by its remedies. `wording` returns the words for a
+    /// remedy.
     fn in_words(&self, wording: Wording) -> String {
         let text = self.to_string();
         match joined(&self.remedies(), wording) {
@@ -142,8 +154,8 @@ fn joined(remedies: &[Remedy], wording: Wording) -> Option<String> {
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// One or more sentences on a result, each with the remedies for what it states. `Display` writes
-/// the sentences without the remedies.
+/// Message about a result: one or more sentences, each with the remedies for what the sentence
+/// states. `Display` writes the sentences without the remedies.
 ///
 /// ```
 /// use asperity_data::{Note, Remedy};
@@ -166,7 +178,7 @@ struct Sentence {
 }
 
 impl Note {
-    /// Creates a note of one text without remedies.
+    /// Creates a note from one text, without remedies.
     pub fn new(text: impl Into<String>) -> Note {
         Note {
             sentences: vec![Sentence {
@@ -176,7 +188,7 @@ impl Note {
         }
     }
 
-    /// Returns the note with a further remedy of its last sentence.
+    /// Returns the note with one more remedy for its last sentence.
     pub fn with(mut self, remedy: Remedy) -> Note {
         if let Some(last) = self.sentences.last_mut() {
             last.remedies.push(remedy);
@@ -184,19 +196,20 @@ impl Note {
         self
     }
 
-    /// Returns the note, followed by the sentences of another note.
+    /// Returns the note, followed by the sentences of the note `next`.
     pub fn then(mut self, next: &Note) -> Note {
         self.sentences.extend(next.sentences.iter().cloned());
         self
     }
 
-    /// Returns the remedies of all sentences.
+    /// Returns the remedies of all sentences of the note.
     pub fn remedies(&self) -> impl Iterator<Item = &Remedy> {
         let sentences = self.sentences.iter();
         sentences.flat_map(|sentence| &sentence.remedies)
     }
 
-    /// Returns the sentences, each with its remedies in the words of an interface.
+    /// Returns the sentences, each followed by its remedies. `wording` returns the words for a
+    /// remedy.
     pub fn in_words(&self, wording: Wording) -> String {
         let mut sentences = Vec::with_capacity(self.sentences.len());
         for Sentence { text, remedies } in &self.sentences {

@@ -37,8 +37,8 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table that is being built: columns can still be added. [`Table::of`] begins the table, and
-/// [`TableOf::done`] returns the finished [`Table`].
+/// Table under construction, to which columns can still be added. [`Table::of`] begins the table,
+/// and [`TableOf::done`] returns the finished [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,

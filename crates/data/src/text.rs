@@ -3,13 +3,13 @@
 //!
 //! Control characters in files and arguments can clear a screen, write to the clipboard or make the
 //! XML of a picture invalid. Bidirectional control characters change the apparent order of text.
-//! Both kinds are replaced by their codes. All other characters are kept.
+//! Both kinds of characters are replaced by their codes. All other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// SI prefixes that can be read, with their powers of ten. If several prefixes have the same power,
-/// the first of them is written.
+/// SI prefixes that can be read, each with its power of ten. If several prefixes have the same
+/// power, the first of these prefixes is used for writing.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -50,7 +50,7 @@ pub fn round_to(value: f64, digits: usize) -> f64 {
         .unwrap_or(value)
 }
 
-/// Returns `value` rounded up to four significant digits.
+/// Rounds `value` upwards, to four significant digits.
 pub fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
@@ -80,7 +80,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
 
-/// Replaces characters by their codes as [`printable`] does, but keeps line breaks.
+/// Replaces control characters by their codes, as [`printable`] does, but keeps line breaks.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
@@ -135,8 +135,8 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// Formats a relative error or deviation in per cent: 0.02 becomes `2 %`. A value below 0.001 %
-/// becomes `< 0.001 %`, and a value above 100 % becomes `> 100 %`.
+/// Formats a relative error or a relative deviation in per cent: 0.02 becomes `2 %`. A value below
+/// 0.00001 becomes `< 0.001 %`, and a value above 1 becomes `> 100 %`.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -169,8 +169,8 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|unit| UNITS.contains(&unit))
 }
 
-/// Returns true if no line break is allowed between a word and the next word: inside a number such
-/// as `16 384`, and before a unit.
+/// Returns true if no line break is allowed between the words `word` and `next`. A line break is
+/// not allowed inside a number such as `16 384`, and between a number and a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -223,8 +223,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which [`shown`] cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Returns a text as messages repeat it, if it comes from a file or a user. The text is on one line
-/// and cut after 80 characters. Control characters are replaced as by [`printable`].
+/// Returns a text from a file or a user as error messages quote this text: on one line, and cut
+/// after 80 characters. Control characters are replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

@@ -11,11 +11,13 @@ impl Separator {
     /// White space: any number of blanks and tabs separates two columns.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator of the columns in a line of numbers. It is the first of the following
-    /// marks that the line contains outside quotation marks: a semicolon, a tab, a comma. If the
-    /// line contains none of these marks, the separator is white space. The separator is also white
-    /// space if the words between blanks are all numbers and commas occur only inside them, as in
-    /// `0,5 1,25`.
+    /// Finds the separator of the columns from a line of numbers.
+    ///
+    /// * The separator is the first of the following marks that the line contains outside quotation
+    ///   marks: a semicolon, a tab, a comma.
+    /// * If the line contains none of these marks, the separator is white space.
+    /// * The separator is also white space for a line such as `0,5 1,25`: the words between blanks
+    ///   are all numbers, and commas occur only inside these numbers.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -89,8 +91,8 @@ pub enum TextCell {
     Number(f64),
     /// An empty cell, or a text such as `NaN` that marks a missing point.
     Missing,
-    /// A number whose decimal mark differs from the decimal mark of earlier numbers, such as `0,5`
-    /// after `0.5`.
+    /// A number whose decimal mark differs from the decimal mark of earlier numbers in the table,
+    /// such as `0,5` after `0.5`.
     OtherMark,
     /// Text that cannot be read as a number.
     NoNumber,
@@ -101,8 +103,8 @@ const MISSING: [&str; 9] = [
     "bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*",
 ];
 
-/// Part of an error message: which decimal marks and thousands separators are allowed in a text
-/// table. The message is that for [`TextCell::OtherMark`].
+/// Part of the error message for a cell with a different decimal mark ([`TextCell::OtherMark`]).
+/// The text states which decimal marks and thousands separators a text table may have.
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
@@ -111,9 +113,8 @@ const GROUPING: [char; 8] = [
     ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
 ];
 
-/// Reader of the numbers in a text table. It learns two marks from the numbers: the first number
-/// with a decimal mark determines the decimal mark of the table, and the first number with a
-/// thousands separator determines this separator.
+/// Reader of the numbers in a text table. The reader learns the decimal mark from the first number
+/// that has one, and the thousands separator from the first number that has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark; `None` as long as no number has one.

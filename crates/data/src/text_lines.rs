@@ -41,9 +41,9 @@ impl TextFault {
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
-/// Calls `take` for each line of a text. The arguments are the number of the line, counted from 1,
-/// and the line without white space at its ends. The comments at the beginning of a CSV file of
-/// results are skipped.
+/// Calls `take` for each line of a text. The arguments of `take` are the number of the line,
+/// counted from 1, and the line without white space at its ends. If the text is a CSV file with
+/// results of Asperity, the comments at its beginning are skipped.
 ///
 /// # Errors
 /// Returns the error of `take`, or a [`TextFault`] if the bytes cannot be read as text.

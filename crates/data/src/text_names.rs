@@ -1,4 +1,4 @@
-//! Names of columns: the meaning of each column, and its unit.
+//! Names of columns in text files, from which the meaning and the unit of each column are found.
 
 use crate::text_cells::{Decimal, Separator, TextCell};
 use crate::text_lines::COMMENT;
@@ -8,21 +8,21 @@ use std::collections::VecDeque;
 /// known unit.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column in a text file, which is found from the name of the column.
+/// Meaning of a column in a text file. The meaning is found from the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// The name of the column has no known meaning.
+    /// Column whose name has no known meaning.
     #[default]
     Unknown,
-    /// Positions along the first axis.
+    /// Column of positions along the first axis.
     X,
-    /// Positions along the second axis.
+    /// Column of positions along the second axis.
     Y,
-    /// Heights.
+    /// Column of heights.
     Height,
-    /// Numbers that only count the points, in the order of the file.
+    /// Column of numbers that only count the points, in the order of the file.
     Number,
-    /// Flags of validity: 0 for a point that was not measured.
+    /// Column of flags that state whether a point was measured; 0 means that it was not measured.
     Valid,
 }
 
@@ -66,7 +66,7 @@ const LAST_LINES: usize = 64;
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line. The [`COMMENT`] characters at the beginning of the line are removed.
+    /// Adds a line of the file. [`COMMENT`] characters at the beginning of the line are removed.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();

@@ -61,8 +61,9 @@ impl WriteError {
     }
 }
 
-/// Returns an error if [`write_new`] could not write the file now. Leaves no file behind. A program
-/// calls this function before a long computation whose result it will write.
+/// Checks that [`write_new`] could write the file now, and returns an error if not. The check
+/// leaves no file behind. A program calls this function before a long computation whose result it
+/// will write.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     if let Some(target) = Target::find(path, overwrite)? {
         temporary(&target.path)?;
@@ -70,8 +71,9 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes a regular file, a pipe or a device. A regular file is written as [`write_new_file`] does.
-/// For a pipe, the function waits until another program reads from it.
+/// Writes the content that the function `write` gives to a regular file, a pipe or a device. A
+/// regular file is written as by [`write_new_file`]. For a pipe, the function waits until another
+/// program reads from the pipe.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -87,9 +89,9 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file. The content is first written to a temporary file in the same folder, so
-/// that other programs see either the old file or the complete new file. An existing file is
-/// replaced only if `overwrite` is true.
+/// Writes a regular file with the content that the function `write` writes. This function first
+/// writes to a temporary file in the same folder. Other programs therefore see either the old file
+/// or the complete new file. An existing file is replaced only if `overwrite` is true.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -115,9 +117,9 @@ pub fn write_new_file(
     sync_folder(folder_of(&target.path)).map_err(failed)
 }
 
-/// Removes temporary files that killed processes have left in a folder. Only temporary files that
-/// are older than a minute, and on which no process holds a lock, are removed. Files that cannot be
-/// removed stay.
+/// Removes temporary files that killed processes have left in a folder. A temporary file is removed
+/// only if it is older than a minute and no process holds a lock on it. Files that cannot be
+/// removed stay in the folder.
 pub fn remove_abandoned(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();

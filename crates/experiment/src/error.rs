@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// Part of a curve that has too few points, or the whole curve.
+/// Part of a curve that is counted in an error: the part has too few points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountedPart {
     /// The whole curve.
@@ -54,17 +54,18 @@ pub enum ExperimentError {
          points before contact"
     )]
     ShortApproach {
-        /// Number of points in the approach.
+        /// Number of points that the approach has.
         found: usize,
-        /// Smallest number of points that is allowed.
+        /// Smallest number of points that the approach must have.
         least: usize,
     },
-    /// The part without contact has too few points, or contains all points.
+    /// The part of the curve without contact has too few points, or this part contains all points.
     #[error(
         "no part {part} contact: {found} of {points} points; allowed: at least {least}, found or stated"
     )]
     NoFreePart {
-        /// Part that is missing: `before` contact, or `without` contact.
+        /// Name of the missing part: `before` for the part before contact, `without` for any part
+        /// without contact.
         part: &'static str,
         /// Number of points without contact.
         found: usize,
@@ -93,7 +94,7 @@ pub enum ExperimentError {
          retraction alone that ends without contact; an approach alone that is asked for"
     )]
     OneSegment,
-    /// The force is tensile where the body presses most.
+    /// The force is tensile at a place where the body is pressed most.
     #[error(
         "the force is negative where the body presses: {} at the {place}; allowed: another sign of the force, or the sign of the \
          file as stated",
@@ -116,15 +117,15 @@ pub enum ExperimentError {
         /// Numbers of the segments of the curve.
         segments: RangeInclusive<usize>,
     },
-    /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an
-    /// option.
+    /// The curve cannot be read or fitted, because a property of the curve, the scene or an option
+    /// is not allowed.
     #[error("{found}; allowed: {allowed}")]
     Refused {
         /// What was found in the curve, the scene or the options, in words.
         found: String,
         /// What is allowed instead, in words.
         allowed: String,
-        /// Steps that help; none if no single step does.
+        /// Steps that help; empty if no single step helps.
         remedies: Vec<Remedy>,
     },
     /// One of several curves has a fault.

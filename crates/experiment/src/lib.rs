@@ -4,14 +4,15 @@
 //!
 //! # Names by task
 //!
-//! * Reading a curve: [`MeasuredCurve::read`] takes a file and [`CurveOptions`], with a treatment
-//!   of drift ([`Drift`]), tilt ([`Tilt`]) and signs ([`Negate`]).
-//! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. Its [`FitResult`] has
-//!   a [`FittedParameter`] for each, and a [`Reason`] if the model does not describe the curve.
-//!   [`ParameterRow`] has name and unit of a [`Parameter`].
-//! * Fitting the curves of one rough specimen: [`fit_ensemble`] takes curves and
-//!   [`EnsembleOptions`]. Its [`EnsembleFit`] has [`IntervalEstimate`]s, [`Shares`], [`Prospect`]s,
-//!   [`RoughnessShifts`], [`SummaryDeviation`]s and a [`CurveOfEnsemble`] for each curve.
+//! * Reading a curve: [`MeasuredCurve::read`] reads a file. [`CurveOptions`] state how to treat
+//!   drift ([`Drift`]), tilt ([`Tilt`]) and signs ([`Negate`]).
+//! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. A [`FitResult`] has a
+//!   [`FittedParameter`] for each free parameter, and a [`Reason`] if the model does not describe
+//!   the curve. [`ParameterRow`] has name and unit of a [`Parameter`].
+//! * Fitting the curves of one rough specimen: [`fit_ensemble`] fits several curves together, with
+//!   [`EnsembleOptions`]. The result is an [`EnsembleFit`], which has [`IntervalEstimate`]s,
+//!   [`Shares`], [`Prospect`]s, [`RoughnessShifts`], [`SummaryDeviation`]s and a
+//!   [`CurveOfEnsemble`] for each curve.
 //! * Errors: an [`ExperimentError`] says why a curve cannot be read or fitted.
 
 mod curve;
@@ -33,7 +34,8 @@ pub use error::{CountedPart, ExperimentError};
 pub use fit::Fit;
 pub use fit::agreement::{Agreement, Grade};
 pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};
-pub use fit::ensemble::posterior::{CurveOfEnsemble, IntervalEstimate};
+pub use fit::ensemble::estimate::IntervalEstimate;
+pub use fit::ensemble::predictions::CurveOfEnsemble;
 pub use fit::ensemble::{EnsembleFit, EnsembleOptions, Prospect, Shares, fit_ensemble};
 pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;

@@ -1,13 +1,14 @@
-//! Contact with adhesion. The edge of the contact is a crack. It opens or closes where the energy
-//! that it would release on the length of one cell passes the work of adhesion. This energy is the
-//! virtual crack closure ½σg, where σ is the tension of a cell in contact and g the gap of an open
-//! cell beside it.
+//! Contact with adhesion. The edge of the contact is a crack. The crack opens or closes where the
+//! energy that it would release by moving by one cell passes the work of adhesion. This energy, per
+//! area, is the virtual crack closure ½σg, where σ is the tension of a cell in contact and g the
+//! gap of an open cell beside that cell.
 //!
 //! ½σg is exact for straight edges along the grid and at 45°. An edge in another direction moves by
 //! kinks. At a kink, the mean of ½σg over the open neighbours is about 1.27 times the value for a
 //! straight edge, for any number of cells. Therefore:
 //!
-//! * A cell opens if this mean exceeds [`OPENING`] times the work of adhesion.
+//! * A cell opens if the mean over its open neighbours exceeds [`OPENING`] times the work of
+//!   adhesion.
 //! * A cell closes if the mean over its neighbours in contact is below [`CLOSING`] times the work
 //!   of adhesion on closing.
 //!
@@ -21,12 +22,12 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Limit at which a cell opens: the ratio of the energy ½σg of a crack closure to the work of
-/// adhesion. The value was fitted to spheres and is used for all bodies.
+/// Limit at which a cell opens: the ratio of ½σg, the energy per area that the opening releases, to
+/// the work of adhesion. The value was fitted to spheres and is used for all bodies.
 pub const OPENING: f64 = 1.29;
 
-/// Limit at which a cell closes: the ratio of the energy ½σg of a crack closure to the work of
-/// adhesion on closing.
+/// Limit at which a cell closes: the ratio of ½σg, the energy per area of the crack closure, to the
+/// work of adhesion on closing.
 pub const CLOSING: f64 = 0.8;
 
 /// Allowed deviation of stresses, divided by the largest stress at an edge.
@@ -507,8 +508,8 @@ mod tests {
         assert!(dissipated > 0.0);
     }
 
-    /// The energy that a loop of a sphere dissipates is the energy of the one-dimensional model,
-    /// which is exact, plus a share that is due to the lattice.
+    /// A sphere that is pressed and pulled off dissipates the energy of the one-dimensional model,
+    /// which is exact for a sphere, plus a share that is due to the grid of cells.
     #[test]
     fn a_loop_dissipates_the_energy_of_its_jumps() {
         let (cells, critical) = (128, 20.0);

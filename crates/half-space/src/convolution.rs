@@ -3,7 +3,7 @@
 
 use asperity_data::{OutOfMemory, resized};
 use asperity_fourier::{
-    Complex, ComplexToReal, Fft, FftNum, RealToComplex, plan_forward, plan_inverse,
+    Complex, ComplexToReal, Fft, Precision, RealToComplex, plan_forward, plan_inverse,
     plan_real_forward, plan_real_inverse,
 };
 use std::sync::Arc;
@@ -16,9 +16,9 @@ const BLOCK: usize = 128;
 /// the processor.
 const TILE: usize = 16;
 
-/// A planned convolution of values of the type T. The rows are transformed first. Then each block
-/// of columns is gathered, transformed, multiplied by the transform of the kernel, transformed back
-/// and stored, in a single pass over the memory.
+/// A planned convolution of values of the type T. The rows are transformed first. Each block of
+/// columns is then processed in a single pass over the memory: it is gathered, transformed,
+/// multiplied by the transform of the kernel, transformed back and stored.
 pub struct Convolution<T> {
     /// Number of rows and columns of the grid.
     cells: usize,
@@ -50,13 +50,12 @@ struct PlannedColumns<T> {
     inverse: Arc<dyn Fft<T>>,
 }
 
-impl<T: FftNum + Default> Convolution<T> {
+impl<T: Precision + Default> Convolution<T> {
     /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
-    /// Returns the memory in bytes of a planned convolution, including the memory that its planning
-    /// needs. `cells` is the side of the grid and `padded` the side of the padded grid, both in
-    /// cells.
+    /// Returns the memory in bytes that a planned convolution and its planning need. `cells` is the
+    /// side of the grid and `padded` the side of the padded grid, both in cells.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
         let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * Self::apart(padded);
@@ -77,7 +76,8 @@ impl<T: FftNum + Default> Convolution<T> {
 
     /// Plans the convolution with a kernel that is given by its Fourier transform. The arguments of
     /// `transform` are the wave numbers (k_x, k_y): numbers of waves on the side of the padded
-    /// grid. A wave number above half of the number of padded cells means a negative wave number.
+    /// grid, from 0 to half of `padded`. Negative wave numbers are not needed, because the kernel
+    /// is even.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -167,8 +167,8 @@ impl<T: FftNum + Default> Convolution<T> {
     }
 
     /// Convolves a grid row by row. `from` writes the row of the grid with the given index, and
-    /// `to` reads the row of the result with the given index. Both functions receive `context`. A
-    /// row is thus made and used while it is in the cache of the processor.
+    /// `to` reads the row of the result with the given index. Both functions receive `context`. Row
+    /// by row, the values are made and used while they are in the cache of the processor.
     pub fn apply<C>(
         &mut self,
         context: &mut C,
@@ -262,7 +262,7 @@ impl<T: FftNum + Default> Convolution<T> {
 }
 
 /// Converts a number to the nearest value of the type T.
-fn number<T: FftNum>(value: f64) -> T {
+fn number<T: Precision>(value: f64) -> T {
     T::from_f64(value).unwrap_or_else(T::zero)
 }
 

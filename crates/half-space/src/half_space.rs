@@ -23,8 +23,8 @@ pub struct Square<'a> {
 /// The prescribed load of a contact: its force or its indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
-    /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of
-    /// the repeated squares.
+    /// Force in N, positive in compression. With [`Boundary::Periodic`] this is the force on one of
+    /// the copies of the square.
     Force(f64),
     /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`]. With
     /// [`Boundary::Periodic`] the mean displacement of the half-space is not determined, so a force
@@ -43,7 +43,7 @@ pub struct Pressed {
     /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is
     /// positive.
     pub force: f64,
-    /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the
+    /// Indentation in m from first touch. With [`Boundary::Periodic`] this is the depth of the
     /// highest point of the square below the mean plane of the deformed half-space.
     pub indentation: f64,
     /// Contact area in m²: the sum of the areas of the cells in contact.
@@ -54,10 +54,11 @@ pub struct Pressed {
     /// prescribed indentation instead, or by F/(E* L) for a prescribed force F and the side L.
     pub residual: f64,
     /// True if the solver has reached its goal: `residual` is at most the required tolerance, and
-    /// no pressure is negative. False if the solver has used all its steps before.
+    /// no pressure is negative. False if the solver has used all its steps without reaching the
+    /// goal.
     pub is_reached: bool,
-    /// Number of convolutions that the solver computed on its finest grid, a measure of the
-    /// computing work. The cells of the finest grid are those of the square.
+    /// Number of convolutions that the solver computed on its finest grid, whose cells are the
+    /// cells of the square. This number is a measure of the computing work.
     pub convolutions: u64,
 }
 
@@ -207,7 +208,7 @@ impl HalfSpace {
     }
 }
 
-/// Checks that a solver allows a number of cells along a side: a power of two from 32 to 8192.
+/// Checks that a number of cells along a side is allowed: a power of two from 32 to 8192.
 ///
 /// # Errors
 /// Returns an error if the number is not a power of two from 32 to 8192.
@@ -239,7 +240,8 @@ pub fn highest(square: &Square<'_>) -> Result<f64, HalfSpaceError> {
     Ok(highest)
 }
 
-/// Returns an error unless a value is positive.
+/// Returns an error unless the value `found` is positive. `name` is the name of the value in the
+/// error.
 pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     if found.is_normal() && found > 0.0 {
         return Ok(());

@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 /// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by
 /// row.
 ///
-/// The surface is a sum of waves with k_x periods along one side and k_y periods along the other. A
-/// wave contributes `variance`(k) to the mean square height, where k = √(k_x² + k_y²). The heights
-/// are in m if `variance` returns m². With the same `seed` and more cells, the surface has the same
-/// waves and additional shorter waves.
+/// The surface is a sum of waves with k_x periods along one side and k_y periods along the other.
+/// `variance`(k) with k = √(k_x² + k_y²) is the contribution of one wave to the mean square height.
+/// The heights are in m if `variance` returns m². With the same `seed` and more cells, the surface
+/// has the same waves and additional shorter waves.
 ///
 /// # Errors
 /// Returns an error if the heights do not fit into memory.

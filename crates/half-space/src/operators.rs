@@ -1,6 +1,6 @@
 //! Linear operators of a half-space on a square grid, in units of the side L and the effective
-//! modulus E*. There are three operators: the displacement by a pressure, the approximate inverse
-//! of this displacement, and the extension of values from a contact to the grid around it.
+//! modulus E*. The first operator computes the displacements that pressures cause. The second is an
+//! approximate inverse of the first. The third extends values from a contact to the grid around it.
 
 use super::convolution::Convolution;
 use asperity_data::{OutOfMemory, resized};
@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Number of sweeps that extend a residual beyond the contact. Each sweep extends it by one cell.
 const SWEEPS: usize = 6;
 
-/// What is on the surface of the half-space around the square: nothing, or copies of the square.
+/// What lies on the half-space around the square: nothing, or copies of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The square is the only body on the half-space.
@@ -22,7 +22,8 @@ pub enum Boundary {
 /// of the cell: (4/π) ln(1+√2).
 pub const OWN_DISPLACEMENT: f64 = 1.122_199_7;
 
-/// The linear operators of one grid, such as the displacements that pressures cause.
+/// The linear operators of one grid, such as the operator that computes displacements from
+/// pressures.
 pub struct Operators {
     cells: usize,
     displacement: Convolution<f64>,
@@ -33,7 +34,8 @@ pub struct Operators {
 }
 
 impl Operators {
-    /// Returns the memory in bytes of the operators of a grid with `cells` cells along a side.
+    /// Returns the memory in bytes that the operators of a grid with `cells` cells along a side
+    /// need.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         let padded = PaddedSides::of(cells, boundary);
         let sweeps = size_of::<f32>() * Sweeps::numbers(cells);
@@ -75,9 +77,9 @@ impl Operators {
         })
     }
 
-    /// Computes the displacements that pressures cause, row by row. `pressure` writes the pressures
-    /// of the row with the given index. `displacement` reads the displacements of the row with the
-    /// given index.
+    /// Computes the displacements that pressures cause, row by row. The caller gives two functions,
+    /// which get `context` and the index of a row. `pressure` writes the pressures of this row, and
+    /// `displacement` reads the displacements of this row.
     pub fn displace<C>(
         &mut self,
         context: &mut C,

@@ -1,11 +1,12 @@
 //! Contact without adhesion: conjugate gradients on a set of cells in contact, on nested grids.
 //!
-//! Each grid has cells of half the size of the coarser grid before, and starts from its solution.
-//! For a fixed set of cells in contact, preconditioned conjugate gradients (Polak and Ribière) make
-//! the gap on the set uniform. In the meantime pressures may become negative. Violations of the set
-//! are cells in contact that pull, and open cells that penetrate. The set changes when these
-//! violations are larger than the residual that the gradients have left on the contact. Polonsky
-//! and Keer (1999) had the idea to change the set in the same loop as the gradients.
+//! The cells of each grid have half the size of the cells of the next coarser grid. The solution on
+//! the coarser grid is the start on the finer one. For a fixed set of cells in contact,
+//! preconditioned conjugate gradients (Polak and Ribière) make the gap on the set uniform.
+//! Meanwhile pressures may become negative. A violation of the set is a cell in contact that pulls,
+//! or an open cell that penetrates. The set changes when these violations are larger than the
+//! residual that the gradients have left on the contact. Polonsky and Keer (1999) had the idea to
+//! change the set in the same loop as the gradients.
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
@@ -57,12 +58,12 @@ pub struct Grid {
     /// Depth of each cell of the rigid surface below the highest point.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// Displacement of the half-space plus depth of the rigid surface, for each cell. In the
-    /// solution, this sum has the same value in all cells in contact.
+    /// For each cell, the displacement of the half-space plus the depth of the rigid surface. In
+    /// the solution, this sum has the same value in all cells in contact.
     pub levels: Vec<f64>,
     /// 1 for a cell off the contact, 0 for a cell on the contact.
     pub outside: Vec<f32>,
-    /// Value that `levels` has in all cells in contact when the solution is found.
+    /// Value that `levels` has in all cells in contact, when the solution is found.
     pub level: f64,
     /// Number of cells in contact.
     count: f64,
@@ -122,7 +123,8 @@ struct DirectionRows<'a> {
 }
 
 impl Grid {
-    /// Returns the memory in bytes of a grid with `cells` cells along a side, and of its operators.
+    /// Returns the memory in bytes that a grid with `cells` cells along a side and its operators
+    /// need.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         Operators::bytes(cells, boundary) + (5 * 8 + 4 * 4) * (cells * cells) as u64
     }
@@ -147,8 +149,8 @@ impl Grid {
         })
     }
 
-    /// Sets the depth of each cell from the finer grid: the mean depth of the four finer cells in
-    /// the cell.
+    /// Sets the depth of each cell from the finer grid: the mean depth of the four finer cells that
+    /// lie in this cell.
     pub fn coarsen(&mut self, finer: &Grid) {
         let cells = self.cells;
         let fine = finer.cells;
@@ -179,7 +181,9 @@ impl Grid {
     }
 
     /// Sets the pressures and the cells in contact from the solution on the coarser grid `coarse`.
-    /// The edge of the contact lies where the interpolated [signed pressure](Grid::signed_pressure)
+    /// The edge of the contact follows from a length at each coarser cell. On the contact, this is
+    /// the displacement that the pressure of the cell causes at the cell; elsewhere it is minus the
+    /// gap. The length is interpolated between the coarser cells, and the edge lies where it
     /// changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;

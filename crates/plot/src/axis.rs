@@ -1,4 +1,4 @@
-//! Axes: scale, range, label and unit.
+//! Axes of charts: scale, range, label and unit.
 
 use super::label::{Label, prefixed};
 use super::scale::Span;
@@ -24,10 +24,10 @@ pub struct ChartAxis {
     pub symbol: String,
     /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names at the coordinates 0, 1, 2 and so on, which the axis shows instead of numbers. Empty
-    /// for an axis with numbers.
+    /// Names that the axis shows instead of numbers. They belong to the coordinates 0, 1, 2 and so
+    /// on. The list is empty for an axis with numbers.
     pub names: Vec<Label>,
-    /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
+    /// True if the quantity is a count. The axis then has ticks only at whole numbers.
     pub counts: bool,
 }
 
@@ -44,8 +44,8 @@ impl ChartAxis {
         }
     }
 
-    /// Creates a linear axis that shows these names, at the coordinates 0, 1, 2 and so on, instead
-    /// of numbers.
+    /// Creates a linear axis that shows names instead of numbers. The names belong to the
+    /// coordinates 0, 1, 2 and so on.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span {
             low: -0.5,
@@ -63,8 +63,8 @@ impl ChartAxis {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns the divisor by which the axis divides its numbers before it shows them, and the unit
-    /// of the divided numbers: for example, 1e-6 and `µN`.
+    /// Returns the prefix of the axis: the divisor of the numbers that the axis shows, and the unit
+    /// of the divided numbers. For example, forces of some µN give 1e-6 and `µN`.
     pub fn prefix(&self) -> (f64, String) {
         let lowest = self.scale.number(self.span.low).abs();
         let highest = self.scale.number(self.span.high).abs();
@@ -89,8 +89,8 @@ impl ChartAxis {
         (10_f64.powi(power), unit.trim_end().to_owned())
     }
 
-    /// Returns the axis for numbers that are divided by the quantity `unit`, such as F_a,max.
-    /// `symbol` is the symbol of this quantity.
+    /// Returns the axis of the quotient of this quantity and another quantity, such as F/F_a,max.
+    /// `unit` is the value and `symbol` the symbol of the other quantity.
     pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
         let divided = |coordinate: f64| self.scale.coordinate(self.scale.number(coordinate) / unit);
         ChartAxis {
@@ -104,8 +104,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the label of the axis: name, symbol and, in brackets, the unit with the prefix that
-    /// [`Self::prefix`] returns.
+    /// Returns the label of the axis: the name, the symbol and, in brackets, the unit. The unit has
+    /// the SI prefix that suits the range of the axis; see [`Self::prefix`].
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -128,7 +128,8 @@ impl ChartAxis {
     }
 
     /// Returns the label of the axis. If the full label would be wider than `most` times the font
-    /// size, the label contains only the symbol (or the name, if there is no symbol) and the unit.
+    /// size, the label consists of the symbol and the unit, or of the name and the unit if there is
+    /// no symbol.
     pub(super) fn label_within(&self, most: f64) -> Label {
         let label = self.label_with_unit();
         if label.width() <= most {
@@ -138,8 +139,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns a short label of the axis: the symbol and, in brackets, the unit. If the axis has no
-    /// symbol, the name takes its place.
+    /// Returns a short label of the axis: the symbol and, in brackets, the unit. An axis without a
+    /// symbol has its name instead.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -157,8 +158,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the ticks of the axis. About `most` ticks have a number, and between them are minor
-    /// ticks without a number. An axis with names has one tick at each name.
+    /// Returns the ticks of the axis. About `most` ticks have a number. The minor ticks between
+    /// them have no number. An axis with names has one tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let named = self.names.iter().enumerate().map(|(index, name)| Tick {
@@ -186,8 +187,8 @@ impl ChartAxis {
     }
 }
 
-/// Position in a chart, horizontal and vertical. Each is a share of the axis, from 0 at the left or
-/// lower end to 1 at the right or upper end.
+/// Horizontal and vertical position in a chart. Each number is a share of the axis, from 0 at the
+/// left or lower end to 1 at the right or upper end.
 pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
@@ -198,8 +199,8 @@ pub(super) struct Axes<'a> {
 
 impl Axes<'_> {
     /// Returns the position of a point (x, y) in the chart. A point outside the chart gets the
-    /// nearest position on the border. `None` if x or y has no coordinate, as 0 has none on a
-    /// logarithmic axis.
+    /// nearest position on the border. Returns `None` if x or y has no coordinate. For example, 0
+    /// has no coordinate on a logarithmic axis.
     pub(super) fn place(self, point: (f64, f64)) -> Option<Share> {
         let (_, y) = point;
         if !self.y.share(y).is_finite() {
@@ -208,9 +209,9 @@ impl Axes<'_> {
         self.place_at_end(point)
     }
 
-    /// Returns the position of a point (x, y) in the chart. If y has no coordinate, as 0 has none
-    /// on a logarithmic axis, the position is at the end of the vertical axis. `None` if x has no
-    /// coordinate.
+    /// Returns the position of a point (x, y) in the chart. If y has no coordinate, the position is
+    /// at the end of the vertical axis. Returns `None` if x has no coordinate. For example, 0 has
+    /// no coordinate on a logarithmic axis.
     pub(super) fn place_at_end(self, point: (f64, f64)) -> Option<Share> {
         let (x, y) = point;
         let across = self.x.share(x);
@@ -222,8 +223,8 @@ impl Axes<'_> {
         Some((across.clamp(0.0, 1.0), up))
     }
 
-    /// Returns the positions of points, divided into runs of successive points. A point without a
-    /// position, such as 0 on a logarithmic axis, ends a run.
+    /// Returns the positions of points, divided into groups of successive points. A point without a
+    /// position, such as 0 on a logarithmic axis, ends a group.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
         let mut runs = Vec::new();
         let mut run = Vec::new();
@@ -241,8 +242,8 @@ impl Axes<'_> {
     }
 
     /// Returns the positions along a line that passes through the lowest and the highest point of
-    /// each column. In each column, the line first goes to the point that is nearer to its end in
-    /// the previous column. A column outside the chart begins a new run of positions.
+    /// each column. In each column, the line first goes to the point that is nearer to the end of
+    /// the line in the previous column. A column outside the chart begins a new list of positions.
     pub(super) fn envelope(self, x: (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
         let (from, to) = x;
         let mut points = Vec::with_capacity(2 * columns.len());
@@ -261,9 +262,9 @@ impl Axes<'_> {
         self.runs(points.into_iter())
     }
 
-    /// Returns the two ends of a line across the chart: a vertical line at x = `number` if
-    /// `is_vertical` is true, otherwise a horizontal line at y = `number`. `None` if the line lies
-    /// outside the chart.
+    /// Returns the two ends of a straight line across the chart: a vertical line at x = `number` if
+    /// `is_vertical` is true, otherwise a horizontal line at y = `number`. Returns `None` if the
+    /// line lies outside the chart.
     pub(super) fn guide(self, number: f64, is_vertical: bool) -> Option<[Share; 2]> {
         let axis = if is_vertical { self.x } else { self.y };
         let share = axis.share(number);

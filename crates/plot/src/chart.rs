@@ -16,10 +16,10 @@ pub struct Figure {
     /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
     /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given,
-    /// only the ratio of width to height is used.
+    /// only the ratio of this width and height is used.
     pub size: (f64, f64),
-    /// Lines that say how to compute the figure again: version, command and scene. They are written
-    /// only into SVG documents, as metadata.
+    /// Lines that state how to compute the figure again: version, command and scene. Only SVG
+    /// documents contain these lines, as metadata.
     pub origin: String,
     /// Lines of text in a box below the legend, such as the parameters of the scene.
     pub parameters: Vec<Label>,
@@ -29,18 +29,20 @@ pub struct Figure {
     /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the
     /// frames need.
     pub height: Option<f64>,
-    /// True if the picture is drawn without the title, because a caption outside the picture has
-    /// the title.
+    /// True if the picture is drawn without the title, because a caption outside the picture
+    /// contains the title.
     pub untitled: bool,
 }
 
 impl Figure {
-    /// Usual [`Self::size`] in px if the figure has a map or several charts.
+    /// Usual size in px of the frame of each chart ([`Self::size`]), in a figure with a heat map or
+    /// with several charts.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Usual [`Self::size`] in px if the figure has a single chart.
+    /// Usual size in px of the frame of the chart ([`Self::size`]), in a figure with only one
+    /// chart.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Usual [`Self::size`] in px if the charts have the position along the profile as horizontal
-    /// axis.
+    /// Usual size in px of the frame of each chart ([`Self::size`]), if the horizontal axis of the
+    /// charts is the position along the profile.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart with this title.
@@ -95,7 +97,7 @@ impl Figure {
         }
     }
 
-    /// Returns the figure with only the charts that have these letters, in the order of `letters`.
+    /// Returns the figure with only the charts that `letters` selects, in the order of `letters`.
     /// For example, `ac` selects the first and the third chart.
     ///
     /// # Errors
@@ -120,8 +122,8 @@ impl Figure {
         ('a'..='z').take(self.charts.len()).collect()
     }
 
-    /// Returns the heading of a chart, which begins with the letter of the chart; `None` if the
-    /// figure has only one chart.
+    /// Returns the heading of the chart with this index, which begins with the letter of the chart.
+    /// Returns `None` if the figure has only one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
         if self.charts.len() < 2 {
             return None;
@@ -169,10 +171,10 @@ impl Chart {
         self
     }
 
-    /// Divides the numbers on one or both axes, and the data of the layers, by a quantity. For
-    /// example, the chart then shows F/F_a,max instead of F. Each argument has the value and the
-    /// symbol of the quantity; `None` leaves the axis as it is. The values of heat maps are not
-    /// changed.
+    /// Divides the numbers on one or both axes, and the data of the layers, by a quantity. The
+    /// chart then shows F/F_a,max instead of F, for example. `x` and `y` are the value and the
+    /// symbol of the quantity for this axis; `None` leaves the axis unchanged. The values of heat
+    /// maps are not changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         let mut x_unit = 1.0;
         if let Some((unit, symbol)) = x {
@@ -213,7 +215,7 @@ impl Chart {
 pub struct Layer {
     /// Name that the legend shows. A layer with an empty name is not in the legend.
     pub name: Label,
-    /// Meaning of the data, such as a loading, which determines their colour.
+    /// Meaning of the data, such as a loading. The meaning determines the colour of the data.
     pub ink: Ink,
     /// The data, and the shape in which they are drawn, such as a curve or a heat map.
     pub shape: Shape,
@@ -318,8 +320,8 @@ impl Layer {
 }
 
 /// Data of a layer, and the shape in which they are drawn. Each x is a number on the horizontal
-/// axis, and each y a number on the vertical axis. A point without a coordinate, such as 0 on a
-/// logarithmic axis, interrupts a curve or a band.
+/// axis, and each y a number on the vertical axis. A curve or a band is interrupted at a point that
+/// the axes cannot show, such as 0 on a logarithmic axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Line through points, markers at the points, or both.
@@ -333,7 +335,7 @@ pub enum Shape {
     /// Area between two curves. Each point is (x, lower y, upper y).
     Band(Vec<(f64, f64, f64)>),
     /// Line with more points than a picture can show. The x axis is divided into many columns of
-    /// equal width, and only the lowest and the highest y in each column are kept.
+    /// equal width. Only the lowest and the highest y of the line in each column are stored.
     Envelope {
         /// x at the left edge of the first column, and x at the right edge of the last column.
         x: (f64, f64),
@@ -358,10 +360,10 @@ pub enum Shape {
 pub enum Stroke {
     Solid,
     Dashed,
-    /// Short dashes, as long as the gaps between them.
+    /// Short dashes. The gaps between the dashes are as long as the dashes.
     Dotted,
     DashDotted,
-    /// Dots with large gaps.
+    /// Dots, with gaps that are much longer than the dots.
     Sparse,
 }
 
@@ -383,8 +385,8 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Returns the marker of a curve in a chart with several curves. `number` counts these curves
-    /// from 0.
+    /// Returns the marker of one of several curves in a chart. `number` is the index of the curve
+    /// among them, from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
@@ -394,18 +396,19 @@ impl Sign {
 /// scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// For each column of cells, the number on the horizontal axis. The numbers ascend.
+    /// Number on the horizontal axis of each column of cells. The numbers ascend.
     pub columns: Vec<f64>,
-    /// For each row of cells, the number on the vertical axis. The numbers ascend.
+    /// Number on the vertical axis of each row of cells. The numbers ascend.
     pub rows: Vec<f64>,
-    /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
+    /// Value of each cell, row by row from the lower left cell; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
     /// Axis of the colour scale: the quantity that the colours show, and the range of its values.
     pub key: ChartAxis,
     /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`];
-    /// `None` for a cell without a class. The list is empty for a map without classes.
+    /// Class of each cell, in the order of [`Self::values`]. A class is an index of
+    /// [`Self::class_names`]; `None` is a cell without a class. The list is empty for a map without
+    /// classes.
     pub classes: Vec<Option<usize>>,
     /// Classes that cells can have, such as regimes of adhesion; empty for a map without classes.
     pub class_names: Vec<Class>,
@@ -422,15 +425,16 @@ pub struct Class {
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
-    /// Meaning of the class, which determines its colour or style in a terminal without colours.
+    /// Meaning of the class. The meaning determines the colour of the class, or the style of the
+    /// class in a terminal without colours.
     pub ink: Ink,
 }
 
 /// Line in a heat map along which a quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Value in each cell of the map of the quantity that is constant along the line, in the order
-    /// of [`HeatMap::values`]; `None` for a cell without a value.
+    /// Value, in each cell of the map, of the quantity that is constant along the line. The order
+    /// is the order of [`HeatMap::values`]. `None` for a cell without a value.
     pub field: Vec<Option<f64>>,
     /// Value of the quantity along the line, in the same unit as [`Self::field`].
     pub level: f64,
@@ -439,20 +443,20 @@ pub struct Contour {
 }
 
 impl HeatMap {
-    /// Returns the colour of a value on the colour scale [`Self::key`].
+    /// Returns the colour that the colour scale [`Self::key`] has for a value.
     pub fn colour(&self, value: f64) -> Rgb {
         self.shades.at(self.key.share(value))
     }
 
     /// Returns the index of the colour band that contains a value. The colour scale is divided into
-    /// [`Shades::BANDS`] bands, and band 0 has the lowest values.
+    /// [`Shades::BANDS`] bands. Band 0 has the lowest values.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the borders between the map cells along an axis. There is one cell around each of
-    /// `values`, so there is one more border than values. A border is a coordinate: a number on a
-    /// linear axis, and the decadic logarithm of a number on a logarithmic axis.
+    /// Returns the borders of the map cells along one axis. Each of `values` lies inside one cell,
+    /// so there is one more border than values. A border is a coordinate: a number on a linear
+    /// axis, and the decadic logarithm of a number on a logarithmic axis.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let coordinates: Vec<f64> = values
             .iter()
@@ -487,12 +491,12 @@ impl HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
-    /// Lines, areas or markers that the legend shows before the name, each with the meaning that
-    /// determines its colour.
+    /// Lines, areas or markers that the legend shows before the name. Each has an ink: the meaning
+    /// that determines its colour.
     pub samples: Vec<(Ink, Sample)>,
 }
 
-/// Small picture in a legend that shows how a layer is drawn.
+/// Small picture in a legend that shows how a layer with this name is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// Line, marker, or a line with a marker on it.
@@ -501,7 +505,7 @@ pub enum Sample {
     Area,
     /// A filled area.
     Solid,
-    /// Straight line across the whole chart, vertical or horizontal.
+    /// A straight line that crosses the whole chart, vertically or horizontally.
     Guide,
     /// The line of a [`Contour`].
     Contour,

@@ -52,32 +52,32 @@ impl Palette {
 }
 
 /// Meaning of a line, an area or a text in a chart. For example, `Loading` marks the curve of a
-/// loading. The colour of an ink depends on the output format.
+/// loading. The meaning determines the colour, which depends on the output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
     Text,
     /// Lines and marks in the background, such as a line at zero.
     Quiet,
-    /// Rough profile.
+    /// The rough profile of the rigid body.
     Profile,
-    /// Surface of the elastic body.
+    /// The surface of the elastic body.
     Surface,
-    /// Springs in contact.
+    /// The springs that are in contact.
     Contact,
-    /// Loading stages.
+    /// Curves of loading stages.
     Loading,
-    /// Unloading stages.
+    /// Curves of unloading stages.
     Unloading,
-    /// Force curve along which the user moves the body by hand, in the explorer.
+    /// Force curve of a motion by hand: in the explorer, the user moves the body along this curve.
     Manual,
     /// Earlier curve that stays in the background, so that it can be compared with the present
     /// curve.
     Kept,
     /// One of several curves that the user keeps for comparison. The value is the index of this
-    /// curve, from 0.
+    /// curve among them, from 0.
     Compared(usize),
-    /// State of the contact that the user selected with the cursor.
+    /// The state of the contact that the user selected with the cursor.
     Cursor,
     /// One of several curves in a figure. The value is the index of this curve, from 0.
     Series(usize),
@@ -128,11 +128,11 @@ const BLUE_TO_RED: [Rgb; 9] = rgb([
 ]);
 
 impl Shades {
-    /// Number of bands into which an SVG figure divides the colour scale. Each band has one colour.
+    /// Number of bands into which an SVG figure divides a colour scale. Each band has one colour.
     pub const BANDS: usize = 64;
 
-    /// Returns the colour of a band. The colour scale is divided into [`Self::BANDS`] bands, and
-    /// band 0 has the lowest values.
+    /// Returns the colour of a band. The colour scale is divided into [`Self::BANDS`] bands. Band 0
+    /// has the lowest values.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
@@ -146,8 +146,8 @@ impl Shades {
         }
     }
 
-    /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the
-    /// highest value. For NaN it returns the colour at 0.
+    /// Returns the colour at a position on the colour scale. The position is 0 for the lowest value
+    /// and 1 for the highest value. NaN gives the colour at 0.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() {
@@ -171,7 +171,8 @@ fn lightness([red, green, blue]: Rgb) -> f64 {
     (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
 }
 
-/// Returns the colour of text on this background: black or white, whichever is easier to read.
+/// Returns the colour of text on the background `colour`: black or white, whichever is easier to
+/// read.
 pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 {
         [0; 3]

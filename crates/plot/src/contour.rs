@@ -1,4 +1,4 @@
-//! Lines along which a field on a grid has a given value, computed by marching squares.
+//! Lines along which a field on a grid has a given value. They are computed by marching squares.
 
 /// Point in coordinates of the grid.
 type Point = (f64, f64);
@@ -19,9 +19,10 @@ impl Corner {
 }
 
 /// Returns the line along which a field has the value `level`, as straight pieces that meet at
-/// their ends. `field` has a value for each grid point, row by row, and is interpolated linearly
-/// along the edges of the grid. A grid square with a missing corner has no piece. If the line
-/// crosses a square twice, the mean of the corners decides how the crossings are connected.
+/// their ends. `field` has a value for each grid point, row by row. Along the edges of the grid,
+/// the field is interpolated linearly. A grid square with a missing corner has no piece. If the
+/// line crosses a square twice, the mean of the four corners decides how the crossings are
+/// connected.
 pub(super) fn contour(
     across: &[f64],
     up: &[f64],

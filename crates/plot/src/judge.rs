@@ -1,11 +1,11 @@
-//! Checks of drawn pictures for tests: functions that list the elements of a picture, and checks of
-//! properties that every figure must have.
+//! Checks of drawn pictures for tests. There are functions that list the elements of a picture, and
+//! checks of properties that every figure must have.
 
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns the tags of an SVG document, each as a text with the name and the attributes of the
-/// element, and the text of the document. Panics if the document is not well-formed.
+/// Returns the tags of an SVG document, and the text of the document without tags. Each tag is a
+/// text with the name and the attributes of an element. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let mut elements = Vec::new();

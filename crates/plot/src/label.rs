@@ -20,7 +20,7 @@ pub(crate) enum Face {
 const FIXED: char = '\u{a0}';
 
 /// Text in a figure, which can contain italic symbols, indices and exponents. `to_string` returns
-/// it as plain text, such as `F_a`.
+/// the text without typesetting, such as `F_a`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
@@ -80,8 +80,8 @@ impl Label {
         }
     }
 
-    /// Creates a label from a statement such as `H = 0.3`. The symbol is italic and the value is
-    /// upright.
+    /// Creates a label from a statement about a symbol, such as `H = 0.3`. The symbol is italic and
+    /// the value is upright.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -95,7 +95,7 @@ impl Label {
         label
     }
 
-    /// Appends upright text.
+    /// Appends upright text to the label, and returns the label.
     pub fn then(mut self, text: &str) -> Label {
         self.push(Face::Upright, &printable(text));
         self
@@ -116,8 +116,8 @@ impl Label {
         &self.runs
     }
 
-    /// Returns the approximate width of the label, divided by the font size, in a wide sans-serif
-    /// font.
+    /// Returns the approximate width of the label in a wide sans-serif font, divided by the font
+    /// size.
     pub fn width(&self) -> f64 {
         self.runs
             .iter()
@@ -255,8 +255,9 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Chooses the SI prefix with which numbers up to `largest` have few digits. Returns the number by
-/// which they are divided, and the unit with the prefix. For example, 0.02 N gives 1e-3 and `mN`.
+/// Chooses the SI prefix with which numbers up to `largest` have few digits. `largest` is in the
+/// unit `unit`. Returns the divisor of the numbers and the unit with the prefix. For example, 0.02
+/// N gives 1e-3 and `mN`.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -273,7 +274,7 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// Writes a number with the decimals that are needed to write multiples of `step`.
+/// Writes a number with as many decimals as multiples of `step` need.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
@@ -284,8 +285,8 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{sign}{whole}{fraction}")
 }
 
-/// Creates a label from a quantity and its value in the SI unit `unit`: `F_n = 12.5 µN`, or
-/// `preload 12.5 µN` if `symbol` is empty.
+/// Creates a label from a quantity and its value in the SI unit `unit`, such as `F_n = 12.5 µN`. If
+/// `symbol` is empty, the label has the name instead, such as `preload 12.5 µN`.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     let text = if is_count {
@@ -296,8 +297,8 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     statement(name, symbol, &text)
 }
 
-/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or
-/// `Hurst exponent 0.3` if `symbol` is empty.
+/// Creates a label from a quantity and its value, which is given as text, such as `H = 0.3`. If
+/// `symbol` is empty, the label has the name instead, such as `Hurst exponent 0.3`.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     if symbol.is_empty() {

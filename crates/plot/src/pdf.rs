@@ -1,6 +1,6 @@
 //! Converts SVG documents to PDF files of one page, which is as large as the document. The outlines
-//! are the same as in [`super::png::tree`]. Text remains text in embedded fonts, so that viewers
-//! can search it and editors can change it.
+//! are those of [`super::png::tree`]. Text remains text in embedded fonts, so that viewers can
+//! search the text and editors can change it.
 
 use super::chart::Figure;
 use super::pdf_font::PdfFont;

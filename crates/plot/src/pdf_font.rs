@@ -1,5 +1,5 @@
-//! A font embedded in a PDF file. The file also contains the letters of each glyph, so that viewers
-//! can search the text.
+//! A font embedded in a PDF file. For each glyph the file also contains the letters that the glyph
+//! shows, so that viewers can search the text.
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -71,14 +71,14 @@ impl PdfFont {
         format!("f{index}")
     }
 
-    /// Returns the first object number of the font with this index. `first` is the smallest object
-    /// number of all fonts.
+    /// Returns the first object number of the font with this index. `first` is the first object
+    /// number of all fonts together.
     pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
         Ref::new(first + OBJECTS * index as i32)
     }
 
-    /// Shows a glyph on the page and returns its width, in thousandths of the font size. `letters`
-    /// is the text of this glyph.
+    /// Shows a glyph on the page. Returns the width of the glyph in thousandths of the font size.
+    /// `letters` is the text that the glyph shows.
     pub(super) fn show(
         &mut self,
         items: &mut PositionedItems<'_>,
@@ -102,8 +102,8 @@ impl PdfFont {
         1000.0 * f32::from(advance.unwrap_or(0)) / self.units_per_em
     }
 
-    /// Writes the PDF objects of the font. `first` is the smallest object number of all fonts, and
-    /// `index` the index of this font on the page.
+    /// Writes the PDF objects of the font. `first` is the first object number of all fonts
+    /// together, and `index` is the index of this font on the page.
     pub(super) fn write(&self, pdf: &mut Pdf, first: i32, index: usize) -> io::Result<()> {
         let reference = self.reference(first, index);
         let [cid, descriptor, letters, file] =

@@ -1,5 +1,5 @@
-//! Converts SVG documents to PNG files, with embedded fonts. Equal documents give equal pixels on
-//! every computer.
+//! Converts SVG documents to PNG files. The fonts are embedded in the program, so that equal
+//! documents give equal pixels on every computer.
 
 use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
@@ -25,8 +25,8 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PNG file. The resolution is 600 dpi if
-    /// [`Self::width`] is given, otherwise 192 dpi.
+    /// Draws the figure and returns the content of a PNG file. The resolution is 600 dpi if the
+    /// figure has a given [`Self::width`], otherwise 192 dpi.
     ///
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).

@@ -1,4 +1,4 @@
-//! Ranges of coordinates.
+//! Ranges of coordinates that axes show.
 
 use asperity_data::AxisScale;
 
@@ -15,8 +15,8 @@ pub struct Span {
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by
-    /// `room` times its width. If there are no finite coordinates, the range is 0 to 1.
+    /// Returns the range from the smallest to the largest finite coordinate. The range is widened
+    /// at each end by `room` times its width. Without any finite coordinate, the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -50,11 +50,12 @@ impl Span {
         }
     }
 
-    /// Returns the range of coordinates of an axis that shows these values.
+    /// Returns the range of coordinates of an axis that shows these values, from the smallest to
+    /// the largest value, with two exceptions:
+    ///
     /// * On a linear scale, the range begins at zero if the smallest value is at least 0 and at
     ///   most 0.3 times the largest value.
-    /// * On a logarithmic scale, the range ends at the largest value and has at most `decades`
-    ///   decades.
+    /// * On a logarithmic scale, the range has at most `decades` decades, up to the largest value.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -69,8 +70,8 @@ impl Span {
         }
     }
 
-    /// Returns the smallest range of whole decades (at least one decade) that contains these
-    /// coordinates of a logarithmic scale.
+    /// Returns the smallest range of whole decades, at least one, that contains these coordinates.
+    /// The coordinates are decadic logarithms, as on a logarithmic scale.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();
@@ -80,7 +81,7 @@ impl Span {
         }
     }
 
-    /// Returns the range, widened at each end by `room` times its width.
+    /// Returns this range, widened at each end by `room` times the width of the range.
     pub fn widened(self, room: f64) -> Span {
         let margin = room * self.width();
         Span {
@@ -93,7 +94,7 @@ impl Span {
         self.high - self.low
     }
 
-    /// Returns the lower and the upper end.
+    /// Returns the lower and the upper end of the range.
     pub fn bounds(self) -> [f64; 2] {
         [self.low, self.high]
     }

@@ -1,4 +1,4 @@
-//! Ticks of axes.
+//! Ticks of the axes of a chart: their positions and labels.
 
 use super::label::{Label, number};
 use super::scale::Span;
@@ -11,16 +11,16 @@ const PLAIN: RangeInclusive<f64> = -3.5..=4.5;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Coordinate of the tick: its number on a linear axis, the decadic logarithm of its number on
-    /// a logarithmic axis.
+    /// Coordinate of the tick. On a linear axis it is the number at the tick, on a logarithmic axis
+    /// the decadic logarithm of this number.
     pub at: f64,
     /// Number or name that is written at the tick; `None` for a minor tick.
     pub label: Option<Label>,
 }
 
-/// Returns the ticks in a range of coordinates. About `most` of them have a label. The numbers in
-/// the labels are divided by `divisor`, which belongs to the prefix of the unit. On a linear axis,
-/// the distance between ticks is at least `least`.
+/// Returns the ticks in a range of coordinates of an axis. About `most` ticks have a label. The
+/// numbers in the labels are divided by `divisor`, which belongs to the prefix of the unit. On a
+/// linear axis, the distance between ticks is at least `least`, in the unit without prefix.
 pub(super) fn ticks(
     scale: AxisScale,
     span: Span,

@@ -31,8 +31,9 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// Returns an object for each boundary. The boundary is the κ or e_el/γ at which the adhesion
-    /// force without a preload falls below a stated share of F_a,max.
+    /// Returns an object whose list `boundaries` has an item for each boundary at which adhesion
+    /// vanishes. A boundary is the value of κ or e_el/γ at which the adhesion force without a
+    /// preload falls below a stated share of F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let boundaries: Vec<Value> = self
             .found

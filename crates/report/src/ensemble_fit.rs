@@ -32,7 +32,8 @@ const INDEPENDENT: &str = "Each curve counts as a place with a profile of its ow
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     pub title: &'a str,
-    /// Result of [`fit_ensemble`](asperity_experiment::fit_ensemble).
+    /// Work of adhesion that follows from the curves, and its interval, as
+    /// [`fit_ensemble`](asperity_experiment::fit_ensemble) returns them.
     pub fit: &'a EnsembleFit,
     /// True if the user stated a standard error of the rms height or of the Hurst exponent.
     pub has_roughness_errors: bool,

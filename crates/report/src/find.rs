@@ -17,20 +17,21 @@ use serde::Serialize;
 /// report states only the number.
 const MOST_LISTED: usize = 8;
 
-/// Report on a search in a scene: which value of a number, such as the preload, gives a wanted
-/// value of a result, such as the adhesion force.
+/// Report on a search for the value of one number of a scene, such as the preload, with which a
+/// result, such as the adhesion force, has a wanted value.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     pub title: &'a str,
-    /// Scene in which the number is varied.
+    /// Scene, one number of which, such as the preload, is varied in the search.
     pub scene: &'a Scene,
-    /// Values of the number at which the result reaches the wanted value, on each profile.
+    /// Values of the varied number, on each profile, with which the result has the wanted value.
     pub found: &'a Found,
 }
 
-/// Returns the answer of a search in one or two sentences. They state the median and the quartiles,
-/// over the profiles, of the number at which the result reaches the wanted value. They also state
-/// how many profiles have no such number, and where a crossing may be missed.
+/// Returns the answer of a search in one or two sentences. The sentences state the median and the
+/// quartiles, over the profiles, of the number with which the result reaches the wanted value. The
+/// sentences also state how many profiles have no such number, and where the search may have missed
+/// a number.
 pub fn found_in_words(found: &Found) -> String {
     let words = SearchWords::new(found);
     let reaches_always = found.answers.iter().all(reaches_everywhere);

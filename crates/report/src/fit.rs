@@ -30,7 +30,8 @@ pub struct FitReport<'a> {
     pub title: &'a str,
     /// Measured force curve to which the scene was fitted.
     pub curve: &'a MeasuredCurve,
-    /// Fitted parameters of the scene, and how well it describes the curve.
+    /// Fitted parameters of the scene, and how well the scene with these parameters describes the
+    /// curve.
     pub fit: &'a FitResult,
     /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
     /// of an error or a warning. The words name an option of the command line, a row of the

@@ -8,8 +8,8 @@ use asperity_plot::{
 use asperity_scene::Outcome;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 
-/// Two quantities of a force loop that a chart shows over each other. A force loop is the curve of
-/// loading and unloading.
+/// Pair of quantities that a chart of a force loop shows, one over the other. A force loop is the
+/// curve of loading and unloading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     /// Force over the indentation.
@@ -24,8 +24,8 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that the explorer shows after this one. `deflects` is false
-    /// for a rigid instrument, and the pair `ForceDisplacement` is then left out.
+    /// Returns the pair of quantities that the explorer shows after this pair. If `deflects` is
+    /// false, the instrument is rigid, and the pair `ForceDisplacement` is left out.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -38,8 +38,8 @@ impl LoopQuantities {
     }
 }
 
-/// Quantities of a chart of force loops, with the units of its axes: SI units, or parameters of a
-/// scene such as the rms height.
+/// Quantities on the two axes of a chart of force loops, and their units: SI units, or parameters
+/// of a scene such as the rms height.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
@@ -117,7 +117,7 @@ impl Quantity {
 }
 
 impl LoopUnits {
-    /// Returns these quantities with axes in SI units.
+    /// Returns the pair `quantities` with SI units on both axes.
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
         LoopUnits {
             quantities,
@@ -125,9 +125,10 @@ impl LoopUnits {
         }
     }
 
-    /// Returns these quantities for a chart of a computed scene. If `normalised` is true, the
-    /// indentation is in units of the rms height h, the force in units of F_a,max, and lengths in
-    /// units of L; otherwise all are in SI units.
+    /// Returns the pair `quantities` with the units for a chart of a computed scene. If
+    /// `normalised` is true, the indentation is in units of the rms height h, the force in units of
+    /// the ideal adhesion force F_a,max, and lengths in units of the length L of the profile.
+    /// Otherwise all quantities are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let units = LoopUnits {
             stiffness: outcome.instrument.map(|instrument| instrument.stiffness),
@@ -456,8 +457,8 @@ impl LoopLine {
     }
 }
 
-/// Returns one chart of all `loops`, with axes for the quantities `units`. Each loop is drawn over
-/// the loops before it.
+/// Returns one chart of all `loops`. `units` states the quantities on the two axes and their units.
+/// Each loop is drawn over the loops before it.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let mut places = Vec::new();
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];

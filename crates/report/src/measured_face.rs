@@ -20,13 +20,13 @@ pub struct SurfaceFile {
     pub name: String,
     /// Name of the file format, such as `SDF`.
     pub format: &'static str,
-    /// Number of points in a row, and for a map the number of rows.
+    /// Number of points in a row and, for a map, also the number of rows.
     pub points: Vec<usize>,
-    /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly
-    /// spaced.
+    /// Length of a row in m and, for a map, also the length of a column in m. A length is 0 if the
+    /// points are not evenly spaced.
     pub lengths: Vec<f64>,
-    /// Numbers of columns and rows without measured heights that were left out at the borders of a
-    /// map, or number of points without a height that were left out at the ends of a profile.
+    /// Sizes of the borders without measured heights that were left out. For a map these are the
+    /// number of columns and the number of rows, for a profile the number of points.
     pub cropped: Vec<usize>,
     /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,
@@ -132,7 +132,7 @@ impl SurfaceFile {
 pub struct MeasuredFace {
     /// Facts about each surface and its file.
     pub files: Vec<SurfaceFile>,
-    /// Spectrum and moments of all these surfaces together, with a fit of the spectrum.
+    /// Spectrum and moments of all surfaces in `files` together, with a fit of the spectrum.
     pub analysis: Analysis,
 }
 

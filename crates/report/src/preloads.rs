@@ -28,21 +28,23 @@ pub struct PreloadReport<'a> {
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Results computed so far, such as the adhesion force, for each preload and each profile. The
-    /// quantities are [`Results::OF_PRELOADS`].
+    /// Results computed so far, such as the adhesion force, for each preload and each profile.
+    /// [`Results::OF_PRELOADS`] lists the quantities.
     pub results: &'a Results,
     /// Adhesion force of the first profile as a function of the preload; `None` for a report
     /// without a figure.
     pub staircase: Option<&'a Staircase>,
     /// True if the table has a row for each preload of the curve in [`Self::staircase`]. False if
-    /// it has a row for each preload and each profile.
+    /// the table has a row for each combination of a preload and a profile.
     pub curves: bool,
 }
 
 impl<'a> PreloadReport<'a> {
     /// Returns the figure of two charts: the adhesion force over the preload, and its distribution
-    /// over the profiles at the largest preload. `None` if there is no [`Self::staircase`]. If
-    /// `has_values` is true, the legend states the values of F_a(d=0) and F_a(F=0).
+    /// over the profiles at the largest preload. Returns `None` if there is no [`Self::staircase`].
+    /// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0)
+    /// after a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero
+    /// force.
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let staircase = self.staircase?;
         let spread = self.results.spread_of_adhesion();
@@ -158,8 +160,8 @@ impl Report for PreloadReport<'_> {
         Some(Box::new(PreloadJson::new(self)))
     }
 
-    /// Returns a table with a row for each preload and each profile or, if [`Self::curves`] is
-    /// true, for each preload of the [`Self::staircase`].
+    /// Returns a table with a row for each preload of the [`Self::staircase`] if [`Self::curves`]
+    /// is true. Otherwise the table has a row for each combination of a preload and a profile.
     fn table(&self) -> Option<Table<'_>> {
         if let Some(staircase) = self.listed_staircase() {
             return Some(curve_table(self.results, staircase));
@@ -400,8 +402,8 @@ fn value_or_dash(value: Option<f64>, unit: &str) -> String {
 
 /// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
 /// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
-/// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0) of
-/// an unloading from first touch, and F_a(F=0) of an unloading from zero force.
+/// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0) after
+/// a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero force.
 pub fn preload_chart(
     staircase: &Staircase,
     spread: &[(f64, Statistics)],

@@ -13,22 +13,22 @@ use strum::IntoStaticStr;
 /// Result that can be written in one or more of four forms: text, JSON, table, figure. The method
 /// of a missing form returns `None`.
 pub trait Report {
-    /// Returns the result as plain text of at most 80 columns.
+    /// Returns the result as plain text of at most 80 columns; `None` if the result has no text.
     fn text(&self) -> Option<String> {
         None
     }
 
-    /// Returns the result as JSON.
+    /// Returns the result as JSON; `None` if the result cannot be written as JSON.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         None
     }
 
-    /// Returns the result as a table.
+    /// Returns the result as a table; `None` if the result has no table.
     fn table(&self) -> Option<Table<'_>> {
         None
     }
 
-    /// Returns the result as a figure.
+    /// Returns the result as a figure; `None` if the result has no figure.
     fn figure(&self) -> Option<Figure> {
         None
     }
@@ -95,8 +95,9 @@ fn column_name(axis: &ChartAxis) -> String {
     format!("{} ({})", axis.symbol_or_name(), axis.unit)
 }
 
-/// Writes a report in a format. `provenance` contains the lines of
-/// [`scene_provenance`](crate::scene_provenance). They are written only into CSV, SVG and JSON.
+/// Writes a report in a format. `provenance` has the lines of
+/// [`scene_provenance`](crate::scene_provenance). These lines are written only into CSV, SVG and
+/// JSON.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be
@@ -153,7 +154,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats. A given result may lack the forms that some of them need.
+    /// All formats in which results can be written. A result without a table, for example, cannot
+    /// be written in the formats of tables.
     pub const ALL: [Format; 7] = [
         Format::Text,
         Format::Json,

@@ -27,7 +27,8 @@ pub struct ReversalReport<'a> {
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
-    /// Force F(d_r, d) along the unloading from each turning point d_r.
+    /// Force F(d_r, d) at the indentation d on the unloading from each turning point d_r, the
+    /// indentation at which the loading ends.
     pub map: &'a ReversalMap,
     /// Adhesion force and other quantities of the unloading ([`Results::OF_PRELOADS`]) as functions
     /// of the preload; `None` if no preload presses the bodies together.

@@ -267,7 +267,8 @@ pub struct PathReport<'a> {
     pub loading: &'a [Move],
     /// Points of the force curve along the stages of [`Self::loading`].
     pub path: &'a [CurvePoint],
-    /// For each point, the index of its stage in `loading`.
+    /// For each point of [`Self::path`], the index in [`Self::loading`] of the stage on which the
+    /// point lies.
     pub stages: &'a [usize],
 }
 

@@ -9,24 +9,23 @@ use std::ops::Range;
 /// Rigid profile and its contact with the elastic surface at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Gap at each spring, m: depth of the profile at this spring below the highest point of the
-    /// profile.
+    /// Gap in m at each spring: the depth of the profile at this spring below the highest point of
+    /// the profile.
     pub gaps: &'a [f64],
-    /// Height of the highest point of the profile, m.
+    /// Height in m of the highest point of the profile.
     pub summit: f64,
-    /// Indentation at which the contact is shown, m.
+    /// Indentation in m at which the contact is shown.
     pub indentation: f64,
     /// Patches of springs in contact, from left to right.
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, and the number of columns of equal width into which the
-/// chart divides this range.
+/// Part of a profile that a chart shows: a range of springs, divided into columns of equal width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// Index, from 0 along the profile, of the first spring of the range.
+    /// Index, from 0 along the profile, of the first spring that the chart shows.
     pub first: usize,
-    /// Number of springs in the range.
+    /// Number of springs that the chart shows.
     pub springs: usize,
     /// Number of columns of the chart.
     pub columns: usize,
@@ -47,27 +46,29 @@ pub struct LineColumns {
 /// chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// Index, from 0 along the profile, of the first spring of the part.
+    /// Index, from 0 along the profile, of the first spring that the chart shows.
     pub first: usize,
-    /// Number of springs of the part.
+    /// Number of springs that the chart shows.
     pub springs: usize,
-    /// Heights of the lowest and the highest point of the profile in this part, m.
+    /// Heights in m of the lowest and the highest point of the shown part of the profile.
     pub heights: (f64, f64),
-    /// Height of the undeformed elastic surface on the scale of the heights of the profile, m.
+    /// Height in m of the undeformed elastic surface, on the same scale as the heights of the
+    /// profile.
     pub level: f64,
     /// Columns of the chart, from left to right.
     pub columns: Vec<Column>,
 }
 
-/// Lowest and highest point of profile, elastic surface and contact in one column of a chart, m.
+/// Heights in m of the lowest and the highest point in one column of a chart: of the profile, of
+/// the elastic surface and of the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
-    /// Heights of the lowest and the highest point of the rigid profile, m.
+    /// Heights in m of the lowest and the highest point of the rigid profile.
     pub line: (f64, f64),
-    /// Heights of the lowest and the highest point of the elastic surface, m.
+    /// Heights in m of the lowest and the highest point of the elastic surface.
     pub surface: (f64, f64),
-    /// Heights of the lowest and the highest point of those springs of the column that are in
-    /// contact, m; `None` without contact.
+    /// Heights in m of the lowest and the highest point of those springs of the column that are in
+    /// contact; `None` without contact.
     pub contact: Option<(f64, f64)>,
 }
 
@@ -105,8 +106,8 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part that begins at the spring `first` and has this number of springs. Its
-    /// number of columns suits a picture in a file.
+    /// Returns the part of a profile that begins at the spring `first` and consists of `springs`
+    /// springs. The number of columns suits a picture in a file.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -115,8 +116,8 @@ impl Part {
         }
     }
 
-    /// Returns the part that begins at the spring `first` and has this number of springs, with one
-    /// column for each spring.
+    /// Returns the part of a profile that begins at the spring `first` and consists of `springs`
+    /// springs, with one column for each spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -141,19 +142,19 @@ impl Part {
 }
 
 impl SectionContact<'_> {
-    /// Returns the height of the rigid profile at a spring, m.
+    /// Returns the height in m of the rigid profile at a spring.
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
     }
 
-    /// Returns the height of the undeformed elastic surface, m: the highest point of the profile
+    /// Returns the height in m of the undeformed elastic surface: the highest point of the profile
     /// minus the indentation.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
 
-    /// Returns the patches, each an index range of neighbouring springs in contact, as far as they
-    /// lie in the range `springs`.
+    /// Returns the contact patches in the range `springs`, each as an index range of neighbouring
+    /// springs. Of a patch that extends beyond `springs`, only the springs inside are returned.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = springs;
         let first = self.patches.partition_point(|patch| patch.last < start);

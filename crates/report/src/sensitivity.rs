@@ -25,15 +25,16 @@ const NOT_ALLOWED: &str = "not allowed";
 
 const PROFILES: &str = "profiles";
 
-/// Report on how much the results of a scene change if one of its numbers is changed by +10 % or
-/// −10 %. This is reported for each number. A whole number changes by at least 1, and a wavelength
-/// by at least one wave on the length.
+/// Report on the sensitivity of a scene: how much its results change if one of its numbers, such as
+/// a length, is changed by +10 % or −10 %. Each number is changed by itself. A whole number changes
+/// by at least 1, and a wavelength by at least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     pub title: &'a str,
-    /// Scene whose numbers are changed.
+    /// Scene whose numbers, such as lengths, are changed one by one.
     pub scene: &'a Scene,
-    /// Changes of the results, such as the adhesion force, for each changed number.
+    /// Changes of the results, such as the adhesion force, due to the change of each number of the
+    /// scene.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -161,10 +162,11 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     sides
 }
 
-/// Returns a table of the changes of the median results: a row of headings, a row with the medians
-/// of the unchanged scene, and two rows for each of at most `most` numbers. The columns are name,
-/// value and change of the number, change of F_a with its range over the profiles, change of
-/// F_a(d=0), and change of the dissipated energy.
+/// Returns a table of the changes of the median results of a scene. The table has a row of
+/// headings, a row with the medians of the unchanged scene, and two rows for each of at most `most`
+/// numbers of the scene. The columns are: name, value and change of the number, change of the
+/// adhesion force F_a with its range over the profiles, change of the adhesion force F_a(d=0)
+/// without a preload, and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let has_profiles = sensitivity.range.is_some();
     let mut rows = vec![
@@ -225,8 +227,9 @@ fn present_row(sensitivity: &Sensitivity, has_profiles: bool) -> [String; 7] {
     ]
 }
 
-/// Returns a bar chart of the changes in per cent of one result, with two bars for each of at most
-/// `most` numbers. `result` is an index of [`Sensitivity::RESULTS`].
+/// Returns a bar chart of the changes in per cent of one result of a scene. The chart has two bars
+/// for each of at most `most` numbers of the scene. `result` is an index of
+/// [`Sensitivity::RESULTS`].
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let sides = sides(sensitivity, result, most);
     let span = span_of_changes(&sides, result);

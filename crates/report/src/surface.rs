@@ -52,9 +52,9 @@ pub struct SurfaceReport {
     pub faces: Vec<MeasuredFace>,
     /// Spectrum of the random profiles that replace the measured surfaces.
     pub line: EquivalentLine,
-    /// Effective modulus E*, Pa; `None` if it is not given.
+    /// Effective modulus E* in Pa; `None` if it is not given.
     pub modulus: Option<f64>,
-    /// Work of adhesion γ, J/m²; `None` if it is not given.
+    /// Work of adhesion γ in J/m²; `None` if it is not given.
     pub work: Option<f64>,
     /// Scene with the random profiles of [`Self::line`], and the adhesion computed on these
     /// profiles; `None` if the user has not asked for the adhesion. The second value is `None` if

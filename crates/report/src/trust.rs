@@ -70,9 +70,10 @@ pub fn theory_rows(
 }
 
 /// Returns the errors of the adhesion force from each source: number of springs, sample of
-/// profiles, measured surface, and model. Each row has a source and its relative error in words. If
-/// there is a comparison with three dimensions (`reference`), a further row has the difference that
-/// it found. The last row names the largest error.
+/// profiles, measured surface, and model. Each row has a source and its relative error in words.
+/// `reference` is a comparison with an elastic half-space in three dimensions; if it is given, a
+/// further row has the difference that this comparison has found. The last row names the largest
+/// error.
 pub fn error_rows(
     scene: &Scene,
     outcome: &Outcome,

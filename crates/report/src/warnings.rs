@@ -3,28 +3,28 @@
 use crate::sheet::Sheet;
 use asperity_data::{CountedWarning, Warning, grouped};
 
-/// Adds a section with the premises that a result does not meet. Adds nothing if there are no
-/// warnings.
+/// Adds a section to the text `sheet` with the premises of the model that a result does not meet.
+/// Adds nothing if there are no warnings.
 pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
     sentences_section(sheet, &warning_texts(warnings));
 }
 
-/// Adds a section with the premises that are not met on some of the random profiles. Each warning
-/// states the number of these profiles.
+/// Adds a section to the text `sheet` with the premises of the model that are not met on some of
+/// the random profiles. Each warning states the number of these profiles.
 pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles: u64) {
     sentences_section(sheet, &counted_texts(warnings, profiles));
 }
 
 /// Returns texts on the premises that are not met on some of `profiles` random profiles:
-/// `On 12 of 16 profiles: ` and then the warning. If a premise is met on none of the profiles, the
-/// number is left out.
+/// `On 12 of 16 profiles: ` and then the warning. If no profile meets a premise, the number is left
+/// out.
 pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
     texts_with_shares(warnings, profiles, "profiles")
 }
 
 /// Returns texts on the premises that are not met in some of `records` records of a study:
-/// `On 12 of 16 records: ` and then the warning. If a premise is met in none of the records, the
-/// number is left out.
+/// `On 12 of 16 records: ` and then the warning. If no record meets a premise, the number is left
+/// out.
 pub fn counted_record_texts(warnings: &[CountedWarning], records: u64) -> Vec<String> {
     texts_with_shares(warnings, records, "records")
 }

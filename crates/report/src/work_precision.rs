@@ -9,8 +9,9 @@ use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of
 /// setting, such as the number of springs. The error is that of the adhesion force or, if there is
-/// no adhesion force, that of the force curve. If there is a comparison with three dimensions
-/// (`reference`), a horizontal line shows the error of the model.
+/// no adhesion force, that of the force curve. `reference` is a comparison of the scene with an
+/// elastic half-space in three dimensions. If `reference` is given, a horizontal line shows the
+/// error of the model that this comparison has found.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let mut points = Vec::new();
     let mut layers = Vec::new();

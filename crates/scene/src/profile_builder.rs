@@ -219,8 +219,9 @@ impl ProfileBuilder {
 
     /// Computes the profile of the form with `heights` in m as its roughness, one height for each
     /// point. Of N points, the point with the index ⌊N/2⌋ is on the axis of the form. The heights
-    /// must be those of an equivalent line. If the roughness was measured as a cut through a
-    /// surface, use the spectrum of the cut with [`ProfileBuilder::spectrum`].
+    /// must be those of the one-dimensional line that is equivalent to the rough surface. Heights
+    /// that were measured along a cut through the surface are not; use the spectrum of the cut with
+    /// [`ProfileBuilder::spectrum`] instead.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -296,8 +297,9 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns the [`Governing`] parameters, such as κ and e_el/γ, of a contact of this profile
-    /// with this modulus and this adhesion.
+    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this
+    /// adhesion: for example the rms height, the work of adhesion, and the parameter κ that
+    /// compares the roughness with the adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;

@@ -5,7 +5,7 @@ use asperity_surface::Form;
 
 /// Returns the closed-form solution for the adhesive contact of a form that is a power law:
 /// paraboloid, cone or power. The effective modulus is in Pa, the work of adhesion in J/m². Returns
-/// `None` for punches, wavy spheres and tables.
+/// `None` for all other forms, such as punches, wavy spheres and tables.
 ///
 /// ```
 /// use asperity_scene::theory::closed_form;
@@ -37,7 +37,8 @@ pub fn closed_form(
 ///
 /// * the form is a wavy sphere or a table;
 /// * the contact at pull-off is longer than the profile;
-/// * the preload does not press the body beyond the contact at pull-off.
+/// * the preload is so small that the contact after the loading is smaller than the contact at
+///   pull-off.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

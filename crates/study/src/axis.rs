@@ -56,7 +56,8 @@ pub enum Spacing {
     List,
 }
 
-/// Axis of a study: a quantity of the scene that the study varies, and its values.
+/// Axis of a study. An axis is a quantity of the scene that the study varies, with the values that
+/// the study gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Path of the field of the scene that varies, such as `roughness.hurst`. For a quantity
@@ -71,8 +72,8 @@ pub struct Axis {
     pub unit: &'static str,
     /// How the values are spaced.
     pub spacing: Spacing,
-    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a
-    /// [`Grid`](crate::maps::Grid) the values ascend.
+    /// Values of the quantity in the unit [`Axis::unit`], in the order in which the plan of the
+    /// study lists them. On an axis of a [`Grid`](crate::maps::Grid) the values ascend.
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
@@ -84,11 +85,11 @@ impl Axis {
     /// profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-    /// Creates an axis on which one number of a scene varies. `path` is the path of this number in
-    /// the scene, such as `roughness.hurst`, and `values` are its values in its SI unit.
+    /// Creates an axis that varies one numeric field of a scene. `path` is the path of this field,
+    /// such as `roughness.hurst`. `values` are its values in its SI unit.
     ///
     /// # Errors
-    /// Returns an error if no scene has a number at this path.
+    /// Returns an error if a scene has no numeric field with this path.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};
@@ -278,8 +279,8 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol or name of the axis and its value with the index `place`, such as `H =
-    /// 0.3`.
+    /// Returns one value of the axis as text, with the symbol or name of the axis, such as `H =
+    /// 0.3`. `place` is the index of the value.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!(
@@ -289,9 +290,10 @@ impl Axis {
         )
     }
 
-    /// Returns the value of the axis that lies `steps` values after `value`, or before `value` if
-    /// `steps` is negative. The values of the axis must ascend. If there are fewer values in this
-    /// direction, the last of them is returned. If there is none, `None` is returned.
+    /// Returns another value of this axis, counted from `value`: the one `steps` values further up,
+    /// or further down if `steps` is negative. The values of the axis must ascend. If fewer than
+    /// `steps` values lie in this direction, the last value of the axis in this direction is
+    /// returned. If no value lies in this direction, `None` is returned.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let values = &self.values;
         let apart = APART * value.abs();
@@ -307,7 +309,7 @@ impl Axis {
         Some(values[next.saturating_sub(further)])
     }
 
-    /// Returns the indices of the values in ascending order of the values.
+    /// Returns the indices of the values of this axis, sorted so that the values ascend.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
         places.sort_by(|one, other| self.values[*one].total_cmp(&self.values[*other]));
@@ -332,14 +334,16 @@ const ENDS: [&str; 3] = ["", ".0", ".1"];
 /// Quantity that an axis varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Target {
-    /// A number of a scene, or one of the two numbers of a pair.
+    /// A numeric field of a scene, or one of the two numbers of a field that is a pair.
     Number(&'static Field),
-    /// Force in N or indentation in m of a loading stage.
+    /// Force in N or indentation in m at which a stage of the loading ends. The contained index of
+    /// the stage begins at 0.
     Stage(usize),
-    /// Preload F_n in N or in units of E* h L.
+    /// Preload F_n: in N if `in_newtons` is true, otherwise in units of E* h L (effective modulus,
+    /// rms height, length of the profile).
     Preload { in_newtons: bool },
-    /// Number of springs per shortest wave of the roughness. The last mode of the roughness is the
-    /// number of springs divided by this number.
+    /// Number of springs per shortest wave of the roughness. The shortest wave has as many periods
+    /// over the length of the profile as the number of all springs divided by this number.
     SpringsPerWave,
 }
 
@@ -347,10 +351,11 @@ pub(super) enum Target {
 /// variant of this enum repeats less than an earlier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shapes {
-    /// The heights of the roughness are computed by a Fourier transform, followed by all later
-    /// steps.
+    /// All steps are repeated, beginning with the Fourier transform that computes the heights of
+    /// the roughness.
     Roughness,
-    /// The profile is made from known heights, followed by the contact tree and the loading.
+    /// The profile is made again from known heights of the roughness. The contact tree and the
+    /// loading are then computed again.
     Profile,
     /// Only the loading is computed again, on the same profile and contact tree.
     Passes,
@@ -426,8 +431,9 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// Returns κ or e_el/γ if the quantity is one of these parameters; otherwise `None`. A scene
-    /// may state such a parameter in place of a work of adhesion.
+    /// Returns this quantity as a roughness parameter; `None` for any other quantity. The two
+    /// roughness parameters, κ and e_el/γ, compare the roughness with the work of adhesion, and a
+    /// scene may state one of them in place of the work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),
@@ -452,7 +458,8 @@ impl Target {
         }
     }
 
-    /// Returns name, symbol (may be empty) and SI unit of the quantity at this path of a scene.
+    /// Returns the name, the symbol and the SI unit of this quantity. `path` is its path in
+    /// `scene`. The symbol is empty if the quantity has none.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
         match self {
             Target::Preload { in_newtons: true } => ("preload".into(), "F_n", "N"),

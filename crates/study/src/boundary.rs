@@ -2,9 +2,9 @@
 //!
 //! F_a(d=0), the adhesion force after the first touch, falls about exponentially with κ. It hardly
 //! ever becomes zero, because a single spring still adheres. The boundary κ* is therefore defined
-//! by the mean of F_a(d=0) over the profiles: there it falls below a share of the ideal adhesion
-//! force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each boundary in κ is also a
-//! boundary in e_el/γ.
+//! as the value of κ at which the mean of F_a(d=0) over the profiles falls below a given share of
+//! the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each
+//! boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -24,37 +24,42 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections. It is constant, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the
-/// values on the other axes, on where the loading turns ([`AdhesionBoundary::protocol`]), and on
-/// the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
+/// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+/// adhesion, at which adhesion without a preload vanishes in a study. Adhesion counts as vanished
+/// if the adhesion force, as a mean over the random profiles, is below a given share of the ideal
+/// adhesion force F_a,max. The value depends on this share, on the values on the other axes of the
+/// study, and on the point at which the loading turns ([`AdhesionBoundary::protocol`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
-    /// Values on the axes of the study other than κ or e_el/γ, one for each axis in
-    /// [`Boundaries::others`].
+    /// Values on the axes of the study, one for each axis in [`Boundaries::others`]. The axis of
+    /// the roughness parameter, along which the boundary is sought, is left out.
     pub others: Vec<f64>,
-    /// Quantity whose mean over the profiles decides whether adhesion has vanished:
-    /// F_a(d=0)/F_a,max if the loading turns at first touch, or F_a(F=0)/F_a,max if it turns at
-    /// zero force.
+    /// Quantity whose mean over the profiles decides whether adhesion has vanished: the adhesion
+    /// force divided by the ideal adhesion force F_a,max. It is F_a(d=0)/F_a,max if the loading
+    /// turns at first touch, and F_a(F=0)/F_a,max if it turns at zero force.
     pub protocol: Quantity,
     /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// Value of κ or e_el/γ at which adhesion vanishes, with its confidence interval.
+    /// Value of the roughness parameter, κ or e_el/γ, at which adhesion vanishes, with its
+    /// confidence interval.
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ at which adhesion vanishes. For all larger values, the mean adhesion force
-/// over the random profiles is below a given share of F_a,max, [`AdhesionBoundary::level`].
+/// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+/// adhesion, at which adhesion vanishes. For all larger values, the adhesion force, as a mean over
+/// the random profiles, is below the share [`AdhesionBoundary::level`] of the ideal adhesion force
+/// F_a,max.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary
-    /// lies beyond this range.
+    /// Value of the roughness parameter, κ or e_el/γ, at the boundary. If the boundary lies beyond
+    /// the studied range, it is the nearer end of this range.
     pub value: f64,
     /// Position of the boundary: `Equal` within the studied range, `Less` below this range,
     /// `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of the boundary [`Crossing::value`]. `None` for fewer
-    /// than two profiles, or if the scatter of the profiles allows a boundary beyond the studied
-    /// range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]. `None` if there are fewer than
+    /// two profiles, or if the scatter of the profiles is so large that the boundary may lie beyond
+    /// the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
@@ -70,25 +75,29 @@ impl Crossing {
         }
     }
 
-    /// Returns the value of κ or e_el/γ at the boundary, with its 95 % confidence interval; `None`
-    /// if the boundary lies beyond the studied range.
+    /// Returns the value of the roughness parameter, κ or e_el/γ, at the boundary, with its 95 %
+    /// confidence interval. The interval is `None` if it is unknown. Returns `None` if the boundary
+    /// lies beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
 }
 
-/// All values of κ or e_el/γ in a study at which adhesion without a preload vanishes.
+/// All values of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+/// adhesion, at which adhesion without a preload vanishes in a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Parameter in which the boundaries are given: κ or e_el/γ.
+    /// Parameter in which the boundaries are given: the roughness parameter κ, or the ratio e_el/γ
+    /// of elastic energy to work of adhesion.
     pub over: RoughnessParameter,
-    /// Axes of the study other than κ or e_el/γ.
+    /// Axes of the study without the axis of the roughness parameter, along which the boundaries
+    /// are sought.
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
     /// Boundaries that were found. There is at most one for each combination of three choices:
-    /// values on the axes [`Boundaries::others`], turning point of the loading, and share of
-    /// F_a,max.
+    /// values on the axes [`Boundaries::others`], turning point of the loading, and share of the
+    /// ideal adhesion force F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -156,8 +165,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns in words the point at which the loading turns, `first touch` or `zero force`. The
-    /// boundary is that of the adhesion after this turn.
+    /// Returns the name of the point at which the loading turns, `first touch` or `zero force`. The
+    /// boundary refers to the adhesion in the unloading from this point.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"
@@ -168,15 +177,15 @@ impl AdhesionBoundary {
 }
 
 impl Boundaries {
-    /// Shares of F_a,max below which adhesion usually counts as vanished, for the argument `levels`
-    /// of [`Boundaries::of`].
+    /// Shares of the ideal adhesion force F_a,max below which adhesion usually counts as vanished,
+    /// for the argument `levels` of [`Boundaries::of`].
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the
-    /// folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has written
-    /// the tables. `over` is the parameter, κ or e_el/γ, in which the boundaries are returned.
-    /// `levels` are the shares of the ideal adhesion force F_a,max below which adhesion counts as
-    /// vanished.
+    /// Finds the values of a roughness parameter at which adhesion without a preload vanishes. A
+    /// roughness parameter is κ, or the ratio e_el/γ of elastic energy to work of adhesion. `path`
+    /// is the folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has
+    /// written the tables. `over` is the parameter in which the boundaries are returned. `levels`
+    /// are the shares of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither
@@ -237,7 +246,8 @@ impl Boundaries {
         })
     }
 
-    /// Returns the symbol of the value at a boundary: `κ*` or `(e_el/γ)*`.
+    /// Returns the symbol of the value of the roughness parameter at a boundary: `κ*` or
+    /// `(e_el/γ)*`.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",

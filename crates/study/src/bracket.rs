@@ -6,7 +6,7 @@ use super::scan::Tried;
 use asperity_scene::RunError;
 use std::mem::replace;
 
-/// The search ends when the interval that contains the sought number has this relative width.
+/// Relative width of an interval at which the search ends. The interval contains the sought number.
 pub const WITHIN: f64 = 1e-9;
 
 /// The search also ends when the interval has this width, as a share of the searched range. This
@@ -17,15 +17,16 @@ const LEAST: f64 = 1e-18;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passage {
     pub target: f64,
-    /// True if the quantity falls to exactly the target and remains equal to it, false if it
-    /// crosses the target.
+    /// True if the quantity falls to exactly the target and remains equal to the target. False if
+    /// the quantity crosses the target.
     pub falls_onto: bool,
 }
 
 impl Passage {
-    /// Returns a number whose sign states on which side of the target the quantity with this value
-    /// lies: zero or positive on the side that contains the answer, negative on the other side. The
-    /// result is negative if `value` is NaN, which a scene has that is not allowed.
+    /// Returns a number whose sign states on which side of the target `value` lies: zero or
+    /// positive on the side that contains the answer, negative on the other side. The result is
+    /// negative if `value` is NaN. A quantity is NaN if the scene does not allow the number that
+    /// the search tries.
     fn excess(self, value: f64) -> f64 {
         let excess = value - self.target;
         if self.falls_onto {
@@ -49,9 +50,9 @@ struct Point {
 }
 
 /// Narrows the interval between `ends` by the method of Chandrupatla: inverse quadratic
-/// interpolation where the quantity is smooth enough, otherwise bisection. Returns the end of the
-/// last interval that lies on the side of the target with the answer. If only whole numbers are
-/// allowed, the interval is bisected until no whole number lies between its ends.
+/// interpolation where the quantity is smooth enough, otherwise bisection. Of the two ends of the
+/// last interval, returns the one at which the quantity has reached the target. If only whole
+/// numbers are allowed, the interval is bisected until no whole number lies between its ends.
 pub(super) fn passage(
     coordinates: &Coordinates,
     passage: Passage,

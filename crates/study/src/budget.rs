@@ -8,27 +8,29 @@ use asperity_data::{Warning, quantile};
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 
-/// Errors of the adhesion force of a scene, one for each source of errors. They are relative: the
-/// error `grid` is divided by the adhesion force on the scene's own profile, and `sample` and
-/// `surface` by the median over random profiles. In about 5 of 100 cases the true error is larger.
-/// `None` means that an error is unknown.
+/// Errors of the adhesion force of a scene, one for each source of errors. All are relative errors:
+/// `grid` is divided by the adhesion force on the scene's own profile, and `sample` and `surface`
+/// are divided by the median adhesion force over random profiles. The true error exceeds the stated
+/// error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error due to the finite number of springs, for the profile with the seed of the scene.
+    /// Error due to the finite number of springs, for the profile with the seed of the scene;
+    /// `None` if it is unknown.
     pub grid: Option<f64>,
-    /// Error of the median over random profiles, due to the finite number of these profiles.
+    /// Error of the median over random profiles, due to the finite number of these profiles; `None`
+    /// if it is unknown.
     pub sample: Option<f64>,
     /// Error of the median over random profiles, due to the uncertainty of the spectrum of a
-    /// measured surface.
+    /// measured surface; `None` if it is unknown.
     pub surface: Option<f64>,
-    /// Lower bound of the error of the model, from a comparison with bodies in three dimensions.
-    /// The comparison gives the relative difference between the mean adhesion force on profiles and
-    /// on these bodies. The bound is the part of this difference that exceeds the errors of the
-    /// sample and of the grid of the bodies.
+    /// Lower bound of the relative error of the model of one-dimensional profiles. It follows from
+    /// the difference between the mean adhesion force on profiles and the mean adhesion force on
+    /// bodies in three dimensions. The bound is the part of this difference that neither the number
+    /// of profiles and bodies nor the grid of the bodies can explain. `None` if it is unknown.
     pub model: Option<f64>,
-    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`;
-    /// `None` if no error is known, or if a premise of the model does not hold, which may cause a
-    /// larger error.
+    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`.
+    /// `None` if no error is known. It is also `None` if a premise of the model does not hold,
+    /// because this may cause a larger error.
     pub largest: Option<&'static str>,
 }
 
@@ -71,8 +73,8 @@ impl Budget {
         })
     }
 
-    /// Returns these errors with [`Budget::model`] set to `model`, where `None` means unknown. A
-    /// model error of 0 is never the largest error.
+    /// Returns a copy of these errors in which [`Budget::model`] is `model`; `None` means that the
+    /// error of the model is unknown. A model error of 0 never becomes the largest error.
     pub fn with_model(self, model: Option<f64>) -> Budget {
         let others = [self.grid, self.sample, self.surface]
             .into_iter()

@@ -1,5 +1,5 @@
-//! The outcome of one loading on one profile. All quantities that a study records are taken from
-//! it.
+//! The outcome of one loading on one profile. A study takes all quantities that it records from
+//! this outcome.
 
 use asperity_contact::{
     Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
@@ -9,19 +9,22 @@ use asperity_scene::{Governing, Regime, Scene};
 
 /// Outcome of one loading on one profile. A result that the loading does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
-    /// Governing parameters of the computed scene, such as κ.
+    /// Governing parameters of the computed scene, such as its effective modulus and its rms
+    /// height.
     pub governing: Governing,
-    /// Properties of the profile, which are computed if a study records them.
+    /// Statistics of the profile. They are computed only if the study records them.
     pub profile: ProfileRecord,
-    /// Scene that was computed. Its field `loading` is ignored, because a preload may replace the
-    /// loading.
+    /// Scene that was computed. Do not use its field `loading`: a preload of the study may have
+    /// replaced this loading.
     pub scene: &'o Scene,
-    /// Adhesion force F_a(d=0) in N, if the loading turns at first touch.
+    /// Adhesion force F_a(d=0) in N of a loading that turns at first touch; `None` if this loading
+    /// was not computed or has no adhesion force.
     pub first_touch: Option<f64>,
-    /// Adhesion force F_a(F=0) in N, if the loading turns at zero force.
+    /// Adhesion force F_a(F=0) in N of a loading that turns at zero force; `None` if this loading
+    /// was not computed or has no adhesion force.
     pub zero_force: Option<f64>,
-    /// Adhesion force F_smooth in N of the smooth body after the same preload. It is computed only
-    /// if a study records a regime.
+    /// Adhesion force F_smooth in N of the smooth body after the same preload. `None` unless the
+    /// study records a regime of adhesion, and without adhesion.
     pub smooth: Option<f64>,
     /// Outcome of the loading.
     pub loading: LoadingOutcome,
@@ -32,9 +35,9 @@ pub(super) struct CaseOutcome<'o> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct LoadingOutcome {
     pub figures: Figures,
-    /// Largest contact length, m.
+    /// Largest contact length in m; `None` if the force curve of the loading has no points.
     pub contact_length: Option<f64>,
-    /// Point of the force curve at the preload.
+    /// Point of the force curve at the preload; `None` if the loading has no preload.
     pub preload: Option<CurvePoint>,
     /// Premises of the model that the loading does not meet.
     pub warnings: Vec<Warning>,
@@ -62,8 +65,9 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` goes up
-    /// to the turning point, and `reversal` describes the turn and the way back.
+    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` presses
+    /// the bodies together up to the turning point, and `reversal` describes the turn and the
+    /// unloading.
     pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -77,15 +81,18 @@ impl LoadingOutcome {
 /// Properties that depend only on the profile and the elasticity.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
-    /// Rms height about the mean, m, without the form.
+    /// Root mean square of the heights about their mean in m, without the form of the body; `None`
+    /// if the study does not record it.
     pub rms_height: Option<f64>,
     /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of
     /// the rms height; `None` for a flat profile. Both are zero for a normal distribution.
     pub shape: Option<(f64, f64)>,
-    /// Height of the highest point above the mean, divided by the rms height.
+    /// Height of the highest point above the mean height, divided by the rms height; `None` if the
+    /// study does not record it.
     pub summit: Option<f64>,
     /// Exponents α of the stiffness k ∝ F^α and n of the force F ∝ dⁿ, for the contact without
-    /// adhesion.
+    /// adhesion, with the indentation d. `None` if the study does not record them, or if they
+    /// cannot be fitted.
     pub exponents: Option<(f64, f64)>,
 }
 
@@ -126,7 +133,8 @@ impl ProfileRecord {
 }
 
 impl CaseOutcome<'_> {
-    /// Returns the ideal adhesion force F_a,max of eq. (14) in N.
+    /// Returns the ideal adhesion force F_a,max in N, eq. (14) of Popov and Filippov (2012); `None`
+    /// without adhesion.
     pub fn ideal(&self) -> Option<f64> {
         let Governing {
             work_of_adhesion,
@@ -138,25 +146,30 @@ impl CaseOutcome<'_> {
         })
     }
 
-    /// Returns a force in N divided by F_a,max.
+    /// Returns a force in N divided by the ideal adhesion force F_a,max. Returns `None` if the
+    /// force is `None` or if F_a,max is not above zero.
     pub fn share(&self, force: Option<f64>) -> Option<f64> {
         Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
     }
 
-    /// Returns the largest contact length divided by L.
+    /// Returns the largest contact length divided by the length of the profile; `None` if the force
+    /// curve of the loading has no points.
     pub fn contact_fraction(&self) -> Option<f64> {
         self.loading
             .contact_length
             .map(|longest| longest / self.scene.length)
     }
 
-    /// Returns the Tabor number.
+    /// Returns the Tabor number; `None` without adhesion, and for a body without a radius of
+    /// curvature.
     pub fn tabor_number(&self) -> Option<f64> {
         self.governing.tabor_number(self.scene)
     }
 
-    /// Returns the regime of this loading as its index in [`Regime::ALL`]. `first_touch` is
-    /// F_a(d=0) in N.
+    /// Returns the regime of adhesion of this loading as its index in [`Regime::ALL`]; `None` for a
+    /// loading without a tensile force. `first_touch` is the adhesion force in N without a preload:
+    /// F_a(d=0) of a loading that turns at first touch, or F_a(F=0) of one that turns at zero
+    /// force.
     pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
         Some(Regime::of_loading(&self.loading.figures, first_touch, self.smooth)? as u8 as f64)
     }

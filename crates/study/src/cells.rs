@@ -2,8 +2,8 @@
 //!
 //! A *cell* is one combination of values on the axes. A *streak* consists of all cells that differ
 //! only in the preload, and is computed with a single loading. A *unit* consists of streaks on one
-//! random profile with the same roughness. A unit is computed by one thread, so that the roughness
-//! of its profile is made only once.
+//! random profile with the same roughness. One thread computes the whole unit, so that the
+//! roughness of the profile is made only once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
@@ -16,7 +16,8 @@ const ENOUGH_UNITS: u64 = 256;
 /// making the profile would take longer than computing the streaks.
 const LEAST_STREAKS: u64 = 16;
 
-/// Numbering of the streaks and units of a plan.
+/// Numbering of the streaks and units of a plan. A streak consists of all cells that differ only in
+/// the preload, on one profile. A unit consists of streaks that one thread computes.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
     /// Indices of the axes without a preload axis, sorted by [`Shapes`]: first the axes that change
@@ -30,7 +31,8 @@ pub(super) struct Cells<'p> {
     chunks: u64,
 }
 
-/// All cells of a plan that differ only in the preload, on one profile, computed with one loading.
+/// Streak: all cells of a plan that differ only in the preload, on one profile. A streak is
+/// computed with a single loading.
 pub(super) struct Streak {
     /// Cells of the streak, one for each preload. A cell is one combination of values on the axes.
     pub cells: Range<u64>,
@@ -64,17 +66,18 @@ impl<'p> Cells<'p> {
         }
     }
 
-    /// Returns the number of units. A unit is the work that one thread does on one random profile
-    /// with the same roughness.
+    /// Returns the number of units into which the plan is divided. A unit is a part of the plan
+    /// that one thread computes, on one random profile with unchanged roughness.
     pub fn units(&self) -> u64 {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// Returns the streaks of the unit number `unit`. A streak consists of all cells of the plan
-    /// that differ only in the preload, on one random profile. A unit is the part of the plan that
-    /// one thread computes on such a profile. The streaks are ordered so that as little of the
-    /// profile as possible is computed again from one streak to the next. Units with the same
-    /// spectrum have consecutive numbers.
+    /// Returns the streaks of unit number `unit`. A streak consists of all cells that differ only
+    /// in the preload, on one random profile. A unit consists of streaks that one thread computes,
+    /// on one random profile with unchanged roughness.
+    ///
+    /// The streaks are ordered so that as little of the profile as possible is computed again from
+    /// one streak to the next. Units with the same spectrum have consecutive numbers.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let start = unit % self.chunks * self.chunk;
         let group_and_line = unit / self.chunks;

@@ -1,5 +1,6 @@
-//! Comparison of one quantity between random profiles (the model of this program) and random square
-//! surfaces in three dimensions: the ratio of the means and its errors.
+//! Comparison of one quantity between random profiles and random square surfaces in three
+//! dimensions. Profiles are the model of this program. The result is the ratio of the two means,
+//! with its errors.
 
 use super::quantity::Quantity;
 use super::statistics::Statistics;
@@ -10,8 +11,8 @@ use serde::Serialize;
 /// rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Comparison of one quantity between random profiles and random square surfaces in three
-/// dimensions.
+/// Comparison of one quantity between random profiles and random square surfaces. A square surface
+/// is a rough body in three dimensions with a square base.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Compared {
     /// Statistics of the quantity over the random profiles.
@@ -23,9 +24,9 @@ pub struct Compared {
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t;
     /// `None` for fewer than two profiles or square surfaces.
     pub error: Option<f64>,
-    /// Relative error of the mean over the square surfaces due to their grid: its difference from
-    /// the mean over the same surfaces with half as many grid cells along the side. `None` if half
-    /// as many cells are too few.
+    /// Relative error of the mean over the square surfaces due to their grid. It is the difference
+    /// from the mean over the same surfaces, computed with half as many grid cells along the side.
+    /// `None` if the computation with half as many cells would have too few cells.
     pub grid: Option<f64>,
 }
 
@@ -44,8 +45,8 @@ pub(super) struct Values {
     pub lines: Vec<f64>,
     /// Value on each random square surface.
     pub squares: Vec<f64>,
-    /// Value on each square surface, computed with half as many grid cells along the side; empty if
-    /// the surfaces are not computed so.
+    /// Value on each square surface, computed on a coarser grid with half as many cells along the
+    /// side. The list is empty if the coarser grid is not computed.
     pub coarse: Vec<f64>,
 }
 

@@ -18,26 +18,28 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
 
-/// Results of a computed streak, which is a loading with all its preloads; see [`Streak`].
+/// Results of a computed streak. A streak consists of all cells that differ only in the preload,
+/// and is computed with a single loading.
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
-    /// Premises of the model that cells of the streak do not meet: the number of each such cell,
-    /// with its premises.
+    /// Warnings of the streak, one for each cell that does not meet all premises of the model: the
+    /// number of the cell, and the premises that it does not meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
-/// Streaks of a plan, with what is needed to compute those that are missing.
+/// Streaks of a plan, with the data that are needed to compute the missing streaks. A streak
+/// consists of all cells that differ only in the preload.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
     /// Numbers of the units that are to be computed. A unit is the part of the plan that one thread
     /// computes on one random profile.
     pub units: &'a [u64],
-    /// Function that returns true if at least one record of a streak is missing, so that the streak
-    /// has to be computed. A streak consists of all cells that differ only in the preload.
+    /// Function that returns true if at least one record of a streak is missing. The streak is
+    /// computed only in this case. A streak consists of all cells that differ only in the preload.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
-    /// Measured roughness of the plan, if it has one. The files are read once, so that all threads
-    /// compute from the same bytes.
+    /// Measured roughness of the plan; `None` if its roughness is not measured. The files are read
+    /// once, so that all threads compute from the same bytes.
     pub profile: Option<&'a Arc<MeasuredRoughness>>,
 }
 
@@ -131,8 +133,8 @@ pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError>
     compute_on(plan, measured, control)
 }
 
-/// Computes a plan in memory, as [`compute`] does, with a measured roughness that the caller has
-/// read. This roughness replaces the files that the scene names.
+/// Computes a plan in memory, as [`compute`] does, but with a measured roughness that the caller
+/// provides. This roughness replaces the measured files that the scene names.
 ///
 /// # Errors
 /// Returns the same errors as [`compute`]. It is also an error if an axis varies an option for

@@ -1,5 +1,5 @@
-//! Coordinates in which a range of numbers is searched, and the numbers that are allowed in the
-//! range.
+//! Coordinates for a search over a range of numbers, such as logarithms of the numbers, and the
+//! numbers that are allowed in this range.
 
 use super::axis::{Axis, Target};
 use asperity_data::AxisScale;
@@ -9,23 +9,24 @@ use asperity_scene::fields::{Field, Range};
 /// Relative deviation from a whole number below which a quotient counts as this whole number.
 const ROUNDING: f64 = 1e-9;
 
-/// Which values of a number of a scene are allowed in a search. Values between them would give the
-/// same contact, or are not possible in a scene.
+/// Rule that states which values of a number of a scene a search may try. Values between the
+/// allowed ones would give the same contact, or are not possible in a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Allowed {
     /// Any value.
     Any,
     /// Whole numbers.
     Whole,
-    /// Wavelengths: this length of the profile divided by a whole number of waves that fit on it.
+    /// Wavelengths that fit a whole number of times on the profile. The contained number is the
+    /// length of the profile.
     Fractions(f64),
-    /// Lengths of the profile: whole multiples of this wavelength, so that whole waves fit on the
-    /// profile.
+    /// Lengths of the profile that are whole multiples of a wavelength, so that a whole number of
+    /// waves fits on the profile. The contained number is this wavelength.
     Multiples(f64),
 }
 
 impl Allowed {
-    /// Returns the values that the number of this axis can have in a scene.
+    /// Returns which values the quantity of `axis` may have in a scene.
     pub fn of(axis: &Axis, scene: &Scene) -> Allowed {
         match axis.target {
             Target::Number(Field {
@@ -42,8 +43,9 @@ impl Allowed {
         }
     }
 
-    /// Returns the number of waves on the length that follows from a value of the searched number.
-    /// If whole numbers are allowed, returns the value itself. `None` if any value is allowed.
+    /// Returns the number of waves, whole or not, that fit on the profile if the searched
+    /// wavelength or length is `number`. If the searched number must itself be whole, `number` is
+    /// returned. `None` if any value is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -63,7 +65,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the allowed value nearest to `number`. At least one wave must fit on the length.
+    /// Returns the allowed value nearest to `number`. An allowed wavelength or length has at least
+    /// one wave on the profile.
     pub fn nearest(self, number: f64) -> f64 {
         match (self, self.count(number)) {
             (_, None) => number,
@@ -72,9 +75,9 @@ impl Allowed {
         }
     }
 
-    /// Returns the allowed value nearest to `number`, but at least one step away from the allowed
-    /// value nearest to `present`, in the direction of `number`. Returns `None` if there is no such
-    /// value because at least one wave must fit on the length.
+    /// Returns the allowed value nearest to `number` that differs from the allowed value nearest to
+    /// `present`. The returned value lies in the direction from `present` to `number`. `None` if
+    /// there is no such value, because at least one wave must fit on the profile.
     pub fn nearest_other(self, present: f64, number: f64) -> Option<f64> {
         let (Some(from), Some(to)) = (self.count(present), self.count(number)) else {
             return Some(number);
@@ -135,8 +138,8 @@ enum Map {
     BothSides(f64),
 }
 
-/// Coordinates of a searched range. The first numbers that are tried are equally spaced in these
-/// coordinates. Only allowed numbers are used.
+/// Coordinates of a searched range. A coordinate is a function of a number, such as its logarithm.
+/// The first numbers that are tried have equally spaced coordinates. Only allowed numbers are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinates {
     map: Map,
@@ -146,8 +149,9 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Creates coordinates on a linear or logarithmic scale. If the range begins at or below zero,
-    /// the scale is linear. Returns `None` if the range contains no allowed number.
+    /// Creates coordinates on a linear or logarithmic scale for the allowed numbers in `range`. If
+    /// the smallest of these numbers is not above zero, the scale is linear. Returns `None` if the
+    /// range contains no allowed number.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
         let scale = if ends[0] > 0.0 {
@@ -162,8 +166,8 @@ impl Coordinates {
         })
     }
 
-    /// Creates coordinates for positive and negative numbers. They are linear for magnitudes below
-    /// `unit` and logarithmic for larger magnitudes.
+    /// Creates coordinates for a range that contains positive and negative numbers. They are
+    /// approximately linear for magnitudes below `unit` and logarithmic for larger magnitudes.
     pub fn on_both_sides(unit: f64, range: [f64; 2]) -> Coordinates {
         Coordinates {
             map: Map::BothSides(unit),
@@ -172,7 +176,8 @@ impl Coordinates {
         }
     }
 
-    /// Returns the coordinate of a number.
+    /// Returns the coordinate of a number: on a linear scale the number itself, and on a
+    /// logarithmic scale its decadic logarithm.
     pub fn coordinate(&self, number: f64) -> f64 {
         match self.map {
             Map::Scale(scale) => scale.coordinate(number),
@@ -191,8 +196,8 @@ impl Coordinates {
             .clamp(self.ends[0], self.ends[1])
     }
 
-    /// Returns the allowed number in the middle between two numbers; `None` if no allowed number
-    /// lies between them.
+    /// Returns an allowed number whose coordinate is near the middle between the coordinates of two
+    /// numbers. `None` if no allowed number lies between them.
     pub fn middle(&self, ends: [f64; 2]) -> Option<f64> {
         let [from, to] = ends;
         let middle = self.number(f64::midpoint(self.coordinate(from), self.coordinate(to)));
@@ -207,14 +212,16 @@ impl Coordinates {
         (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
-    /// Returns the length of the range in coordinates.
+    /// Returns the difference between the coordinates of the two ends of the range. On a linear
+    /// scale a coordinate is the number itself; on a logarithmic scale it is its decadic logarithm.
     pub fn length(&self) -> f64 {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Converts a relative difference of numbers to a difference of coordinates. `share` is the
-    /// difference of two numbers divided by their size. `places` are two numbers of the range, and
-    /// the difference is taken near the number with the larger magnitude.
+    /// Converts a relative difference between two numbers to the difference between their
+    /// coordinates. `share` is the difference of two numbers divided by their magnitude. `places`
+    /// are two numbers of the range; the conversion is valid near the one with the larger
+    /// magnitude.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {
@@ -224,13 +231,15 @@ impl Coordinates {
         }
     }
 
-    /// Returns true if only some numbers are allowed, such as whole numbers or wavelengths.
+    /// Returns true if not every number is allowed, but only whole numbers, for example, or certain
+    /// wavelengths.
     pub fn is_discrete(&self) -> bool {
         self.allowed != Allowed::Any
     }
 
-    /// Returns all allowed numbers between two numbers in ascending order; `None` if any number is
-    /// allowed or if there are more than `most`.
+    /// Returns all allowed numbers between the two numbers `ends`, sorted from `ends[0]` to
+    /// `ends[1]`. `None` if every number is allowed, or if there are more than `most` allowed
+    /// numbers.
     pub fn all_between(&self, ends: [f64; 2], most: usize) -> Option<Vec<f64>> {
         let [from, to] = ends;
         let first = self.allowed.count(from)?.round();

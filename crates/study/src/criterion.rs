@@ -3,8 +3,8 @@
 use asperity_data::{Warning, format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion by which one theory decides whether bodies adhere without a preload: a number of the
-/// scene and its threshold.
+/// Criterion by which one theory decides whether bodies adhere without a preload. The theory
+/// computes a number from the scene and compares it with a threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
@@ -17,14 +17,14 @@ pub struct Criterion {
     /// Value of the number that is compared with [`Criterion::threshold`]; `None` if the scene does
     /// not determine this number.
     pub value: Option<f64>,
-    /// Value that separates bodies that adhere without a preload from bodies that do not. It is
-    /// compared with [`Criterion::value`].
+    /// Threshold with which [`Criterion::value`] is compared. It separates bodies that adhere
+    /// without a preload from bodies that do not.
     pub threshold: f64,
     /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory
-    /// are not met, or if the number alone decides nothing.
+    /// are not met, or if the number alone does not decide whether the bodies adhere.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict [`Criterion::sticks`], or a remark on how
-    /// [`Criterion::value`] was computed.
+    /// If [`Criterion::sticks`] is `None`, the reason why there is no verdict. Otherwise it is a
+    /// remark on how [`Criterion::value`] was computed, or `None`.
     pub reason: Option<String>,
 }
 

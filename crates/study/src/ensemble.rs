@@ -17,7 +17,7 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Usual number of random profiles, if the caller requests no other number.
+    /// Number of random profiles that is used unless the caller requests another number.
     pub const PROFILES: u64 = 16;
 
     /// Sentence that a report shows instead of statistics for a scene with a fixed profile.
@@ -33,8 +33,8 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table with one row for each profile shows after the quantities
-    /// [`Ensemble::NUMBERS`].
+    /// Quantities that are added to a table with one row for each profile. Their columns follow
+    /// those of the quantities [`Ensemble::NUMBERS`].
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -43,8 +43,9 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the usual number of profiles for a scene: 1 if its profile is fixed or its solver is
-    /// [`Solver::Stepwise`], otherwise [`Ensemble::PROFILES`].
+    /// Returns the number of profiles on which a scene is usually computed: 1 if the profile of the
+    /// scene is fixed or the solver of the scene is [`Solver::Stepwise`], otherwise
+    /// [`Ensemble::PROFILES`].
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
@@ -93,7 +94,7 @@ impl Ensemble {
         Ok(ensemble)
     }
 
-    /// Returns the number of profiles of the complete ensemble.
+    /// Returns the number of profiles that the ensemble has once all its profiles are computed.
     pub fn profiles(&self) -> u64 {
         self.results.plan().lines
     }
@@ -103,7 +104,8 @@ impl Ensemble {
         self.results.count()
     }
 
-    /// Returns the seeds of the profiles that cannot be computed, each with the reason in one line.
+    /// Returns the profiles that cannot be computed: the seed of each such profile, and the reason
+    /// in one line.
     pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
         self.results
             .failed()
@@ -130,14 +132,15 @@ impl Ensemble {
     }
 
     /// Returns the premises of the model that profiles of the ensemble do not meet, each with the
-    /// number of these profiles.
+    /// number of profiles that do not meet it.
     pub fn warnings(&self) -> Vec<CountedWarning> {
         self.results.warnings(0)
     }
 
-    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
-    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
-    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
+    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }

@@ -55,7 +55,7 @@ pub enum StudyError {
     /// lacks what was requested.
     #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
     Refused {
-        /// Path of the number of the scene whose value is not allowed, or name of the argument.
+        /// What is not allowed: the path of a number in the scene, or the name of an argument.
         /// `None` if the request as a whole is not allowed.
         place: Option<String>,
         /// Value or request that was found, in words.

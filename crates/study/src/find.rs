@@ -20,20 +20,20 @@ use asperity_scene::{CheckedScene, Simulation};
 /// number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which
-/// a quantity reaches a target.
+/// Answers to a [`Question`]: for each random profile, the values of one number of the scene, such
+/// as the work of adhesion, at which a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Question that is answered on each profile.
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// Reason why the scene could not be computed with a searched value of the number; `None` if it
-    /// could be computed with all searched values.
+    /// Reason why the scene could not be computed with one of the values that the search tried.
+    /// `None` if the scene could be computed with all tried values.
     pub refused: Option<String>,
-    /// Premises of the model that the profiles do not meet, each with the number of these profiles.
-    /// The premises are checked on the scene in which the number has its median answer. If there is
-    /// no median answer, they are checked on the scene of the question.
+    /// Premises of the model that the profiles do not meet, each with the number of profiles that
+    /// do not meet it. The premises are checked on the scene with the median answer, or on the
+    /// scene of the question if there is no median answer.
     pub warnings: Vec<CountedWarning>,
 }
 
@@ -168,9 +168,10 @@ impl Found {
         Err(question.refused(&found, "a number that changes the quantity"))
     }
 
-    /// Returns for each profile the smallest number at which the quantity crosses the target, in SI
-    /// units; `None` for a profile without a crossing in the searched range. If a preload is sought
-    /// and the smallest searched preload already reaches the target, this preload is returned.
+    /// Returns for each profile the smallest value of the sought number, in SI units, at which the
+    /// quantity of the question crosses its target; `None` for a profile without a crossing in the
+    /// searched range. If a preload is sought and the smallest searched preload already reaches the
+    /// target, this preload is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers
             .iter()
@@ -178,15 +179,15 @@ impl Found {
             .collect()
     }
 
-    /// Returns the number of profiles on which the quantity does not cross the target in the
-    /// searched range.
+    /// Returns the number of profiles on which the quantity of the question does not cross its
+    /// target in the searched range.
     pub fn unreached(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }
 
-    /// Returns the smallest and the largest value of the quantity on all profiles, among the
-    /// numbers at which the quantity was computed. `None` if the quantity has no value on any
-    /// profile.
+    /// Returns the smallest and the largest value of the quantity that the search computed, over
+    /// all profiles and all tried values of the sought number. `None` if the quantity has no value
+    /// on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let mut reachable: Option<(f64, f64)> = None;
         for (low, high) in self.answers.iter().filter_map(|answer| answer.reachable) {
@@ -219,12 +220,13 @@ impl Found {
         places
     }
 
-    /// Returns a quantile over all profiles of the number at which the quantity crosses the target,
-    /// such as the median for a `share` of 0.5. A profile without a crossing counts as beyond the
-    /// searched range. Returns `None` if the quantile lies beyond this range.
+    /// Returns a quantile of the answers over all profiles, such as the median if `share` is 0.5.
+    /// The answer of a profile is the value of the sought number, in SI units, at which the
+    /// quantity of the question crosses its target. A profile without a crossing counts as beyond
+    /// the searched range. Returns `None` if the quantile lies beyond this range.
     ///
     /// If only some values of the number are allowed, such as whole numbers or lengths with a whole
-    /// number of waves, the nearest allowed value is returned.
+    /// number of waves, the allowed value nearest to the quantile is returned.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         // A quantile interpolated between a finite and an infinite value is not finite.
         let value = quantile(&self.ascending(), share).filter(|value| value.is_finite())?;
@@ -232,8 +234,9 @@ impl Found {
         Some(self.question.allowed().nearest(value))
     }
 
-    /// Returns the smallest and the largest number over the profiles at which the quantity crosses
-    /// the target, in SI units; `None` if no profile has such a number.
+    /// Returns the smallest and the largest answer over the profiles. The answer of a profile is
+    /// the value of the sought number, in SI units, at which the quantity of the question crosses
+    /// its target. `None` if no profile has an answer.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values: Vec<f64> = self.values().into_iter().flatten().collect();
         let least = values.iter().copied().reduce(f64::min)?;

@@ -16,22 +16,24 @@ pub struct GridCell {
     /// Statistics over the random profiles for each quantity of the grid, in the order of
     /// [`Grid::layers`]; `None` if the quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
-    /// Number of profiles in each regime of adhesion, counted twice: first with the regime that
-    /// follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows from
-    /// F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Number of profiles in each regime of adhesion, as two counts. In the first count, the regime
+    /// follows from F_a(d=0), the adhesion force of a loading that turns at first touch
+    /// ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion force of
+    /// a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the number of profiles in each regime of adhesion. The regime follows from F_a(F=0)
-    /// if `quantity` is [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other
-    /// quantity.
+    /// Returns the number of profiles in each regime of adhesion. If `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], the regime follows from F_a(F=0), the adhesion force of
+    /// a loading that turns at zero force. For any other quantity it follows from F_a(d=0), the
+    /// adhesion force of a loading that turns at first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
 }
 
-/// Quantity that a [`Grid`] shows, with the scale on which figures show the means of the quantity.
+/// Quantity that a [`Grid`] shows, and the scale on which figures show its means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridLayer {
     /// Quantity whose means over the profiles the grid shows.
@@ -44,8 +46,8 @@ pub struct GridLayer {
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means. If `scale` is `None`, the layer
-    /// gets the scale that suits the means.
+    /// Makes a layer of a quantity with the range of `means`, its means over the profiles, one for
+    /// each cell. If `scale` is `None`, the layer gets the scale that suits these means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let mut range: Option<(f64, f64)> = None;
@@ -63,8 +65,9 @@ impl GridLayer {
     }
 }
 
-/// Returns the logarithmic scale if all means are above zero and at least a third of them are
-/// small, which means below a fiftieth of the largest mean. Otherwise returns the linear scale.
+/// Returns the scale that suits `means`, the means of a quantity over the profiles, one for each
+/// cell. It is logarithmic if all means are above zero and at least a third of them are below a
+/// fiftieth of the largest mean. Otherwise it is linear.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means
@@ -79,8 +82,8 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     }
 }
 
-/// Position on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None`
-/// for a grid along one axis.
+/// Position on a [`Grid`]. The first number is a value on the horizontal axis. The second is a
+/// value on the vertical axis, or `None` for a grid with one axis.
 pub type GridPlace = (f64, Option<f64>);
 
 /// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each
@@ -97,8 +100,9 @@ pub struct Grid {
     /// Quantities that the grid shows, except regimes. For regimes, [`GridCell::regimes`] has the
     /// number of profiles in each regime.
     pub layers: Vec<GridLayer>,
-    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
-    /// computed. An error states why a cell cannot be computed.
+    /// Cells of the grid row by row, beginning with the lowest row. An element is `None` until its
+    /// [cell](GridCell) is computed. It is an error, with the reason as text, if the cell cannot be
+    /// computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
     /// For each cell, the index of the cell whose results are shown in its place. This is its own
     /// index or, until the cell is computed, the index of a cell of a coarser grid.
@@ -126,7 +130,7 @@ impl Grid {
         }
     }
 
-    /// Returns the number of columns and the number of rows of the grid.
+    /// Returns the size of the grid: first the number of columns, then the number of rows.
     pub fn size(&self) -> (usize, usize) {
         let columns = self.across.values.len();
         let rows = self.up.as_ref().map_or(1, |up| up.values.len());
@@ -139,8 +143,10 @@ impl Grid {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// Returns the quantities that the grid shows. If regimes are known, the regime that follows
-    /// from F_a(d=0) comes first and the regime that follows from F_a(F=0) last.
+    /// Returns the quantities that the grid shows, in the order of the layers. If the regimes of
+    /// adhesion are known, they are added. The first quantity is then the regime that follows from
+    /// the adhesion force after first touch, F_a(d=0), and the last quantity is the regime that
+    /// follows from the adhesion force after zero force, F_a(F=0).
     pub fn quantities(&self) -> Vec<Quantity> {
         let [after_touch, after_zero_force] = Quantity::REGIMES;
         let mut quantities = Vec::with_capacity(self.layers.len() + 2);
@@ -154,8 +160,9 @@ impl Grid {
         quantities
     }
 
-    /// Returns true if there is a [cell](GridCell) in which less than three quarters of the
-    /// profiles have the same regime of adhesion. `regime` is one of [`Quantity::REGIMES`].
+    /// Returns true if the regime of adhesion is not clear in at least one [cell](GridCell): less
+    /// than three quarters of its profiles have the same regime. `regime` is one of
+    /// [`Quantity::REGIMES`].
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false)
             .flatten()
@@ -163,9 +170,9 @@ impl Grid {
     }
 
     /// Returns the [cell](GridCell) that a map shows at a column and a row, with the column and the
-    /// row to which this cell belongs. An incomplete [`LiveMap`](crate::maps::LiveMap) shows a
-    /// computed cell nearby in place of a missing cell, so that the returned column and row may
-    /// differ from the given ones. `None` if the map shows no cell there.
+    /// row to which the returned cell belongs. A [`LiveMap`](crate::maps::LiveMap) that is not
+    /// complete shows a computed cell nearby in place of a missing cell. The returned column and
+    /// row may therefore differ from the given ones. `None` if the map shows no cell there.
     pub fn shown(
         &self,
         column: usize,
@@ -189,12 +196,13 @@ impl Grid {
         })
     }
 
-    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is
-    /// true, a cell that is not computed yet gets the statistics of the computed cell nearby that a
-    /// map shows in its place.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. An element is
+    /// `None` if the cell is not computed or the quantity has no value in it. If `whole` is true, a
+    /// cell that is not computed yet gets the statistics of the computed cell that a map shows in
+    /// its place.
     ///
-    /// If the quantity is a regime, its value in a cell is the most frequent regime: 0
-    /// (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer than three
+    /// A regime is treated as a number: 0 (non-adhesive), ½ (pressure-sensitive) or 1
+    /// (pressure-insensitive). The value of a cell is its most frequent regime. If fewer than three
     /// quarters of the profiles are in this regime, the value is halfway between the values of the
     /// two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
@@ -212,10 +220,11 @@ impl Grid {
     }
 
     /// Returns the most frequent regime of each [cell](GridCell), row by row. The list is empty if
-    /// no regime is known in any cell. The regime follows from F_a(F=0) if `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], and from F_a(d=0) for any other quantity. If `whole` is
-    /// true, a cell that is not computed yet gets the regime of the computed cell nearby that a map
-    /// shows in its place.
+    /// no regime is known in any cell. An element is `None` if the regime of the cell is not known.
+    /// The regime follows from the adhesion force after zero force, F_a(F=0), if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from the adhesion force after first touch, F_a(d=0),
+    /// for any other quantity. If `whole` is true, a cell that is not computed yet gets the regime
+    /// of the computed cell that a map shows in its place.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let mut regimes = Vec::new();
         for cell in self.each(whole) {
@@ -289,8 +298,9 @@ fn nearest_index(index: f64, count: usize) -> usize {
 }
 
 /// Returns the indices of the horizontal and the vertical axis of a grid. `free` are the indices of
-/// the axes that are not fixed. A free axis of H is horizontal, and a free axis of κ or e_el/γ is
-/// vertical. Otherwise the first free axis is horizontal. Returns `None` if no axis is free.
+/// the axes that are not fixed. A free axis of the Hurst exponent is horizontal, and a free axis of
+/// a roughness parameter (κ or e_el/γ) is vertical. Otherwise the first free axis is horizontal.
+/// Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let mut up = None;
     let mut across = None;

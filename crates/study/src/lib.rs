@@ -4,8 +4,8 @@
 //!
 //! # Names by task
 //!
-//! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record;
-//!   [`Changes`] to a plan.
+//! * Plans: a [`Plan`] has several [`Axis`] with their [`Spacing`], each [`Quantity`] to record,
+//!   and a [`StiffnessRange`]. [`Changes`] are made to a plan when it is read.
 //! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of
 //!   a plan, a [`Shard`], in a [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes
 //!   the tables from all parts.
@@ -15,10 +15,10 @@
 //!   [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a
 //!   function of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene:
 //!   the [`Changed`] results for a smaller and a larger value of this number.
-//! * Functions that may take long have three parts in common: what is asked, the
-//!   [`Simulation`](asperity_scene::Simulation) whose profile and contact may be reused, and a
-//!   [`Control`](asperity_data::Control) with the number of threads, the test whether to stop, and
-//!   the receiver of the progress or of the results so far.
+//! * Functions that may take long have three arguments in common. The first states what is to be
+//!   computed. The second is a [`Simulation`](asperity_scene::Simulation), whose profile and
+//!   contact may be used again. The third is a [`Control`](asperity_data::Control), with the number
+//!   of threads, a test whether to stop, and a receiver of the progress or of the results so far.
 //! * Errors of all these functions: [`StudyError`].
 //!
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
@@ -107,7 +107,7 @@ pub mod folders {
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes of a study, and the values of κ or e_el/γ (elastic energy ratio)
+/// Maps of results over two axes of a study, and the values of a roughness parameter (κ or e_el/γ)
 /// at which adhesion without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};

@@ -1,5 +1,5 @@
-//! The map of a scene over κ or e_el/γ and H. The map is a study in memory, which is computed first
-//! at a coarse and then at finer resolutions.
+//! The map of the results of a scene over two axes: κ or e_el/γ, and the Hurst exponent H. The map
+//! is a study in memory, which is computed first at a coarse and then at finer resolutions.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -23,13 +23,17 @@ const VERY_MANY: u64 = 1 << 17;
 /// Resolution of a [`LiveMap`]: how many values each of its two axes has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// 5 values of κ or e_el/γ and 5 values of H.
+    /// 5 values on the axis of the roughness parameter (κ or e_el/γ), and 5 values of the Hurst
+    /// exponent.
     Coarse,
-    /// 9 values of κ or e_el/γ and 9 values of H.
+    /// 9 values on the axis of the roughness parameter (κ or e_el/γ), and 9 values of the Hurst
+    /// exponent.
     Medium,
-    /// 17 values of κ or e_el/γ and all values of H.
+    /// 17 values on the axis of the roughness parameter (κ or e_el/γ), and all values of the Hurst
+    /// exponent.
     Fine,
-    /// All values of κ or e_el/γ and all values of H.
+    /// All values on the axis of the roughness parameter (κ or e_el/γ), and all values of the Hurst
+    /// exponent.
     Whole,
 }
 
@@ -67,7 +71,8 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H, which can be shown while it is
+/// Map of the results of a scene over two axes: a roughness parameter (κ, or the ratio e_el/γ of
+/// elastic energy to work of adhesion), and the Hurst exponent H. The map can be shown while it is
 /// computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
@@ -92,8 +97,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the [cells](Plan) that a map of this resolution contains, in groups
-    /// of cells with the same value of H.
+    /// Returns the numbers of those [cells](Plan) that the map has at this resolution. Cells with
+    /// the same Hurst exponent form a group.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let parameters = level.places_on(plan, 0);
@@ -131,20 +136,21 @@ impl LiveMap {
             .all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest resolution at which no [cell](Plan) of the map is left to compute; `None`
-    /// if the map is not complete at any resolution.
+    /// Returns the finest resolution at which all [cells](Plan) of the map are computed; `None` if
+    /// the map is not complete even at the coarsest resolution.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true if no [cell](Plan) is left to compute.
+    /// Returns true if all [cells](Plan) of the map are computed.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing [cells](Plan) from coarse to fine, on this thread. `control` reports
-    /// the map after each value of H. If `control` stops the computation, the map keeps its
-    /// results.
+    /// Computes the missing [cells](Plan) of this map on the calling thread, first at the coarse
+    /// and then at the finer resolutions. After each value of the Hurst exponent, `control`
+    /// receives the map. If `control` stops the computation, the map keeps the results computed so
+    /// far.
     pub fn compute(&mut self, simulation: &mut Simulation, mut control: Control<'_, LiveMap>) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, take(simulation), control.stop());
@@ -192,8 +198,9 @@ impl LiveMap {
         ControlFlow::Continue(())
     }
 
-    /// Returns the results so far as a [`Grid`] with H on the horizontal axis and κ or e_el/γ on
-    /// the vertical axis. Without H the grid has only a horizontal axis, κ or e_el/γ.
+    /// Returns the results computed so far as a [`Grid`]. Its horizontal axis is the Hurst
+    /// exponent, and its vertical axis is the roughness parameter (κ or e_el/γ). If the scene has
+    /// no Hurst exponent, the grid has only a horizontal axis, the roughness parameter.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid = self.results.grid(

@@ -61,7 +61,8 @@ impl Plan {
     pub const PROFILES_OF_MAP: u64 = 4;
 
     /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. The axes of the
-    /// plan are κ and, if the roughness of the scene has a Hurst exponent H, also H.
+    /// plan are the parameter κ, which compares the roughness with the adhesion, and, if the
+    /// roughness of the scene has a Hurst exponent, also this exponent.
     ///
     /// # Errors
     /// Returns an error with the reason if the scene has no map, for example because the body is

@@ -31,19 +31,19 @@ pub struct ProfileAdhesion {
     /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum. The change of the spectrum is
-    /// drawn from the uncertainty of the fit, and the change of F_a is computed to first order. It
-    /// is limited so that the changed force is between zero and [`ProfileAdhesion::largest_force`].
-    /// `None` if there is no adhesion force before or after the change.
+    /// Change of F_a in N, computed to first order, if the spectrum changes at random within the
+    /// uncertainty of its fit. The change is limited so that the changed force is between zero and
+    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
+    /// change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
-    /// is unknown.
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(d=0), the adhesion force
+    /// of a loading that turns at first touch. `None` if the regime is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if the regime
-    /// is unknown.
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(F=0), the adhesion force
+    /// of a loading that turns at zero force. `None` if the regime is unknown.
     pub regime_after_zero_force: Option<Regime>,
-    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, which no
-    /// rough profile exceeds; `None` if it is not known.
+    /// Ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as the profile.
+    /// No rough profile exceeds it. `None` if it is not known.
     #[serde(skip)]
     pub largest_force: Option<f64>,
 }
@@ -103,8 +103,8 @@ fn run_on(
 pub struct MeasuredAdhesion {
     /// Adhesion of each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
-    /// True if the uncertainty of the force due to the spectrum is known. It is known if the error
-    /// of the elastic energy of the spectrum is at most as large as this energy.
+    /// True if the uncertainty of the adhesion force due to the spectrum is known. This is so if
+    /// the error of the elastic energy of the spectrum is at most as large as the elastic energy.
     pub is_fit_known: bool,
 }
 
@@ -118,8 +118,8 @@ impl MeasuredAdhesion {
         }
     }
 
-    /// Returns the ideal adhesion force F_a,max in N of a flat face of the length of the profiles,
-    /// which no rough profile exceeds; `None` if it is not known.
+    /// Returns the ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as
+    /// the profiles. No rough profile exceeds it. `None` if it is not known.
     pub fn largest_force(&self) -> Option<f64> {
         self.profiles.first()?.largest_force
     }
@@ -180,8 +180,8 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::of_line(scene, &line, count, control)
     }
 
-    /// Largest number of springs of a scene for which [`MeasuredAdhesion::quick_deviation`]
-    /// computes a deviation.
+    /// Largest number of springs of a scene for which [`MeasuredAdhesion::quick_deviation`] returns
+    /// a result.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
     /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
@@ -262,10 +262,10 @@ impl MeasuredAdhesion {
         rms(changes.flatten())
     }
 
-    /// Returns the median adhesion force in N minus and plus its standard deviation due to the
-    /// uncertainty of the spectrum, [`MeasuredAdhesion::fit_deviation`]. Both forces are limited to
-    /// the range from zero to [`MeasuredAdhesion::largest_force`]. `None` if the deviation is
-    /// unknown.
+    /// Returns the interval of the median adhesion force in N: the median minus and plus the
+    /// standard deviation due to the uncertainty of the spectrum,
+    /// [`MeasuredAdhesion::fit_deviation`]. Both ends are limited to the range from zero to
+    /// [`MeasuredAdhesion::largest_force`]. `None` if the deviation is unknown.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let deviation = self.fit_deviation()?;
         let median = self.adhesion_force()?.quartiles[1];
@@ -275,9 +275,10 @@ impl MeasuredAdhesion {
         Some((low, high))
     }
 
-    /// Returns the number of profiles in each regime of adhesion, counted twice: first with the
-    /// regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime that follows
-    /// from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
+    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let after_touch = self.profiles.iter().map(|profile| profile.regime);
         let after_zero_force = self

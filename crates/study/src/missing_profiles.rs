@@ -8,7 +8,8 @@ use super::recorder::{Recorded, with_recorder};
 use asperity_data::Warning;
 use asperity_scene::{RunError, Simulation};
 
-/// Profiles of a plan that are not computed yet. Each of them is computed in all cells of the plan.
+/// Profiles of a plan that are not computed yet. A profile is computed in all cells of the plan
+/// together.
 pub(super) struct MissingProfiles {
     pub plan: Plan,
     /// Indices of the random profiles that are to be computed, from 0.
@@ -30,8 +31,8 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// Premises of the model that cells do not meet on this profile: the number of each such cell,
-    /// with its premises.
+    /// Warnings on this profile, one for each cell that does not meet all premises of the model:
+    /// the number of the cell, and the premises that it does not meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 

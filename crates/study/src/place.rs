@@ -9,8 +9,8 @@ use asperity_scene::{
 
 impl Axis {
     /// Returns the value that the quantity of this axis has in a scene; `None` if the scene does
-    /// not determine it. `computed` are the governing parameters of the computed scene, such as κ.
-    /// They are needed only for a measured surface.
+    /// not determine this value. `computed` are the governing parameters of the computed scene,
+    /// such as its rms height. They are needed only if the scene has a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -37,8 +37,9 @@ impl Axis {
 }
 
 /// Returns the scene `base` with other values on axes. Numbers of the scene are set first, then
-/// quantities that depend on several numbers, then κ or e_el/γ, which replaces the work of
-/// adhesion. A preload is not part of a scene; it is applied when the contact is computed.
+/// quantities that depend on several numbers, then a roughness parameter (κ or e_el/γ), which
+/// replaces the work of adhesion. A preload is not part of a scene; it is applied when the contact
+/// is computed.
 ///
 /// # Errors
 /// Returns an error with the path and the reason if the scene lacks a number.
@@ -130,8 +131,8 @@ fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene, each with its axis (without values). Counts, such as
-/// the number of springs, and numbers that are zero are left out.
+/// Returns the physical numbers of a scene. Each number is given as an axis without values, and its
+/// value. Counts, such as the number of springs, and numbers that are zero are left out.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
@@ -159,7 +160,7 @@ fn force_unit(scene: &Scene) -> Option<f64> {
 }
 
 /// Replaces the loading of a scene by a loading to a preload, followed by separation. `preload` is
-/// in the unit of `axis`. If the scene does not determine this unit, it is not changed.
+/// in the unit of `axis`. If the scene does not determine this unit, the scene is not changed.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     let unit = if axis.unit == "N" {
         Some(1.0)
@@ -173,9 +174,9 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 
 impl Axis {
     /// Returns a copy of a scene file in which the quantity of each axis has the given value. If an
-    /// axis is κ or e_el/γ and the scene has a work of adhesion, the copy gets the work of adhesion
-    /// that leads to the given κ or e_el/γ. If an axis is the preload, the copy is loaded to this
-    /// preload and then to separation.
+    /// axis is a roughness parameter (κ or e_el/γ) and the scene has a work of adhesion, the copy
+    /// gets the work of adhesion with which the parameter has the given value. If an axis is the
+    /// preload, the copy is loaded to this preload and then to separation.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the quantity of an axis, or if the scene does not allow

@@ -15,11 +15,11 @@ pub(super) const PRELOAD: &str = "preload";
 
 /// Largest number of random profiles of a [`Plan`] for each [cell](Plan).
 pub const MOST_LINES: u64 = 1_000_000;
-/// Largest number of records of a [`Plan`]: the number of [cells](Plan) times the number of random
-/// profiles.
+/// Largest number of records of a [`Plan`]. A record belongs to one [cell](Plan) and one random
+/// profile.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Largest number of scenes in a plan with which every scene is checked. In larger plans only the
+/// Largest number of scenes in a plan up to which each scene is checked. In larger plans only the
 /// scenes at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
 /// Largest number of cells with invalid scenes that an error message lists. Further cells are only
@@ -51,10 +51,11 @@ pub struct Plan {
     pub title: String,
     /// Note for readers of the results, such as a limit of the study; may be empty.
     pub notice: String,
-    /// Scene whose numbers vary. Paths of files in it are absolute.
+    /// Scene whose numbers vary. The paths of its measured files are absolute.
     pub scene: Scene,
-    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An
-    /// axis of preloads is always the last one, and each preload replaces the loading of the scene.
+    /// Axes of the study. The cells are numbered so that the value on the last axis changes
+    /// fastest. An axis of preloads is always the last axis, and its preloads replace the loading
+    /// of the scene.
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
@@ -63,25 +64,27 @@ pub struct Plan {
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,
-    /// Forces at which the contact is computed for [`Quantity::StiffnessExponent`] and
-    /// [`Quantity::ForceExponent`].
+    /// Range of forces at which the contact without adhesion is computed. It is used for
+    /// [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene
     /// without such files, and for a plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces at which the contact without adhesion is computed for [`Quantity::StiffnessExponent`] and
-/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h,
-/// length L of the profile.
+/// Range of forces at which the contact without adhesion is computed for
+/// [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`]. The unit of force is E* h L,
+/// with the effective modulus E*, the rms height h, and the length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
-    /// Smallest force of the range, above zero.
+    /// Smallest force of the range, above zero. The unit is E* h L (effective modulus, rms height,
+    /// length of the profile).
     pub from: f64,
-    /// Largest force of the range.
+    /// Largest force of the range. The unit is E* h L (effective modulus, rms height, length of the
+    /// profile).
     pub to: f64,
-    /// Number of forces in the range, at least 2, with equal ratios of neighbouring forces.
+    /// Number of forces in the range, at least 2. Neighbouring forces have equal ratios.
     pub count: u64,
 }
 
@@ -133,8 +136,7 @@ impl Plan {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Returns the number of records of the complete study: the number of [cells](Plan) times the
-    /// number of profiles.
+    /// Returns how many records the complete study has: one for each [cell](Plan) and each profile.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -194,12 +196,13 @@ impl Plan {
         coordinates.join(", ")
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, with the values of the cell on the axes. A
-    /// value on an axis of preloads is not set: the scene has the loading of the scene of the plan,
-    /// and the preload replaces it only when the cell is computed.
+    /// Returns the scene of [cell](Plan) number `cell`, in which the quantities of the axes have
+    /// the values of this cell. A preload of the cell is not set: the returned scene still has the
+    /// loading of the scene of the plan. The preload replaces this loading when the cell is
+    /// computed.
     ///
     /// # Errors
-    /// Returns an error if the scene lacks the number of an axis, or if a value is out of its
+    /// Returns an error if the scene lacks the quantity of an axis, or if a value is out of its
     /// range.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()

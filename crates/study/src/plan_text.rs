@@ -1,5 +1,5 @@
-//! The text of a plan: how a plan is read from it, with the scene that it names, and how a plan is
-//! written to it.
+//! The text of a plan: functions that read a plan and its scene from text, and functions that write
+//! a plan as text.
 
 use super::axis::{Axis, AxisText, Spacing};
 use super::error::StudyError;
@@ -96,9 +96,9 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// Makes a plan of a study that varies numbers of a scene. Each of the `axes` is the path of a
-    /// number and its values in SI units. The quantities in `record` are recorded on `profiles`
-    /// random profiles for each combination of values.
+    /// Makes a plan of a study that varies numbers of a scene. Each element of `axes` is the path
+    /// of a number and the values of this number in SI units. For each combination of values, the
+    /// quantities in `record` are recorded on `profiles` random profiles.
     ///
     /// # Errors
     /// Returns an error if the plan or the scene of a [cell](Plan) has an error.

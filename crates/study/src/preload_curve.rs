@@ -32,8 +32,8 @@ pub struct PreloadCurve {
     pub axis: Axis,
     /// Adhesion force of the scene's own profile as a function of the preload.
     pub staircase: Staircase,
-    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own
-    /// profile.
+    /// Results on the computed random profiles, for the preloads of `axis`. The first profile is
+    /// the scene's own profile.
     pub results: Results,
 }
 
@@ -41,10 +41,10 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the adhesion force as a function of the preload for a scene whose outcome is
-    /// already known. `scale` is the scale of the preloads, linear or logarithmic. If `begun` is an
-    /// incomplete curve on the same scale, only its missing parts are computed. `control` reports
-    /// the curve so far after each part.
+    /// Computes the adhesion force of a scene as a function of the preload. `outcome` is the known
+    /// outcome of the scene, and `scale` is the scale of the preloads, linear or logarithmic. If
+    /// `begun` is an incomplete curve on the same scale, only its missing parts are computed.
+    /// `control` receives the curve computed so far after each part.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no adhesion or no stage

@@ -25,12 +25,13 @@ const FINEST: f64 = 1.0 / 2048.0;
 pub(super) const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Smallest and largest number of preloads that an axis may have.
+    /// Allowed numbers of preloads on an axis, from the smallest to the largest.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
     /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the
-    /// number of preloads, and `log` for equal ratios of neighbouring preloads. Without the number
-    /// there are 64 preloads, and without `log` neighbouring preloads have equal differences.
+    /// number of preloads, and `log` for equal ratios of neighbouring preloads. If the number is
+    /// left out, there are 64 preloads. If `log` is left out, neighbouring preloads have equal
+    /// distances.
     ///
     /// # Errors
     /// Returns an error if the text has another form or if a number is not allowed.
@@ -69,8 +70,8 @@ impl Axis {
         Axis::of_preloads(ends, count, scale)
     }
 
-    /// Reads two numbers from text such as `1uN..20uN`, the smaller number first. `unit` is their
-    /// SI unit, here `N`.
+    /// Reads a range from text such as `1uN..20uN` and returns its two ends in SI units. The first
+    /// end must be the smaller one. `unit` is the expected SI unit, here `N`.
     ///
     /// # Errors
     /// Returns an error if the text has another form or another unit.
@@ -91,12 +92,12 @@ impl Axis {
         }
     }
 
-    /// Creates an axis of `count` preloads in N, from the first to the second of two forces.
-    /// Neighbouring preloads have equal differences on a linear scale and equal ratios on a
-    /// logarithmic scale.
+    /// Creates an axis of `count` preloads in N. `ends` are the first and the last preload. The
+    /// preloads have equal distances on a linear scale, and equal ratios of neighbouring preloads
+    /// on a logarithmic scale.
     ///
     /// # Errors
-    /// Returns an error if a force or the number of preloads is not allowed.
+    /// Returns an error if a preload or the number of preloads is not allowed.
     pub fn of_preloads(
         ends: (f64, f64),
         count: usize,
@@ -149,8 +150,8 @@ impl Axis {
 pub struct Staircase {
     /// Scale, linear or logarithmic, of the axis of preloads.
     pub scale: AxisScale,
-    /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first
-    /// touch.
+    /// Two forces of a loop that turns at first touch, in N: the force at first touch, and the
+    /// adhesion force F_a(d=0).
     pub touch: (f64, f64),
     /// Adhesion force F_a(F=0) in N of a loop that turns at zero force.
     pub zero_force: f64,
@@ -161,9 +162,9 @@ pub struct Staircase {
 
 impl Staircase {
     /// Computes the adhesion force of a checked scene at the preloads in N of an axis. Further
-    /// preloads are then added, until every jump of the adhesion force lies between two preloads
-    /// that differ by at most 1/2048 of the axis, on the scale of the axis. `control` reports the
-    /// staircase at the preloads of the axis, and again after each refinement.
+    /// preloads are then added near the jumps of the adhesion force, until each jump lies between
+    /// two preloads that differ by at most 1/2048 of the axis, on the scale of the axis. `control`
+    /// receives the staircase after the preloads of the axis, and again after each refinement.
     ///
     /// # Errors
     /// Returns an error if a preload is below the force at first touch. The errors of
@@ -223,8 +224,9 @@ impl Staircase {
         Ok(staircase)
     }
 
-    /// Returns true if every jump of the adhesion force is known to lie between two preloads that
-    /// differ by at most 1/2048 of the axis of preloads, on the scale of the axis.
+    /// Returns true if the staircase is complete, which means that the preload of each jump is
+    /// known precisely. The jump lies between two computed preloads that differ by at most 1/2048
+    /// of the axis of preloads, on the scale of this axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
@@ -248,8 +250,8 @@ impl Staircase {
         middles
     }
 
-    /// Returns the adhesion force over the preload as a polygonal line for a chart: its corners,
-    /// each with preload and adhesion force in N.
+    /// Returns the adhesion force as a function of the preload, as the corners of a polygonal line
+    /// for a chart. Each corner is a preload in N and an adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let mut corners: Vec<(f64, f64)> = self.forces.first().copied().into_iter().collect();
         for pair in self.forces.windows(2) {

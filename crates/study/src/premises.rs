@@ -9,10 +9,10 @@ use asperity_data::{Control, CountedWarning, Warning};
 use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 
-/// Computes a scene on `profiles` random profiles. Returns the premises of the model that these
-/// profiles do not meet, each with the number of these profiles. If the scene cannot be computed on
-/// any profile, the premises follow from its fields alone. `control` receives the number of
-/// computed profiles.
+/// Returns the premises of the model that random profiles of a scene do not meet, each with the
+/// number of profiles that do not meet it. The scene is computed on `profiles` random profiles. If
+/// it cannot be computed on any of them, only those premises are checked that depend on the fields
+/// of the scene alone. `control` receives the number of computed profiles.
 ///
 /// # Errors
 /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the
@@ -55,9 +55,9 @@ pub fn warnings_on_profiles(
     Ok(counted)
 }
 
-/// Returns the premises of the model that are not met by the unloading from the deepest turning
-/// point of `map`, or by the scene on its own profile. The map has the unloadings of the scene from
-/// many turning points.
+/// Returns the premises of the model that a scene does not meet on its own profile, either in its
+/// own loading or in the deepest unloading of `map`. `map` has the unloadings of the scene from
+/// many turning points, and the deepest unloading begins at the largest indentation.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene cannot be made.

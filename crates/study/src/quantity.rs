@@ -1,5 +1,5 @@
-//! Quantities that a study records for each cell and profile. One table has a row for each
-//! quantity.
+//! Quantities that a study records for each cell (combination of values on the axes) and each
+//! profile. A table in this file describes one quantity in each row.
 
 use super::case_outcome::CaseOutcome;
 use asperity_scene::Regime;
@@ -21,17 +21,22 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The profile and its governing parameters are needed.
+    /// The quantity needs the profile and its governing parameters, such as the effective modulus
+    /// and the rms height, but no loading.
     Profile,
-    /// Statistics of the heights without the form are needed.
+    /// The quantity needs statistics of the heights of the roughness, without the form of the body.
     Heights,
-    /// A loading that turns at first touch is needed, for F_a(d=0).
+    /// The quantity needs a loading that turns at first touch, which gives the adhesion force
+    /// F_a(d=0).
     Touch,
-    /// A loading that turns where the force is back at zero is needed, for F_a(F=0).
+    /// The quantity needs a loading that turns at zero force, which gives the adhesion force
+    /// F_a(F=0).
     ZeroForce,
-    /// The loading to the preload is needed, or the loading of the scene.
+    /// The quantity needs the loading to the preload or, if the study has no preloads, the loading
+    /// of the scene.
     Loading,
-    /// The force curve without adhesion is needed, for its exponents.
+    /// The quantity needs the force curve of the contact without adhesion. From it follow the
+    /// exponents with which the stiffness grows with the force, and the force with the indentation.
     Stiffness,
 }
 
@@ -54,7 +59,7 @@ const SHARE: (f64, f64) = (0.0, 1.0);
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
         /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The
-        /// text of each variant begins with its name in plans and tables.
+        /// documentation of each variant begins with the name of the quantity in plans and tables.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Quantity {
             $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
@@ -197,19 +202,22 @@ quantities! {
 }
 
 impl Quantity {
-    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal
-    /// adhesion force F_a,max.
+    /// Adhesion forces without a preload, divided by the ideal adhesion force F_a,max. The first is
+    /// F_a(d=0) of a loading that turns at first touch, the second F_a(F=0) of a loading that turns
+    /// at zero force.
     pub const ADHESION_SHARES: [Quantity; 2] = [
         Quantity::FirstTouchAdhesionShare,
         Quantity::ZeroForceAdhesionShare,
     ];
 
-    /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
+    /// Regimes of adhesion as quantities. The first follows from F_a(d=0), the adhesion force of a
+    /// loading that turns at first touch. The second follows from F_a(F=0), the adhesion force of a
+    /// loading that turns at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns in words where the loading turns. The regimes on a map of this quantity are those
-    /// after this turn: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and
-    /// `turned at first touch` for any other quantity.
+    /// Returns words that state at which point the loading turns before the adhesion force is
+    /// taken: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and `turned at first
+    /// touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "turned at zero force"
@@ -218,8 +226,8 @@ impl Quantity {
         }
     }
 
-    /// Returns a short text for the point at which the loading turns: `F=0` for zero force, `d=0`
-    /// for first touch.
+    /// Returns the symbol of the point at which the loading turns: `F=0` for zero force, `d=0` for
+    /// first touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "F=0"

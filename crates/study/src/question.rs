@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a
-//! target, and the answer to this question on one profile.
+//! An inverse question, and its answer on one profile. The question is: at which value of a number
+//! of a scene, or at which preload, does a quantity reach a target?
 
 use super::axis::{Axis, Spacing, Target};
 use super::coordinates::{Allowed, Coordinates};
@@ -39,9 +39,9 @@ pub struct Question {
     pub quantity: Quantity,
     /// Target value of [`Question::quantity`] in the SI unit of the quantity.
     pub target: f64,
-    /// Smallest and largest value of the number that are tried, in SI units. If the number is zero
-    /// or negative in the scene, [`Question::new`] sets both to NaN, and the caller must set the
-    /// range before the question is answered.
+    /// Smallest and largest value of the sought number that are tried, in SI units. If the number
+    /// is zero or negative in the scene, [`Question::new`] sets both to NaN, and the caller must
+    /// set the range before the question is answered.
     pub searched: (f64, f64),
     /// Scale, linear or logarithmic, on which the values of the number are searched.
     scale: AxisScale,
@@ -49,15 +49,17 @@ pub struct Question {
     pub(super) plan: Plan,
 }
 
-/// How the quantity depends on the sought number. The method of the search follows from this.
+/// Way in which the quantity depends on the sought number. It determines the method of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
-    /// The quantity is monotonic in the number: it never falls, or it never rises.
+    /// The quantity is monotonic: as the sought number increases, it never falls, or it never
+    /// rises.
     OneWay,
-    /// The quantity is F_a/F_n as a function of the preload F_n.
+    /// The quantity is the ratio F_a/F_n of adhesion force and preload, as a function of the
+    /// preload F_n.
     Ratio,
-    /// The quantity depends on the preload only through F_a, which is constant between its steps.
-    /// The quantity is then constant between these steps too.
+    /// The quantity depends on the preload only through the adhesion force F_a. F_a rises in steps
+    /// as the preload increases. Between these steps F_a, and therefore the quantity, is constant.
     Steps,
     /// The quantity may rise and fall.
     Unknown,
@@ -69,28 +71,29 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target, or at which it
-    /// becomes equal to the target and stays equal. Each has a relative error of at most 1e-9. If
-    /// only some values are allowed, such as whole numbers, an allowed value next to the crossing
-    /// is given: the one at which the quantity is at least the target, apart from rounding errors.
+    /// Ascending values of the sought number, in SI units, at which the quantity crosses the
+    /// target, or at which it becomes equal to the target and stays equal. The relative error of a
+    /// value is at most 1e-9. If only some values are allowed, such as whole numbers, the list has
+    /// an allowed value next to the crossing. This is the one at which the quantity is at least the
+    /// target, apart from rounding errors.
     pub crossings: Vec<f64>,
-    /// True if there may be more crossings than the listed ones, because the quantity comes close
-    /// to the target between two numbers at which it was computed. Even the first crossing may be
-    /// missing from the list then.
+    /// True if there may be more crossings than [`Answer::crossings`], because the quantity comes
+    /// close to the target between two numbers at which it was computed. Even the first crossing
+    /// may then be missing.
     pub may_miss: bool,
-    /// True if the crossings follow from a proof: the quantity is monotonic, or is known in closed
-    /// form, or was computed at all allowed numbers. Otherwise the quantity was computed only at
-    /// some numbers. Two crossings are then missed if the quantity passes the target and comes back
-    /// between two neighbouring numbers.
+    /// True if no crossing can be missing. This is so if the quantity is monotonic, is known in
+    /// closed form, or was computed at all allowed numbers. If false, the quantity was computed
+    /// only at some numbers. Two crossings are then missed if the quantity passes the target and
+    /// comes back between two neighbouring numbers.
     pub is_proven: bool,
     /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
-    /// Whether the quantity is at least the target at the smallest (first element) and at the
-    /// largest (second element) of the tried numbers. Numbers at which the quantity has no value do
-    /// not count.
+    /// True if the quantity is at least the target. The first element is for the smallest tried
+    /// number, the second for the largest. Numbers at which the quantity has no value are ignored.
     pub reached: [bool; 2],
-    /// True if F_a(d=0) already reaches the target, so that no preload is needed. False if no
-    /// preload is sought or if the quantity is not an adhesion force after the preload.
+    /// True if F_a(d=0), the adhesion force after first touch, already reaches the target, so that
+    /// no preload is needed. Always false if no preload is sought, or if the quantity is not an
+    /// adhesion force after the preload.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
     /// if the quantity has no value at any of these numbers.
@@ -155,10 +158,10 @@ impl Question {
     /// value? `path` may be `preload`. `condition` is the quantity and its wanted value in SI
     /// units. The question is for `profiles` random profiles of a checked scene.
     ///
-    /// Numbers from a hundredth to a hundred times the value in the scene are searched. If the
-    /// allowed range of the number is narrow, as for the Hurst exponent, nearly the whole allowed
-    /// range is searched. Preloads are searched from 0 N to a hundred times the largest force to
-    /// which the scene is loaded.
+    /// The searched values of the number are from a hundredth to a hundred times its value in the
+    /// scene. If the allowed range of the number is narrow, as for the Hurst exponent, nearly the
+    /// whole allowed range is searched. Preloads are searched from 0 N to a hundred times the
+    /// largest force to which the scene is loaded.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
@@ -196,7 +199,8 @@ impl Question {
         })
     }
 
-    /// Returns an error for an empty range.
+    /// Returns an error if the range of searched values ([`Question::searched`]) is empty, or if
+    /// one of its ends is NaN.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let (from, to) = self.searched;
         // This comparison also refuses an end that is NaN.
@@ -241,8 +245,8 @@ impl Question {
         self.axis.is_of_preloads()
     }
 
-    /// Returns how the quantity depends on the sought number, as far as this is known for any
-    /// profile.
+    /// Returns the way in which the quantity depends on the sought number, as far as it is known
+    /// without a computation on a profile.
     pub(super) fn course(&self) -> Course {
         match self.axis.target {
             Target::Preload { .. } => match self.quantity {
@@ -282,14 +286,15 @@ impl Question {
         (is_work || self.axis.target.parameter().is_some()) && is_loop_force && is_rigid
     }
 
-    /// Returns true if the question asks for the smallest preload that reaches the target, as the
-    /// quantity never falls with the preload.
+    /// Returns true if the question asks for the smallest preload at which the quantity reaches the
+    /// target. This is so for a quantity that never falls with the preload.
     pub fn seeks_least_preload(&self) -> bool {
         self.is_of_preload() && self.course() == Course::OneWay
     }
 
-    /// Returns true if the roughness is given by wavelengths and the sought number changes how many
-    /// waves fit on the length. Only values for which a whole number of waves fits can be answers.
+    /// Returns true if only those values can be answers for which a whole number of waves fits on
+    /// the length. This is so if the roughness is given by wavelengths and the sought number
+    /// changes how many waves fit.
     pub fn is_of_whole_waves(&self) -> bool {
         matches!(
             self.allowed(),
@@ -302,8 +307,8 @@ impl Question {
         Allowed::of(&self.axis, &self.plan.scene)
     }
 
-    /// Returns the coordinates on which the search is done; `None` if the searched range contains
-    /// no allowed number.
+    /// Returns the scale on which the search divides the searched range, such as a logarithmic
+    /// scale; `None` if the range contains no allowed value of the sought number.
     pub(super) fn coordinates(&self) -> Option<Coordinates> {
         let (from, to) = self.searched;
         let is_of_preload = self.is_of_preload();
@@ -448,8 +453,9 @@ impl Sought {
 }
 
 impl Answer {
-    /// Returns the value that answers the question on this profile: the first crossing, or the
-    /// smallest preload that reaches the target.
+    /// Returns the value that answers the question on this profile: the smallest value of the
+    /// sought number at which the quantity crosses its target, or the smallest preload that reaches
+    /// the target. `None` if there is no such value in the searched range.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.seeks_least_preload() && self.reached[0];
         if already {

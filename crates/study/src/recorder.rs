@@ -18,8 +18,9 @@ pub(super) type Records = Vec<Vec<f64>>;
 /// Values of a record or, if they cannot be computed, the reason as one line of text.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Computes the records of a plan. The recorder keeps the profile, its contact tree and its
-/// properties for the next record on the same profile.
+/// Recorder, which computes the records of a plan. A record has the recorded quantities of one cell
+/// on one profile. The recorder keeps the profile, its contact tree and its statistics for the next
+/// record on the same profile.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
@@ -53,7 +54,8 @@ fn turn_of(loading: &[Move]) -> Option<Move> {
 
 impl<'p> Recorder<'p> {
     /// Creates a recorder, which computes the cells of a plan and returns their recorded
-    /// quantities. It stops within the computation of a cell as soon as `stop` returns true.
+    /// quantities. The recorder stops, even within the computation of a cell, as soon as the
+    /// function `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
         Recorder {
             plan,
@@ -64,18 +66,19 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Returns and removes the warnings collected so far: the number of each cell that does not
-    /// meet all premises of the model, with the premises that it does not meet.
+    /// Returns the warnings collected so far, and removes them from this recorder. There is one for
+    /// each cell that does not meet all premises of the model: the number of the cell, and the
+    /// premises that it does not meet.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }
 
-    /// Computes a streak: all cells of the plan that differ only in the preload, on one profile. A
-    /// cell that cannot be computed gets the reason instead of values.
+    /// Computes a streak, which consists of all cells of the plan that differ only in the preload,
+    /// on one profile. A cell that cannot be computed gets the reason instead of values.
     ///
     /// # Errors
-    /// Returns an error if the memory does not suffice, or if `stop` returned true. Such an error
-    /// has nothing to do with the values of a cell.
+    /// Returns an error if the memory does not suffice, or if the function `stop` of this recorder
+    /// returned true. Both are independent of the values of the cell.
     pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
         let error = match self.record(streak) {
             Ok(records) => return Ok(records.into_iter().map(Ok).collect()),
@@ -100,8 +103,9 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Computes the records of all [cells](Plan) of a streak. These cells differ only in the
-    /// preload, so that one loading of the profile is enough.
+    /// Computes the records of a streak. A streak consists of all [cells](Plan) that differ only in
+    /// the preload, so that one loading of the profile is enough. A record has the recorded
+    /// quantities of one cell.
     ///
     /// # Errors
     /// Returns an error if the profile or the contact cannot be computed, or if the user has

@@ -15,8 +15,8 @@ use asperity_data::CountedWarning;
 use asperity_scene::Scene;
 use serde::Serialize;
 
-/// Options of a [`Reference`]: numbers of random profiles, of random square surfaces in three
-/// dimensions, and of grid cells along the side of a square surface.
+/// Options of a [`Reference`], which compares random profiles with random square surfaces in three
+/// dimensions. They state how many profiles, square surfaces and grid cells are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square surface, a power of two.
@@ -63,12 +63,12 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Smallest mean number of grid cells in contact with which profiles and square surfaces are
-    /// compared at a force.
+    /// Profiles and square surfaces are compared at a force only if at least this number of grid
+    /// cells of a square surface are in contact, as a mean over the square surfaces.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns the relative error due to the grid of the square surfaces: the error of the
-    /// indentation or that of the stiffness, whichever is larger.
+    /// Returns the relative error that the grid of the square surfaces causes in the indentation or
+    /// in the stiffness, whichever error is larger. `None` if one of these errors is unknown.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
@@ -83,8 +83,8 @@ pub struct LeftOut {
     /// Mean number of grid cells of a square surface in contact. It is less than the number
     /// [`Loaded::LEAST_CELLS`] that a comparison needs.
     pub cells: f64,
-    /// Number of grid cells along the side of a square surface with which enough cells would be in
-    /// contact; `None` if the solver does not allow so many cells.
+    /// Number of grid cells along the side of a square surface that would bring enough cells into
+    /// contact. `None` if the solver does not allow so many cells.
     pub grid: Option<usize>,
 }
 
@@ -93,74 +93,80 @@ pub struct LeftOut {
 pub struct RoughnessOfBoth {
     /// Roughness of the profiles.
     pub line: ComparedRoughness,
-    /// Roughness of the square surfaces in the contacts without adhesion. Its rms height is that of
-    /// the profiles.
+    /// Roughness of the square surfaces in the contacts without adhesion. The square surfaces have
+    /// the same rms height as the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the square surfaces in the contacts with adhesion. Its elastic energy is that
-    /// of the profiles. `None` for a scene without adhesion.
+    /// Roughness of the square surfaces in the contacts with adhesion. The square surfaces have the
+    /// same elastic energy as the profiles. `None` for a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
 /// Comparison of a scene on random profiles with the same scene on random square surfaces in three
-/// dimensions. A square surface is a rigid rough body of the side L on an elastic half-space.
+/// dimensions. A square surface is a rigid rough body with a square base of the side L, pressed on
+/// an elastic half-space.
 ///
 /// A profile and a square surface are loaded in the same way: from separation to the same force or
 /// indentation, and back to separation. If the loading of the scene has several such loops, only
-/// the last loop is compared. It turns at the end of its stage with the largest force.
+/// the last loop is compared. Its turning point is the end of the stage with the largest force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Numbers of profiles, square surfaces and grid cells with which the comparison was computed.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Longest and shortest wave of the roughness on profiles and square surfaces, each as its
-    /// number of periods over the length L; `None` for a smooth body.
+    /// Longest and shortest wave of the roughness on profiles and square surfaces. Each wave is
+    /// given as the number of its periods over the length L. `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods over L of the shortest wave of the scene, if the comparison omits this
-    /// wave because the grid of the square surfaces is too coarse; otherwise `None`.
+    /// Shortest wave of the scene, given as its number of periods over the length L, if the
+    /// comparison omits this wave because the grid of the square surfaces is too coarse. `None` if
+    /// no wave is omitted.
     pub omitted: Option<u64>,
     /// Roughness of profiles and square surfaces; `None` for a smooth body.
     pub roughness: Option<RoughnessOfBoth>,
     /// Work of adhesion on opening in J/m², the same for profiles and square surfaces; `None`
     /// without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Two stages of the loop in which profiles and square surfaces are compared: loading and
-    /// separation.
+    /// Loop in which profiles and square surfaces are compared, as its two stages: loading to the
+    /// turning point, and separation.
     pub compared_loading: [Move; 2],
-    /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement
-    /// of the instrument, this is the mean force of the profiles there.
+    /// Force in N at the turning point of the loop. If the loop turns at a given indentation or at
+    /// a given displacement of the instrument, this is the mean force on the profiles at the
+    /// turning point.
     pub preload: f64,
-    /// Comparison without adhesion at several forces, from a hundredth of the preload to the
-    /// preload. Only forces are compared at which enough grid cells of a square surface are in
-    /// contact, at least [`Loaded::LEAST_CELLS`].
+    /// Comparison without adhesion at several forces, from a hundredth of [`Reference::preload`] to
+    /// the preload. Forces at which fewer than [`Loaded::LEAST_CELLS`] grid cells of a square
+    /// surface are in contact are left out.
     pub loading: Vec<Loaded>,
-    /// Forces that are not compared, because too few grid cells are in contact, fewer than
-    /// [`Loaded::LEAST_CELLS`].
+    /// Forces that are left out of [`Reference::loading`], because fewer than
+    /// [`Loaded::LEAST_CELLS`] grid cells of a square surface are in contact.
     pub left_out: Vec<LeftOut>,
     /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
     /// adhesion.
     pub adhesion_force: Option<Compared>,
-    /// Comparison of the adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for
-    /// a scene without adhesion.
+    /// Comparison of the adhesion force F_a(d=0) in N of a loop that turns at first touch; `None`
+    /// for a scene without adhesion.
     pub first_touch_adhesion_force: Option<Compared>,
     /// Comparison of the energy in J that the contact loses in the loop to the preload and back;
     /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// True for a smooth body of revolution for which the method of dimensionality reduction is
-    /// exact, so that every difference between profile and square surface is an error of the square
+    /// True for a smooth body of revolution, for which the method of dimensionality reduction is
+    /// exact. Every difference between profile and square surface is then an error of the square
     /// surface.
     pub line_is_exact: bool,
-    /// Errors of the comparison of adhesion forces, or of indentations for a scene without
-    /// adhesion, one for each source.
+    /// Errors of the comparison, one for each source of errors. They are errors of the adhesion
+    /// force, or of the indentation at the preload for a scene without adhesion.
     pub budget: ReferenceBudget,
-    /// Premises of the model that profiles of the scene do not meet, each with the number of these
-    /// profiles. Only the first [`Reference::profiles_for_warnings`] profiles are checked.
+    /// Premises of the model that profiles of the scene do not meet, each with the number of
+    /// profiles that do not meet it. Only the first [`Reference::profiles_for_warnings`] profiles
+    /// are checked.
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
-    /// Number of convolutions over the grid of a square surface that the solver computed for all
-    /// square surfaces together, as a measure of the computing work. The computations on
-    /// the coarser grid, which show the error of the grid, are not counted.
+    /// Number of convolutions that the solver computed for all square surfaces together, as a
+    /// measure of the computing work. A convolution extends over all grid cells of a square
+    /// surface. Computations on the coarser grid, which show the error of the grid, are not
+    /// counted.
     pub convolutions: u64,
-    /// Computing time in s: first of all profiles together, then of all square surfaces together.
+    /// Computing times in s: first the time of all profiles together, then the time of all square
+    /// surfaces together.
     pub seconds: [f64; 2],
     /// Mean computing time of one square surface in s, without the computation of the same surface
     /// on the coarser grid.
@@ -170,9 +176,10 @@ pub struct Reference {
 /// Event that [`Reference::of`] reports while it compares profiles with square surfaces.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
-    /// Memory and computing time are estimated, and the computation of the profiles begins.
+    /// The computation of the profiles begins. Memory and computing time of the square surfaces are
+    /// estimated.
     Begins {
-        /// Number of square surfaces, which is one for a body without random roughness.
+        /// Number of square surfaces. It is 1 for a body without random roughness.
         maps: u64,
         /// Number of threads that share the square surfaces.
         threads: usize,
@@ -182,12 +189,12 @@ pub enum ReferenceEvent {
         /// cells.
         seconds: f64,
     },
-    /// About another hundredth of the profiles is computed.
+    /// Some more profiles are computed, about a hundredth of all profiles.
     Profiles {
         /// Number of profiles computed since the last event of this kind.
         count: u64,
-        /// Number of all computations of profiles. Each profile counts twice if it is computed both
-        /// in the loop and without adhesion.
+        /// Total number of computations of profiles. A profile counts twice if it is computed both
+        /// in the loop with adhesion and in a loading without adhesion.
         lines: u64,
     },
     /// All profiles are computed, and the computation of the square surfaces begins.
@@ -196,10 +203,10 @@ pub enum ReferenceEvent {
         /// has no adhesion.
         lines: Vec<f64>,
     },
-    /// The contact of a square surface is computed at one more force or indentation.
+    /// The contact of a square surface has been computed at one more force or indentation.
     Loaded {
-        /// Share of this step in the work on all square surfaces, estimated from surfaces with
-        /// fewer grid cells.
+        /// Share of this computation in the work on all square surfaces, from 0 to 1. It is
+        /// estimated from surfaces with fewer grid cells.
         share: f64,
     },
     /// The computation of a square surface is finished.
@@ -214,14 +221,15 @@ pub enum ReferenceEvent {
 }
 
 impl Reference {
-    /// Returns the number of profiles on which the premises of the model were checked: the profiles
-    /// of the comparison, but not more than [`Ensemble::PROFILES`].
+    /// Returns the number of profiles on which the premises of the model were checked. These are
+    /// the first profiles of the comparison, at most [`Ensemble::PROFILES`].
     pub fn profiles_for_warnings(&self) -> u64 {
         self.options.lines.min(Ensemble::PROFILES)
     }
 
     /// Returns the comparison of the adhesion force, or of the indentation at the preload if the
-    /// scene has no adhesion.
+    /// scene has no adhesion. `None` if the scene has no adhesion and no force is compared, because
+    /// too few grid cells are in contact.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force
             .as_ref()

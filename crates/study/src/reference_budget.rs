@@ -1,4 +1,5 @@
-//! Errors of a comparison with three dimensions, one for each source of errors.
+//! Errors of a comparison between profiles and bodies in three dimensions, one for each source of
+//! errors.
 
 use super::compared::Compared;
 use serde::Serialize;
@@ -8,24 +9,28 @@ use serde::Serialize;
 /// if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest error of the gap between the bodies in the contacts without adhesion, divided by the
-    /// rms height of the square surface. It is the maximum over all grid cells of all surfaces.
+    /// Largest error of the gap in the contacts without adhesion, divided by the rms height of the
+    /// square surface. The gap is the distance between the bodies at a grid cell, and the largest
+    /// error over all grid cells of all surfaces is taken.
     pub solver: f64,
-    /// Error of the mean over the square surfaces due to their grid. It is the relative difference
+    /// Error due to the grid of the square surfaces: that of the mean adhesion force (without
+    /// adhesion, of the mean indentation) over these surfaces. It is the relative difference
     /// between this mean and the mean over the same surfaces with half as many grid cells along the
-    /// side; `None` if half as many cells are too few.
+    /// side. `None` if half as many cells are too few.
     ///
-    /// If the profile model is exact, its whole difference from the square surfaces is an error of
-    /// their grid. The larger of the two differences is then the error.
+    /// If the profile model is exact for the body, the difference between the means over the
+    /// profiles and over the square surfaces is an error of the grid too. The error is then the
+    /// larger of the two differences.
     pub grid: Option<f64>,
     /// Error due to the finite numbers of profiles and square surfaces: half the width of the 95 %
     /// confidence interval of [`Compared::ratio`], divided by this ratio. `None` for fewer than two
     /// profiles or square surfaces.
     pub sample: Option<f64>,
-    /// Mean over the profiles divided by the mean over the square surfaces, minus 1; `None` if this
-    /// ratio is unknown.
+    /// Relative difference of the adhesion force (without adhesion, of the indentation) between
+    /// profiles and square surfaces: its mean over the profiles divided by its mean over the square
+    /// surfaces, minus 1. `None` if the difference is unknown.
     pub difference: Option<f64>,
-    /// Lower bound of the error of the model: the part of the magnitude of `difference` that
+    /// Lower bound of the error of the model. It is the magnitude of `difference` as far as it
     /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
     /// and `None` if one of these errors is unknown.
     pub model: Option<f64>,

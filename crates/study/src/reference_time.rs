@@ -6,8 +6,8 @@ use super::spatial::{Body, SquareLoading, Watch};
 use asperity_data::format_rounded;
 use std::time::Instant;
 
-/// Smallest number of grid cells along the side of a square surface, also for the coarser grid that
-/// shows the error of the grid.
+/// Smallest number of grid cells along the side of a square surface. It also limits the coarser
+/// grid that shows the error of the grid.
 pub const LEAST_CELLS: usize = 32;
 /// Smallest computing time in s of a square surface with few cells from which the time of surfaces
 /// with more cells is estimated.
@@ -18,8 +18,9 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest allowed computing time of a comparison in s, one day.
 pub const LONGEST: f64 = 86_400.0;
 
-/// Computing time of a square surface. It is estimated from the same surface with fewer cells,
-/// whose number along the side is doubled until the computation takes long enough.
+/// Computing time of a square surface, estimated from the same surface with fewer grid cells. The
+/// number of cells along the side is doubled until the computation takes long enough for an
+/// estimate.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareTime {
     /// Computing time in s of a square surface, including the computation on a grid with half as
@@ -73,14 +74,15 @@ impl SquareTime {
         self.seconds * maps.div_ceil(threads as u64) as f64
     }
 
-    /// Returns one load of one square surface as a share of the computation of `maps` surfaces.
+    /// Returns the share of one load (force or indentation) of one square surface in the
+    /// computation of `maps` square surfaces.
     pub fn share_of_load(&self, maps: u64) -> f64 {
         1.0 / (self.loads.max(1) as f64 * maps as f64)
     }
 }
 
-/// Returns an error if the comparison of `maps` square surfaces with `cells` grid cells along the
-/// side takes longer than a day.
+/// Returns an error if the comparison takes longer than a day. The comparison has `maps` square
+/// surfaces with `cells` grid cells along the side.
 pub fn check_time(
     cells: usize,
     maps: u64,

@@ -32,10 +32,11 @@ pub(super) struct Resolved {
     pub body: Body,
     /// Roughness of the profiles; `None` for smooth profiles.
     pub line_roughness: Option<ComparedRoughness>,
-    /// First and last mode of the roughness, in periods over the length; `None` for a smooth body.
+    /// Longest and shortest wave of the roughness, each as the number of its periods over the
+    /// length of the profile; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods of the last mode of the scene, if the grid of the square surfaces does not
-    /// resolve this mode; otherwise `None`.
+    /// Shortest wave of the scene, given as its number of periods over the length of the profile,
+    /// if the grid of the square surfaces does not resolve this wave. Otherwise `None`.
     pub omitted: Option<u64>,
     /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards.
     /// The profile model is exact for such a body as long as the contact does not reach the ends of
@@ -44,8 +45,9 @@ pub(super) struct Resolved {
 }
 
 impl Resolved {
-    /// Makes the bodies of a scene without the waves that a grid with `cells` cells along the side
-    /// of a square surface does not resolve.
+    /// Makes the bodies of a scene for the comparison. `cells` is the number of grid cells along
+    /// the side of a square surface. Waves that this grid does not resolve are left out of the
+    /// bodies.
     ///
     /// # Errors
     /// Returns an error if the number of cells is not allowed, or if the scene has no body in three
@@ -188,8 +190,8 @@ impl Resolved {
         self.line_roughness = Some(line);
     }
 
-    /// Returns a simulation that already holds the measured roughness of the profiles, if they have
-    /// one.
+    /// Returns a simulation for the profiles. If the profiles have a measured roughness, the
+    /// simulation already contains this roughness.
     pub fn simulation(&self) -> Simulation {
         let simulation = Simulation::default();
         match &self.measured {

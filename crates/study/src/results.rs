@@ -1,5 +1,5 @@
-//! The values that a study has recorded: read from its shard files or its merged table, or computed
-//! in memory.
+//! The values that a study has recorded. They are read from the files that the processes of the
+//! study wrote, from the table that [`merge`](crate::merge) wrote, or are computed in memory.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -47,7 +47,8 @@ pub struct Merged {
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
-    /// Number of records in the files that repeat another record with exactly the same values.
+    /// Number of repeated records in the files. A repeated record has exactly the same values as
+    /// another record of the same [cell](Plan) and profile.
     pub duplicates: u64,
     /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
@@ -57,7 +58,7 @@ pub struct Merged {
     pub first_missing: Vec<u64>,
     /// Number of files in the folder of the study that have at least one record.
     pub files: usize,
-    /// Versions of the program with which the processes wrote the records.
+    /// Versions of the program that wrote the records.
     pub programs: Vec<String>,
 }
 
@@ -161,9 +162,9 @@ impl Results {
     }
 
     /// Computes a checked scene on `lines` random profiles, as a study in memory. `record` are the
-    /// recorded quantities. If `preloads` are given, they are the only axis of the study: preloads
-    /// in N that replace the loading of the scene. `control` reports the results so far after each
-    /// profile.
+    /// recorded quantities. If `preloads` is given, this axis of preloads in N is the only axis of
+    /// the study, and its preloads replace the loading of the scene. Otherwise the study has no
+    /// axis. After each profile, `control` receives the results computed so far.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if `lines` is above 1 and the profile of the
@@ -200,7 +201,7 @@ impl Results {
         }
     }
 
-    /// Stores the records of a computed profile in all cells.
+    /// Stores the records of a computed profile, one for each cell.
     pub(super) fn take_in(&mut self, solved: SolvedProfile) {
         for (cell, record) in (0..).zip(solved.records) {
             self.set_record(cell * self.plan.lines + solved.line, record);
@@ -299,7 +300,8 @@ impl Results {
         self.records_done
     }
 
-    /// Returns the number of profiles that are computed in all cells.
+    /// Returns the number of profiles on which all cells are computed. A cell is one combination of
+    /// values on the axes.
     pub fn profiles_done(&self) -> u64 {
         self.count() / self.plan.cells().max(1)
     }
@@ -337,8 +339,8 @@ impl Results {
         }
     }
 
-    /// Returns the cells that cannot be computed on a profile: the number of the [cell](Plan), the
-    /// index of the profile, and the reason.
+    /// Returns the pairs of a cell and a profile that cannot be computed. Each item is the number
+    /// of the [cell](Plan), the index of the profile, and the reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed
@@ -354,8 +356,8 @@ impl Results {
             .map(String::as_str)
     }
 
-    /// Returns the reason why a cell has no values, if it cannot be computed on any profile;
-    /// otherwise `None`.
+    /// Returns the reason why a cell has no values at all, because it cannot be computed on any
+    /// profile. Otherwise `None`.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());
@@ -365,8 +367,8 @@ impl Results {
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
-    /// the number of these profiles. The list is empty for results that were read from files, in
-    /// which only the number of premises is recorded, as [`Quantity::Warnings`].
+    /// the number of profiles that do not meet it. The list is empty for results that were read
+    /// from files, in which only the number of premises is recorded, as [`Quantity::Warnings`].
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
@@ -380,8 +382,8 @@ impl Results {
         counted
     }
 
-    /// Returns the premises of the model that profiles do not meet in any of the [cells](Plan),
-    /// each with the number of these profiles.
+    /// Returns the premises of the model that are not met in the study, in all [cells](Plan)
+    /// together. Each premise has the number of profiles that do not meet it in at least one cell.
     pub fn all_warnings(&self) -> Vec<CountedWarning> {
         let mut counted: Vec<CountedWarning> = Vec::new();
         for line in 0..self.plan.lines {
@@ -406,9 +408,9 @@ impl Results {
     }
 
     /// Returns the values of the recorded quantities in a [cell](Plan) on the profile with the
-    /// index `line`, in the order of [`Plan::record`]. `None` if they are not computed or cannot be
-    /// computed. A quantity without a value is NaN. A regime is given as its index in
-    /// [`asperity_scene::Regime::ALL`].
+    /// index `line`, in the order of [`Plan::record`] and in SI units. A quantity without a value
+    /// is NaN. A regime is given as its index in [`asperity_scene::Regime::ALL`]. Returns `None` if
+    /// the cell is not computed on this profile or cannot be computed.
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -437,8 +439,8 @@ impl Results {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Returns the index of each profile on which a [cell](Plan) is computed, with the values of
-    /// the quantities in the order of [`Plan::record`].
+    /// Returns the profiles on which a [cell](Plan) is computed. Each item is the index of the
+    /// profile and the values of the quantities in the order of [`Plan::record`].
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -447,13 +449,14 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true if nothing is left to compute in a [cell](Plan).
+    /// Returns true if a [cell](Plan) is complete: on each profile it is computed, or is known to
+    /// be impossible to compute.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all
-    /// profiles with a value.
+    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity. Profiles
+    /// on which the quantity has no value are left out.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else {
             return Vec::new();
@@ -483,9 +486,11 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, counted twice:
-    /// first with the regime that follows from F_a(d=0), [`Quantity::Regime`], then with the regime
-    /// that follows from F_a(F=0), [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, as two counts.
+    /// In the first count, the regime follows from F_a(d=0), the adhesion force of a loading that
+    /// turns at first touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0),
+    /// the adhesion force of a loading that turns at zero force
+    /// ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         Quantity::REGIMES.map(|quantity| {
             let records = self.records_of(cell);
@@ -493,8 +498,8 @@ impl Results {
         })
     }
 
-    /// Returns the recorded quantities except regimes, each with the scale that suits its means in
-    /// the whole study.
+    /// Returns the recorded quantities except regimes. Each has the scale that suits its means over
+    /// the profiles in all cells of the study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self
             .plan
@@ -507,7 +512,7 @@ impl Results {
     }
 
     /// Returns a recorded quantity with its scale. If `scale` is `None`, the quantity gets the
-    /// scale that suits its means in the whole study.
+    /// scale that suits its means over the profiles in all cells of the study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means =
             (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));

@@ -45,12 +45,12 @@ const FULLER_TABOR: Criterion = Criterion::new(
     1.0,
 );
 
-/// Nominally flat, randomly rough contact with adhesion.
+/// Contact of nominally flat, randomly rough bodies with adhesion, to which the criteria apply.
 pub(super) struct RoughContact {
     pub amplitude: Amplitude,
     /// Work of adhesion divided by the effective modulus, γ/E*, in m.
     pub stretch: f64,
-    /// Range of attraction z₀, m.
+    /// Range z₀ of the attraction between the surfaces, m.
     pub range: f64,
     /// Spectrum of a self-affine surface; `None` for a measured surface.
     pub spectrum: Option<SelfAffine>,

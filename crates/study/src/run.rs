@@ -1,5 +1,5 @@
-//! Computation, on several threads, of those records of a plan that are missing in its folder. The
-//! results do not depend on the number of threads.
+//! Computation of the records of a plan that are missing in the folder of its study. The work is
+//! divided among several threads, and the results do not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::compute::{SolvedStreak, Streaks};
@@ -31,8 +31,8 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of [`run_study`], counted in records of the [`Shard`] (the part of the plan) that it
-/// computes. A record has the values of one [cell](crate::Plan) on one random profile.
+/// Progress of a run of [`run_study`], which computes a [`Shard`], a part of the plan. The progress
+/// is counted in records. A record has the values of one [cell](crate::Plan) on one random profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
     /// Number of records of this part of the plan that exist now.
@@ -41,7 +41,7 @@ pub struct StudyProgress {
     pub before: u64,
     /// Number of records that this part of the plan has once it is complete.
     pub total: u64,
-    /// Time from the beginning of this run of [`run_study`] to the last records that it wrote.
+    /// Time from the beginning of this run of [`run_study`] until it last wrote records.
     pub elapsed: Duration,
 }
 
@@ -62,28 +62,28 @@ impl StudyProgress {
         rate(self.computed(), self.elapsed.as_secs_f64())
     }
 
-    /// Returns the estimated time for the missing records of this part of the plan, at the present
-    /// rate [`StudyProgress::rate`]; `None` before the first record.
+    /// Returns the estimated time until all records of this part of the plan exist. It assumes the
+    /// present rate [`StudyProgress::rate`]. `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
 
-/// What one run of [`run_study`] has computed.
+/// Result of one run of [`run_study`]: the progress and the warnings of the computed records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyRun {
     /// Progress at the end of the run.
     pub progress: StudyProgress,
-    /// Premises of the model that records of this run do not meet, each with the number of these
-    /// records.
+    /// Premises of the model that records of this run do not meet, each with the number of records
+    /// that do not meet it.
     pub warnings: Vec<CountedWarning>,
 }
 
-/// Computes the missing results of one [`Shard`], a part of the plan of the study in a folder, and
-/// writes them to a new file in the folder. `control` receives the progress several times a second
-/// and at the end. If `control` stops the computation, the function returns after the loading that
-/// is being computed, without an error.
+/// Computes the missing results of one [`Shard`], which is a part of the plan of a study. The
+/// results are written to a new file in the folder of the study. `control` receives the progress
+/// several times a second and at the end. If `control` stops the computation, the function finishes
+/// the present loading and returns without an error.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested, if the memory does not suffice for a record, or

@@ -1,17 +1,18 @@
 //! Search for crossings of a quantity that may rise and fall over a range of numbers.
 //!
-//! First the quantity is computed at evenly spaced numbers. Then those intervals are halved in
-//! which the quantity may reach the target between the computed numbers. These are intervals in
-//! which the quantity deviates from a straight line by as much as its distance from the target, or
-//! in which it turns close to the target.
+//! First the quantity is computed at evenly spaced numbers. An interval between two of these
+//! numbers is then halved if the quantity may reach the target within it. This is assumed if the
+//! quantity deviates from a straight line by as much as its distance from the target, or if the
+//! quantity turns close to the target.
 
 use super::coordinates::Coordinates;
 use asperity_scene::RunError;
 use std::cmp::Ordering;
 
-/// Number of intervals into which the range is divided at the start.
+/// Number of intervals into which a scan first divides the range of searched numbers.
 pub(super) const INTERVALS: usize = 32;
-/// Largest number of values at which the quantity is computed in a scan.
+/// Largest number of searched numbers at which a scan computes the quantity that should reach a
+/// target.
 pub(super) const MOST_TRIED: usize = 192;
 /// Smallest width of an interval that is still halved, as a share of the range in coordinates.
 const NARROWEST: f64 = 1.0 / 4096.0;
@@ -37,10 +38,11 @@ impl Tried {
     }
 }
 
-/// Function that computes the quantity at several ascending numbers.
+/// Function that computes the searched quantity at several ascending numbers, such as preloads.
 pub(super) type Compute<'c> = dyn FnMut(&[f64]) -> Result<Vec<f64>, RunError> + 'c;
 
-/// Ascending numbers of a range, with the value of the quantity at each of them.
+/// Ascending numbers of a searched range, such as preloads, with the value of the searched quantity
+/// at each of them.
 #[derive(Clone, Debug)]
 pub(super) struct Scan {
     coordinates: Coordinates,
@@ -63,7 +65,8 @@ struct Suspect {
 }
 
 impl Scan {
-    /// Scans the whole range of the coordinates.
+    /// Scans the whole range of `coordinates` for numbers at which a quantity crosses `target`.
+    /// `compute` returns the quantity at several numbers.
     pub fn of(
         coordinates: Coordinates,
         target: f64,
@@ -161,8 +164,8 @@ impl Scan {
         suspects
     }
 
-    /// Returns true if a crossing may have been missed, because the quantity comes close to the
-    /// target between two computed numbers.
+    /// Returns true if a number at which the quantity crosses the target may have been missed,
+    /// because the quantity comes close to the target between two computed numbers.
     pub fn may_miss(&self) -> bool {
         let mut intervals = 0..self.tried.len().saturating_sub(1);
         !self.is_complete && intervals.any(|index| self.may_hide(index))
@@ -175,8 +178,8 @@ impl Scan {
         self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
     }
 
-    /// Returns true if the quantity was computed at all allowed numbers, so that no crossing is
-    /// missed.
+    /// Returns true if the quantity was computed at all allowed numbers, so that no crossing of the
+    /// target is missed.
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }

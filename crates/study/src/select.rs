@@ -67,8 +67,8 @@ pub struct Selected {
     /// True if the figure shows the rows of a grid with two axes as curves over the horizontal
     /// axis.
     pub curves: bool,
-    /// Sentence that states the preload of the figure, if the study has several preloads and the
-    /// figure shows the first one because the user chose none; otherwise `None`.
+    /// Note on the preload that the figure shows. It is present if the study has several preloads
+    /// and the user chose none, so that the figure shows the first one. Otherwise `None`.
     pub note: Option<Note>,
 }
 

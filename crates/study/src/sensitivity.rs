@@ -23,15 +23,17 @@ type Values = [Option<f64>; 3];
 /// Results of a scene in which one number is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed {
-    /// Medians of the results over the profiles in SI units, in the order of
+    /// Medians of the results over the random profiles in SI units, in the order of
     /// [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// For each result, the smallest and the largest of its relative changes on the profiles;
-    /// `None` if the profile of the scene is fixed.
+    /// Range over the profiles of the relative change of each result: its smallest and its largest
+    /// value. `None` if the profile of the scene is fixed. The results are in the order of
+    /// [`Sensitivity::RESULTS`].
     pub range: [Option<(f64, f64)>; 3],
 }
 
-/// Results of a scene for a smaller and for a larger value of one of its numbers.
+/// Influence of one number of a scene: the results for a smaller and for a larger value of this
+/// number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
@@ -40,31 +42,32 @@ pub struct Influence {
     /// wavelength is rounded so that a whole number of waves fits on the length, as in the computed
     /// profile.
     pub value: f64,
-    /// Two values of the number: first the smaller, then the larger. Each has the results for this
-    /// value, or `None` if the scene does not allow the value. The changes of a wavelength and of a
-    /// whole number differ from [`Sensitivity::STEP`].
+    /// Smaller value of the number and then larger value of the number, each with the results for
+    /// this value. The results are `None` if the scene does not allow the value. The values usually
+    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. A wavelength or a whole
+    /// number may differ by another share.
     pub sides: [(f64, Option<Changed>); 2],
 }
 
 impl Influence {
-    /// Returns the change of the number as a share of its size. `side` is 0 for the smaller value
-    /// and 1 for the larger value.
+    /// Returns the change of the number of the scene, divided by the magnitude of its unchanged
+    /// value. `side` is 0 for the smaller value and 1 for the larger value.
     pub fn step(&self, side: usize) -> f64 {
         (self.sides[side].0 - self.value) / self.value.abs()
     }
 }
 
-/// Sensitivity of the results of a scene: how the results change if one number of the scene is
-/// changed by a tenth, for each of its numbers.
+/// Sensitivity of the results of a scene to its numbers. Each number of the scene is changed by a
+/// tenth in turn, and the results are computed again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
     pub profiles: u64,
-    /// Medians over the profiles of the results of the unchanged scene in SI units, in the order of
-    /// [`Sensitivity::RESULTS`].
+    /// Medians of the results of the unchanged scene over the profiles, in SI units and in the
+    /// order of [`Sensitivity::RESULTS`].
     pub present: Values,
-    /// Range of the results of the unchanged scene among the profiles, in SI units: first the
-    /// smallest values, then the largest values, each in the order of [`Sensitivity::RESULTS`].
+    /// Smallest and largest results of the unchanged scene among the profiles, in SI units: first
+    /// all smallest values, then all largest values, both in the order of [`Sensitivity::RESULTS`].
     /// `None` if the profile of the scene is fixed.
     pub range: Option<[Values; 2]>,
     /// Results for changes of each number of the scene. Numbers that are zero, and counts such as
@@ -97,12 +100,13 @@ struct Neighbourhood {
 }
 
 impl Sensitivity {
-    /// Share of its value by which each number of the scene is made smaller and larger. A whole
-    /// number changes by at least 1, and a wavelength so that at least one more or one less wave
-    /// fits on the length. [`Influence::step`] returns the actual change.
+    /// Relative change by which each number of the scene is made smaller and larger. A whole number
+    /// changes by at least 1. A wavelength changes so much that the number of waves on the length
+    /// changes by at least one. [`Influence::step`] returns the actual change.
     pub const STEP: f64 = 0.1;
 
-    /// Results whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
+    /// Results whose changes are computed: the adhesion force F_a, the adhesion force F_a(d=0)
+    /// after first touch, and the dissipated energy.
     pub const RESULTS: [Quantity; 3] = [
         Quantity::AdhesionForce,
         Quantity::FirstTouchAdhesionForce,
@@ -110,9 +114,10 @@ impl Sensitivity {
     ];
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
-    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene with κ
-    /// instead of a work of adhesion keeps κ when another number changes. If the length changes,
-    /// the same numbers of waves fit on it, so the wavelengths change in proportion.
+    /// profiles. The number of profiles is the usual one, [`Ensemble::profiles_of`]. A scene that
+    /// states the roughness parameter κ instead of a work of adhesion keeps κ when another number
+    /// changes. If the length changes, the same numbers of waves fit on it, so the wavelengths
+    /// change in proportion.
     ///
     /// `control` reports the sensitivity over the profiles computed so far after each profile.
     ///
@@ -211,8 +216,8 @@ impl Sensitivity {
         })
     }
 
-    /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene
-    /// has an adhesion force.
+    /// Returns a sentence with the reason why no changes of the adhesion force are known; `None` if
+    /// the scene has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known).then_some(
@@ -568,7 +573,9 @@ mod tests {
                     "{waves} {path} {side}"
                 );
             }
-            // If the length changes, the results are those of a scene that states modes.
+            // If the length changes, the waves are stretched with it. The results are therefore
+            // those of a scene that states its waves as modes (numbers of waves on the length)
+            // instead of wavelengths.
             let stretched = found
                 .influences
                 .iter()

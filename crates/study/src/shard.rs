@@ -1,4 +1,5 @@
-//! Shards of a plan: parts of the plan that different processes can compute.
+//! Shards of a plan. A shard is a part of the plan; different processes can compute different
+//! shards.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;

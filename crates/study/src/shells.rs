@@ -1,5 +1,5 @@
-//! Roughness of random square surfaces. The waves of a square surface are grouped in shells, and
-//! each shell has the variance of one mode of the line (profile).
+//! Roughness of random square surfaces. The waves of a square surface are grouped in shells by
+//! their wave number. Each shell has the variance of one mode of the profile (line).
 
 use asperity_surface::{EquivalentLine, SelfAffine};
 use serde::Serialize;
@@ -33,7 +33,8 @@ pub(super) enum Spectrum {
     /// Self-affine spectrum.
     SelfAffine {
         spectrum: SelfAffine,
-        /// Amplitude A₁ in m that mode 1 would have without a roll-off.
+        /// Amplitude A₁ in m of the longest wave that fits on the side, if the spectrum had no
+        /// roll-off.
         amplitude: f64,
     },
     /// Spectrum of a measured surface, given by its equivalent line (profile).
@@ -75,8 +76,8 @@ impl Spectrum {
 ///
 /// Within a shell the variances are also multiplied by 1/|k|, where |k| is the wave number. The
 /// reason is that most waves of the first shells are shorter than the mode of their shell, and
-/// 1/|k| reduces their share. With this factor e_el of modes 1 to 8 exceeds that of the line by 4
-/// to 5 %, without it by 4 to 7 %.
+/// 1/|k| reduces their share. With this factor, the elastic energy that flattens modes 1 to 8
+/// exceeds that of the line by 4 to 5 %; without it, by 4 to 7 %.
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,
@@ -140,7 +141,7 @@ impl Shells {
     }
 
     /// Returns the mean square height in m² of one wave of the square surface. `waves` is the
-    /// number of periods of the wave over the side.
+    /// number of periods of this wave over the side of the square.
     pub fn variance(&self, waves: f64) -> f64 {
         match self.shell(waves) {
             Some(shell) => self.factors[shell] * self.variance_before_scaling(waves),

@@ -23,15 +23,15 @@ const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
-/// Body of a scene in three dimensions. The random phases of its roughness are chosen later by a
-/// seed.
+/// Body of a scene in three dimensions. Only the random phases of the roughness are not part of it;
+/// a seed determines them when the surface is loaded.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
     /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. With
-    /// this factor the square surfaces have the same e_el/γ as the lines (profiles).
+    /// this factor, the square surfaces have the same elastic energy per area as the profiles.
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
@@ -41,14 +41,15 @@ pub(super) struct Body {
     pub works: Option<[f64; 2]>,
 }
 
-/// Turning point of the loop, which is the same for square surfaces and lines.
+/// Turning point of the loop. It is the same for square surfaces and for profiles (lines).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
-    /// The loop turns at this force in N.
+    /// The loop turns at the contained force in N.
     Force(f64),
-    /// The loop turns at this indentation in m.
+    /// The loop turns at the contained indentation in m.
     Indentation(f64),
-    /// The loop turns at this displacement of the drive of an instrument, d + F/k.
+    /// The loop turns at a displacement of the drive of an instrument. The displacement is d + F/k,
+    /// with the indentation d, the force F and the stiffness k of the instrument.
     Displacement {
         /// Displacement, m.
         displacement: f64,
@@ -58,7 +59,7 @@ pub(super) enum Turn {
 }
 
 impl Turn {
-    /// Returns the stage of a loading that ends at this turning point.
+    /// Returns the stage of a loading that goes to this turning point.
     pub fn stage(self) -> Move {
         match self {
             Turn::Force(force) => Move::ToForce(force),
@@ -114,9 +115,10 @@ pub(super) struct SquareLoading {
 /// Functions that the computation of a square surface calls.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a> {
-    /// Returns true if the computation should end.
+    /// Function that returns true if the computation should end.
     pub stop: &'a dyn Fn() -> bool,
-    /// Called after each load, to report the progress.
+    /// Function that is called after each computed load (force or indentation), to report the
+    /// progress.
     pub loaded: &'a dyn Fn(),
 }
 
@@ -124,7 +126,7 @@ pub(super) struct Watch<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
-    /// Stiffness dF/dd, N/m.
+    /// Stiffness dF/dd of the contact, with the force F and the indentation d, N/m.
     pub stiffness: f64,
     /// Contact area, m².
     pub area: f64,
@@ -151,13 +153,14 @@ pub(super) struct Loads {
     /// Results of the loop with adhesion; `None` without adhesion.
     pub pulling: Option<Pulling>,
     pub convolutions: u64,
-    /// Number of computed loads, with and without adhesion. It is needed to report the progress.
+    /// Number of computed loads (forces or indentations), with and without adhesion. It is needed
+    /// to report the progress.
     pub count: u64,
 }
 
 impl Loads {
-    /// Returns the adhesion force in N or, without adhesion, the indentation in m at the last
-    /// force.
+    /// Returns the main result: the adhesion force in N or, without adhesion, the indentation in m
+    /// at the last force. `None` if no load is computed.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
             Some(pulling) => Some(pulling.adhesion_force),
@@ -218,8 +221,8 @@ impl Body {
         Ok(loads)
     }
 
-    /// Returns the heights in m of the surface with the random phases of `seed`, row by row. The
-    /// heights of the roughness are multiplied by `factor`; those of the form are not.
+    /// Returns the heights in m of the surface with the random phases of `seed`, row by row. Only
+    /// the heights of the roughness are multiplied by `factor`, not the heights of the form.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(

@@ -1,5 +1,5 @@
-//! Loops of random square surfaces in three dimensions, for comparison with those of profiles. The
-//! results can be shown while they are computed.
+//! Force curves of random square surfaces in three dimensions, for comparison with the force curves
+//! of profiles. The results can be shown while they are computed.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -9,7 +9,8 @@ use asperity_contact::CurvePoint;
 use asperity_data::Control;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Force curves of the random square surfaces of a [`Reference`].
+/// Force curves of random square surfaces, and their comparison with random profiles, a
+/// [`Reference`]. A square surface is a rough body in three dimensions with a square base.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of square surfaces in the complete comparison.
@@ -32,8 +33,8 @@ pub struct SquareLoops {
 
 impl SquareLoops {
     /// Computes the force curves of square surfaces for a scene, with the usual options
-    /// [`ReferenceOptions::of`]. `simulation` finds the measured files of the scene in their
-    /// folder. `control` receives the curves so far at the beginning, after each hundredth of the
+    /// [`ReferenceOptions::of`]. `simulation` knows the folder of the measured files of the scene.
+    /// `control` receives the curves computed so far: at the beginning, after each hundredth of the
     /// computation, and after each square surface.
     ///
     /// # Errors
@@ -82,8 +83,9 @@ impl SquareLoops {
         true
     }
 
-    /// Compares the adhesion force on profiles with that on square surfaces, or the indentations if
-    /// the scene has no adhesion; `None` before the first square surface is computed.
+    /// Returns the comparison of the adhesion force on profiles with the adhesion force on square
+    /// surfaces. If the scene has no adhesion, the indentations at the preload are compared. `None`
+    /// before the first square surface is computed.
     pub fn headline(&self) -> Option<Compared> {
         let values = Values {
             lines: self.lines.clone(),
@@ -93,10 +95,11 @@ impl SquareLoops {
         values.compared()
     }
 
-    /// Returns the mean and the scatter of the force of the computed square surfaces as a function
-    /// of the indentation. There is one band for loading, and a second band for unloading if the
-    /// scene has adhesion. A band is three curves: mean force minus standard deviation, mean force,
-    /// and mean force plus standard deviation.
+    /// Returns bands that show the force of the computed square surfaces as a function of the
+    /// indentation. There is one band for loading, and a second band for unloading if the scene has
+    /// adhesion. A band is three curves: the mean force minus the standard deviation, the mean
+    /// force, and the mean force plus the standard deviation. Mean and standard deviation are those
+    /// over the surfaces.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let loadings: Vec<Curve> = self.curves.iter().map(|curve| loading_of(curve)).collect();
         let unloadings: Vec<Curve> = self

@@ -125,8 +125,8 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Returns the preloads at which F_a is `ratio` times the preload. The searched range is given by
-/// `ends`, two preloads in N that are zero or above. `ratio` is above zero.
+/// Returns the preloads in N at which the adhesion force F_a is `ratio` times the preload. `ends`
+/// are the smallest and the largest searched preload in N, zero or above. `ratio` is above zero.
 pub(super) fn ratio_crossings(
     ends: [f64; 2],
     ratio: f64,
@@ -179,9 +179,10 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Finds the crossings of a quantity that is constant except where F_a jumps. Returns pairs of
-/// neighbouring preloads between which the quantity crosses the target. The second value is true if
-/// such a pair may be missing, because two jumps are closer together than the computed preloads.
+/// Finds the crossings of a quantity that is constant except where the adhesion force F_a jumps.
+/// Returns pairs of neighbouring preloads between which the quantity crosses the target. The second
+/// value is true if a pair may be missing. A pair may be missing if two jumps are closer together
+/// than the computed preloads.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,

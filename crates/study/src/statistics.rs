@@ -7,7 +7,8 @@ use asperity_data::{
 use asperity_scene::Regime;
 use serde::Serialize;
 
-/// Probability with which a confidence interval contains the true mean.
+/// Probability with which a confidence interval of a mean over profiles contains the mean over
+/// infinitely many profiles.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
 /// Smallest share of the profiles in one regime with which this regime counts as that of all
@@ -40,8 +41,8 @@ pub struct Statistics {
     /// Smallest and largest value of the quantity among the profiles.
     pub range: (f64, f64),
     /// Lower and upper end of the 95 % confidence interval of the median, for any distribution.
-    /// With 8 profiles the interval contains the median of infinitely many profiles in about 93 of
-    /// 100 cases, with 16 and more in about 95. `None` for fewer than 4 values.
+    /// `None` for fewer than 4 values. The interval contains the median of infinitely many profiles
+    /// in about 93 of 100 cases if it is computed from 8 profiles, and in about 95 from 16 or more.
     pub median_interval: Option<(f64, f64)>,
     /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single
     /// value.
@@ -49,22 +50,24 @@ pub struct Statistics {
     pub spread: Option<Spread>,
 }
 
-/// Spread of the values of a quantity over several random profiles, and confidence interval of the
-/// mean.
+/// Spread of the values of a quantity over several random profiles, and confidence interval of
+/// their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor `count − 1`.
     pub standard_deviation: f64,
-    /// Standard error of the mean: the standard deviation divided by the square root of the number
-    /// of values.
+    /// Standard error of the mean over the profiles: the standard deviation divided by the square
+    /// root of the number of values.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the
-    /// quantity has a bound, such as 0 for a force, the interval does not reach this bound.
+    /// Lower and upper end of the 95 % confidence interval of the mean over the profiles, by
+    /// Student's t. If the quantity has a bound, such as 0 for a force, the interval does not reach
+    /// this bound.
     ///
     /// The interval assumes that the mean of the values is normally distributed. If few of many
-    /// profiles make most of the mean, the interval is too narrow: for F_a(d=0) it contains the
-    /// mean in about 82 of 100 cases with 8 profiles, in 86 with 32 and in 92 with 64.
-    /// [`Statistics::median_interval`] has no such assumption.
+    /// profiles make most of the mean, the interval is too narrow: for the adhesion force after
+    /// first touch, F_a(d=0), it contains the mean of infinitely many profiles in about 82 of 100
+    /// cases with 8 profiles, in 86 with 32 and in 92 with 64. [`Statistics::median_interval`] has
+    /// no such assumption.
     pub confidence_interval: (f64, f64),
 }
 
@@ -121,8 +124,8 @@ impl Statistics {
         })
     }
 
-    /// Columns of a table of statistics. For each column, the text is the last part of its name,
-    /// such as `median`, and the function returns its value.
+    /// Columns of a table of statistics. Each element has the last part of the name of a column,
+    /// such as `median`, and the function that returns the value of this column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -179,13 +182,14 @@ impl Statistics {
         (least >= 0.0 && share.is_finite()).then_some(share)
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. A single
-    /// value has no spread, and both ends are the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean over the
+    /// profiles. If there is only one value, both ends are this value.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
 
-    /// Returns the 95 % confidence interval of the mean; `None` for a single value.
+    /// Returns the 95 % confidence interval of the mean over the profiles; `None` for a single
+    /// value.
     pub fn confidence_interval(&self) -> Option<(f64, f64)> {
         self.spread.map(|spread| spread.confidence_interval)
     }
@@ -297,8 +301,9 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if less than three quarters of the profiles of known
-    /// regime are in the most frequent regime; otherwise `None`.
+    /// Returns the second most frequent regime if the profiles disagree, which means that less than
+    /// three quarters of the profiles of known regime are in the most frequent regime. Otherwise
+    /// `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
@@ -314,7 +319,7 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Returns the names of the regimes that occur, each with its number of profiles. Profiles of
+    /// Returns the regimes that occur, each as its name and its number of profiles. Profiles of
     /// unknown regime have the name `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);

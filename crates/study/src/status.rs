@@ -19,11 +19,12 @@ pub struct Status {
     pub total: u64,
     /// Number of records of the complete study that do not exist yet.
     pub missing: u64,
-    /// Number of existing records that have no values because they cannot be computed.
+    /// Number of records in the files of the study that have a reason instead of values, because
+    /// they cannot be computed.
     pub failed: u64,
     /// Number of incomplete or damaged lines in the files of the study, which are ignored.
     pub damaged: u64,
-    /// Progress of each [`Shard`], a part of the plan, on which a process has worked.
+    /// Progress of each [`Shard`], a part of the plan, on which at least one process has worked.
     pub shards: Vec<ShardStatus>,
 }
 
@@ -54,7 +55,7 @@ pub struct Attempt {
     pub started: u64,
     /// Time of the last write of the process, in s since 1970.
     pub written: f64,
-    /// Number of records that the process wrote.
+    /// Number of records that this process wrote.
     pub records: u64,
     /// Mean number of records that the process wrote per second from its beginning to its last
     /// write; `None` if both times are equal.
@@ -129,9 +130,9 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Returns two numbers for a shard, a part of the plan: the number of all its records, and the
-/// number of those that exist. The function passes only the records of this shard, so counting all
-/// shards takes as long as counting the whole study.
+/// Returns two numbers for a shard, which is a part of the plan: the number of all records of the
+/// shard, and the number of the existing ones. Only the records of this shard are counted, so that
+/// counting all shards takes as long as counting the whole study once.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let mut total = 0;
     let mut there = 0;

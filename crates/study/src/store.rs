@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Version of the format of the files of results, [`ShardFile`], in the folder of a study.
+/// Version of the file format of a [`ShardFile`], which contains the results of one process.
 pub const STORE_VERSION: u32 = 1;
 /// Largest length in bytes of a line of a shard file or a table, as a protection against damaged
 /// files. Lines of records are much shorter.
@@ -82,8 +82,8 @@ pub struct ShardFile {
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a study with a plan. If the folder exists with the same plan, it is
-    /// opened as it is.
+    /// Creates the folder of a study with a plan. If a folder with the same plan already exists, it
+    /// is opened without a change.
     ///
     /// # Errors
     /// Returns an error if the folder has another plan or cannot be written, or if a measured file
@@ -279,9 +279,10 @@ impl Folder {
         is_of_plan.then_some((cell * self.plan.lines + profile, record))
     }
 
-    /// Returns for the index of each record whether the record exists. Before that, all files are
-    /// synced to the disk. Otherwise a power cut could lose records that a killed process has
-    /// written, after they were counted as existing, and they would not be computed again.
+    /// Returns whether each record exists, in the order of the indices of the records. Before that,
+    /// all files are synced to the disk. Otherwise a power cut could lose records of a killed
+    /// process after they were counted as existing, and these records would never be computed
+    /// again.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {

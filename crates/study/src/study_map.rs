@@ -82,8 +82,8 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps, one for each combination of values on the axes of the study that
-    /// are not axes of the maps.
+    /// Returns the number of maps. There is one map for each combination of values on the axes of
+    /// the study that are not shown as axes of the maps.
     pub fn slices(&self) -> u64 {
         self.others
             .iter()
@@ -157,8 +157,8 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// Returns the scene of the study with the values of map number 0, as a scene file for the
-    /// explorer.
+    /// Returns a scene file for the explorer. It has the scene of the study with the values of map
+    /// number 0 on all axes.
     ///
     /// # Errors
     /// Returns an error if a value of the scene is not allowed.
@@ -168,9 +168,9 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` has a place on map number `slice`. Such a scene differs from the
-    /// scene of the map at most in the values on the axes of the map and in the number of points of
-    /// the force curve.
+    /// Returns true if `scene` has a place on map number `slice`. Such a scene may differ from the
+    /// scene of the map in two respects only: the values on the axes of the map, and the number of
+    /// points in the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> = self
             .over()
@@ -190,8 +190,8 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are
-    /// not axes of the maps.
+    /// Returns a copy of a scene file in which the quantities of the other axes of the study, which
+    /// are not axes of the maps, have the values of map number `slice`.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.

@@ -1,5 +1,5 @@
-//! Tables of a study: a table of all recorded values, a table of their statistics over the
-//! profiles, and a description of the columns.
+//! Tables of a study. The first table has all recorded values, the second the statistics of these
+//! values over the profiles. A third file describes the columns of both tables.
 
 use super::axis::Spacing;
 use super::error::StudyError;
@@ -34,8 +34,8 @@ impl Merged {
     /// Name of the file with the table of statistics over the profiles. The table has one row for
     /// each [cell](Plan).
     pub const SUMMARY: &str = "summary.csv";
-    /// Name of the file that describes the columns of the table of all results and of the table of
-    /// statistics.
+    /// Name of the file that describes the columns of both tables, [`Merged::RESULTS`] and
+    /// [`Merged::SUMMARY`].
     pub const SIDECAR: &str = "results.json";
 }
 

@@ -12,7 +12,7 @@ const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, Ne
                        Gwyddion";
 
 /// Place of a fault in a file, a surface or a scene. Lines and points are counted from 1. Bytes are
-/// counted from 0, after decompression.
+/// counted from 0, in the decompressed file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -79,12 +79,12 @@ impl Place {
     }
 }
 
-/// How the user chooses one of several surfaces in a file.
+/// Way in which the user chooses one of several surfaces in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChosenBy {
     /// The user chooses by the number or the name of a channel.
     ChannelNumber,
-    /// The user chooses by the name of a surface in a container.
+    /// The user chooses by the name of a surface in an archive with several surfaces.
     SurfaceName,
 }
 
@@ -145,10 +145,12 @@ pub enum SurfaceError {
         place: Place,
         /// Name of the quantity: positions, distances or heights.
         quantity: &'static str,
-        /// Unit of the positions, if the file states this unit but none for the heights.
+        /// Unit of the positions, if the file states a unit for the positions but none for the
+        /// heights; otherwise `None`.
         unit_of_positions: Option<String>,
     },
-    /// The options do not determine one channel or surface of the file: none fits, or several fit.
+    /// The options do not determine which channel or surface of the file is read: none fits the
+    /// options, or several fit them.
     #[error("{place}{fault}: {}; allowed: {allowed}", channels.join(", "))]
     Channel {
         /// Place of the error, which is the file as a whole.
@@ -170,7 +172,7 @@ pub enum SurfaceError {
         /// Reason that the operating system gives.
         reason: String,
     },
-    /// The Fourier transform of heights failed; the field has its message.
+    /// The Fourier transform of heights failed. The value is the message of the transform.
     #[error("the Fourier transform failed: {0}")]
     Transform(String),
     /// An array, such as the heights of a surface, does not fit into memory.
@@ -223,7 +225,7 @@ impl SurfaceError {
     }
 
     /// Returns the path of the field of a scene that causes the fault, such as `roughness.file`.
-    /// Returns `None` for a surface that belongs to no scene.
+    /// Returns `None` if the fault does not belong to a scene.
     pub fn field(&self) -> Option<&'static str> {
         self.find(|place| match place {
             Place::Field(name) => Some(*name),
@@ -232,7 +234,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the path of the file with the fault; `None` if no scene names this file.
+    /// Returns the path of the file with the fault. Returns `None` if this file is not one that a
+    /// field of a scene names.
     pub fn file(&self) -> Option<String> {
         self.find(|place| match place {
             Place::FileOf(inside) => Some(inside.file.clone()),
@@ -240,7 +243,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the same error with a further step that the user can take so that the file is read.
+    /// Returns the same error with one more remedy, a step that the user can take so that the file
+    /// is read.
     pub fn with(mut self, remedy: Remedy) -> Self {
         if let SurfaceError::Refused { remedies, .. } = &mut self {
             remedies.push(remedy);
@@ -248,8 +252,8 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the same error with a longer place. The function `outer` makes the longer place from
-    /// the present place.
+    /// Returns the same error with a more complete place, such as a line together with the file.
+    /// The function `outer` makes the new place from the present place.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -266,14 +270,15 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the same error with a longer place: first the field `roughness.file` of the scene,
-    /// then the path `file`, and then the present place inside this file.
+    /// Returns the same error with a more complete place. The new place states the field
+    /// `roughness.file` of the scene, the path `file`, and the present place inside this file.
     pub fn in_measured(self, file: &Path) -> Self {
         self.in_file_of("roughness.file", file)
     }
 
-    /// Returns the same error with a longer place: first the field of the scene that names a file,
-    /// then the path of the file, and then the present place inside this file.
+    /// Returns the same error with a more complete place. The new place states `field`, the field
+    /// of the scene that names a file, the path of this file, and the present place inside this
+    /// file.
     pub(crate) fn in_file_of(self, field: &'static str, file: &Path) -> Self {
         let file = file.display().to_string();
         self.within(|place| {

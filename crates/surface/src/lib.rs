@@ -8,8 +8,9 @@
 //!   [`Topography`]. Both take [`ReadOptions`], such as a [`Unit`] or a [`Cut`]. [`Cropped`] counts
 //!   empty rows and columns that are left out.
 //! * To analyse surfaces: [`analyse`] takes [`AnalysisOptions`], such as a [`Detrend`], and returns
-//!   an [`Analysis`]. The analysis has [`PointStatistics`], [`LineMoments`], each of which is a
-//!   [`Moment`], and a [`SelfAffineFit`], each of whose parameters is a [`ValueWithError`].
+//!   an [`Analysis`]. An analysis contains [`PointStatistics`], [`LineMoments`] and a
+//!   [`SelfAffineFit`]. The type of each moment is [`Moment`], and the type of each fitted
+//!   parameter is [`ValueWithError`].
 //! * To make rigid profiles: [`EquivalentLine`] has the spectrum of a measured surface,
 //!   [`SelfAffine`] is a spectrum given by few numbers and computes its [`Amplitude`], and [`Form`]
 //!   is the shape without roughness, which may be a [`FormTable`].
@@ -39,9 +40,9 @@ pub use topography::options::ReadOptions;
 pub use topography::surface::{Cropped, Detrend, Topography};
 pub use topography::unit::Unit;
 
-/// Functions for programs that read files of other data, such as measured force curves. They read
-/// the bytes of a file, decompress gzip, and read columns of NumPy arrays and of arrays of the
-/// program Igor Pro.
+/// Functions for programs that read other data than surfaces, such as measured force curves. The
+/// functions read the bytes of a file, decompress gzip, and read columns of NumPy arrays and of
+/// arrays of the program Igor Pro.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::igor::{IgorWave, WaveDimension, is_igor_wave};

@@ -24,7 +24,7 @@ the profiles.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(only_formats(WITHOUT_PICTURE)))]
 pub struct BoundaryArguments {
-    /// Folder of a merged study with an axis adhesion.kappa or adhesion.elastic_energy_ratio
+    /// Study after `sweep merge`, with an axis adhesion.kappa or adhesion.elastic_energy_ratio
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Where F_a(d=0) falls below this share of F_a,max: 0.05 (repeatable)

@@ -1,5 +1,6 @@
-//! Studies (background computations) that the present scene needs: the error of its outcome, the
-//! number of springs for a tolerance, the data of the shown pane, and the curve for a typed value.
+//! Studies (background computations) that the present scene needs. They compute the error of its
+//! outcome, the number of springs for a tolerance, the data of the shown pane, and the curve for a
+//! typed value.
 
 use super::{edit, measured, target};
 use crate::explorer::action::Task;
@@ -141,7 +142,7 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Sets the number of springs that the search has found.
+/// Sets the number of springs of the scene to the number that the search for a tolerance has found.
 pub fn found(app: &mut App) {
     if let Some(Choosing {
         found: Some(found), ..

@@ -15,7 +15,8 @@ pub fn clear(app: &mut App) {
     app.ghosts.clear();
 }
 
-/// Shows or hides the loops of random square surfaces on an elastic half-space.
+/// Shows or hides the force curves of random square surfaces in three dimensions. They are computed
+/// on an elastic half-space, for comparison with the profile.
 pub fn toggle_squares(app: &mut App) {
     app.view.squares ^= true;
     app.studies.forget::<SquareLoops>();

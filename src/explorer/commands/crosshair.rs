@@ -1,5 +1,6 @@
-//! The crosshair, at which the selected pane states values. In the profile and the close-up, its
-//! position is a position along the profile, in other charts a position along the horizontal axis.
+//! The crosshair, at whose position the selected pane states values. In the profile and the
+//! close-up, this is a position along the profile. In other charts, it is a position along the
+//! horizontal axis.
 
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
@@ -28,7 +29,7 @@ pub fn toggle(app: &mut App) {
     app.view.crosshair = Some(0.5 * (low + high));
 }
 
-/// Moves the crosshair by one small or one large step.
+/// Moves the crosshair by one small or one large step, depending on the pressed key.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
         return;
@@ -44,7 +45,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     app.view.crosshair = Some((present + step).clamp(low, high));
 }
 
-/// Moves the crosshair to the left or the right end of the pane.
+/// Moves the crosshair to the left or the right end of the pane, depending on the pressed key.
 pub fn go_to_end(app: &mut App, key: &KeyEvent) {
     let (low, high) = ends(app);
     let is_right = matches!(key.code, KeyCode::End | KeyCode::Char('G'));

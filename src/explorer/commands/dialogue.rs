@@ -1,4 +1,4 @@
-//! Commands of prompts: opening, editing, accepting and cancelling them.
+//! Commands of prompts, which open, edit, accept and cancel a prompt.
 
 use super::{accuracy, edit, files, measured, movement, target};
 use crate::explorer::action::{OutputFile, Task};
@@ -39,8 +39,8 @@ pub fn listed(app: &mut App, entries: Vec<Openable>) {
     }
 }
 
-/// Opens the help. It contains the notice of the scene (for which a small window has no room), a
-/// description of the panes, and all keys.
+/// Opens the help. The help contains a description of the panes, all keys, and the notice of the
+/// scene, for which a small window has no room.
 pub fn open_help(app: &mut App) {
     let mut topics = Vec::new();
     let notice = on_one_line(&app.edit.document.scene().notice);
@@ -76,7 +76,7 @@ pub fn open_commands(app: &mut App) {
     app.ask(commands, "");
 }
 
-/// Begins a search in the help for the text that the user types next.
+/// Begins a search in the help. The text that the user types next is the searched text.
 pub fn search_help(app: &mut App) {
     if let Some(prompt) = &mut app.prompt
         && let Purpose::Topics { is_typed, .. } = &mut prompt.purpose
@@ -122,8 +122,8 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Accepts the typed line or the selected row, or answers a question with yes. If a line is
-/// refused, the prompt stays open with this line and the reason.
+/// Accepts the typed line or the selected row of a prompt. If the prompt is a question, the answer
+/// is yes. If the line is refused, the prompt stays open with this line and the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else {
         return;
@@ -296,7 +296,7 @@ pub fn can_complete(app: &App) -> bool {
     typed_in_line(app).is_some()
 }
 
-/// Requests the paths that begin with the typed path, as a task.
+/// Requests a task that finds the paths which begin with the typed path.
 pub fn complete(app: &mut App) {
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));

@@ -1,4 +1,4 @@
-//! Edits of the scene. Each edit makes a new document, and can be undone.
+//! Edits of the scene. Each edit makes a new document, and the user can undo it.
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, Message};
@@ -23,14 +23,14 @@ use asperity_scene::{Adhesion, Document, RoughnessParameter, SceneErrors, Solver
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::InputRequest;
 
-/// Moves the selection in the list of parameters by a number of rows. It stops at the first and the
-/// last row.
+/// Moves the selection in the list of parameters by a number of rows, downwards if the number is
+/// positive. The selection stays between the first and the last row.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
 }
 
-/// Selects the first or the last parameter.
+/// Selects the first or the last parameter, depending on the pressed key.
 pub fn go_to_end(app: &mut App, key: &KeyEvent) {
     let is_last = matches!(key.code, KeyCode::End | KeyCode::Char('G'));
     move_selection(app, if is_last { i32::MAX } else { i32::MIN });
@@ -103,7 +103,8 @@ pub fn clear_line(app: &mut App) {
     edit_line(app, |line| line.edit(InputRequest::DeleteLine));
 }
 
-/// Changes the typed line, then updates its preview or the list below it.
+/// Changes the line that the user is typing, then updates the preview of its value or the list
+/// below it.
 pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else {
         return;
@@ -143,16 +144,16 @@ pub fn way_of_changing(parameter: &Parameter) -> String {
     format!("{} is {way}", parameter.name())
 }
 
-/// If a small window hides the list of parameters, shows and selects this list, so that the user
-/// sees which value changes.
+/// Shows and selects the list of parameters if a small window hides it. The user then sees which
+/// value changes.
 pub fn show_parameters(app: &mut App) {
     if Layout::of(app).pane(Pane::Parameters).is_none() {
         app.show(Pane::Parameters);
     }
 }
 
-/// Changes the selected value by a number of steps, which are large if `coarse` is true. If a step
-/// is not possible, a message states the reason.
+/// Changes the value of the selected parameter by a number of steps, which are large if `coarse` is
+/// true. If a step is not possible, a message states the reason.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -291,7 +292,7 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     Ok(changed)
 }
 
-/// Sets the selected parameter to a value, which is written as in the scene file.
+/// Sets the selected parameter to the value `written`, which is in the notation of the scene file.
 pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
         Ok(document) => apply(app, Ok(document)),
@@ -387,7 +388,8 @@ fn undefined(parameter: RoughnessParameter) -> String {
     format!("{} is not defined without roughness", parameter.symbol())
 }
 
-/// Joins the messages of errors in values. The places of the errors in the file are left out.
+/// Joins the messages of all errors in values of a scene. The positions of the errors in the file
+/// are left out.
 pub fn reasons(errors: &SceneErrors) -> String {
     errors
         .iter()
@@ -434,8 +436,8 @@ fn tried(app: &App) -> Option<Document> {
     }
 }
 
-/// Switches a part of the scene on or off: the form, roughness, adhesion or loading to which the
-/// selected row belongs.
+/// Switches the part of the scene on or off to which the selected row belongs: the form, the
+/// roughness, the adhesion or the loading.
 pub fn toggle_effect(app: &mut App) {
     show_parameters(app);
     let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {
@@ -462,9 +464,9 @@ pub fn change(app: &mut App, path: &str, value: &str) {
     apply(app, changed)
 }
 
-/// Draws another random profile. Its seed has at most six digits, so that users can easily read it
-/// to each other. The next seed follows from the present one, and no seed returns before all others
-/// have been used.
+/// Draws another random profile by changing the seed. The next seed follows from the present one,
+/// and no seed returns before all others have been used. Seeds have at most six digits, so that
+/// users can easily read them to each other.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {
         Some(seed) => {
@@ -512,8 +514,7 @@ pub fn adopt_all(app: &mut App, edited: Edited) {
     after_edit(app);
 }
 
-/// Continues the last edit: the document takes the place of its result, so that one undo reverts
-/// both.
+/// Extends the last edit, so that it results in `document`. One undo then reverts both changes.
 pub fn replace(app: &mut App, document: Document) {
     app.edit.replace(document);
     after_edit(app);

@@ -41,8 +41,8 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     Ok(())
 }
 
-/// Asks for the name of a file in which the present scene is saved before the explorer ends. If the
-/// present scene is already saved, another scene with unsaved changes becomes the present scene
+/// Asks for the name of a file for the present scene, which is saved before the explorer ends. If
+/// the present scene is already saved, another scene with unsaved changes becomes the present scene
 /// first.
 pub fn save_before_leaving(app: &mut App) {
     if !app.edit.is_unsaved()
@@ -77,8 +77,8 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
-/// Shows whether a file has been written, and continues with the next step, which may be a question
-/// to the user or the end of the explorer.
+/// Shows a message whether a file has been written. Then takes the next step, which may be a
+/// question to the user or the end of the explorer.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     let is_scene = file.content == Content::Scene;

@@ -24,8 +24,9 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Shows the next or the previous map of the study. If the present scene is a cell of the map shown
-/// so far, the scene becomes the corresponding cell of the new map.
+/// Shows the next or the previous map of the study, depending on the pressed key. If the present
+/// scene is a cell of the map that was shown before, the scene becomes the corresponding cell of
+/// the new map.
 pub fn step_slice(app: &mut App, key: &KeyEvent) {
     let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {
@@ -64,8 +65,8 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
 /// Number of columns or rows in a large step. On the live map, κ doubles every four rows.
 const LARGE_STEP: i32 = 4;
 
-/// Moves the mark, which shows the place of the scene on the map, by one or several columns or
-/// rows. The scene gets the values at the new place.
+/// Moves the mark on the map by one or several columns or rows, depending on the pressed key. The
+/// mark shows the position of the present scene, which gets the values at the new position.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
         return;
@@ -123,8 +124,8 @@ fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
 /// Message if the scene lacks the quantity of an axis of the map.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
-/// Sets the scene to the values at a position on the map. Successive moves are one edit, so that
-/// one undo reverts them all.
+/// Gives the scene the values at a position on the map. Successive moves are one edit, so that one
+/// undo reverts all of them.
 pub fn move_to(app: &mut App, place: GridPlace) {
     match moved_to(app, place) {
         Ok(document) if app.map.moving => edit::replace(app, document),

@@ -1,5 +1,5 @@
-//! Commands for the measured force curve that is compared with the scene: its point of first touch,
-//! its deviation from the scene, and fits of parameters.
+//! Commands for the measured force curve that the explorer compares with the scene: its point of
+//! first touch, its deviation from the scene, and fits of parameters.
 
 use super::edit;
 use crate::explorer::action::{CurveRequest, Task};
@@ -20,9 +20,10 @@ use std::sync::Arc;
 /// Number of curves that a fit computes between two reports of its progress.
 const REPORTED: u64 = 64;
 
-/// Returns the study (background computation) of the measured curve: the fit that the user has
-/// requested. Without such a request, the study fits only the displacement at first touch, and
-/// gives the deviation of the curve from the scene.
+/// Returns the study (background computation) of the measured curve, which is the fit that the user
+/// has requested. If the user has requested no fit, the study fits only the displacement at first
+/// touch, and computes the deviation of the curve from the scene. `None` if there is nothing to
+/// compute.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (
         Arc::clone(&app.edit.measured.as_ref()?.curve),
@@ -90,8 +91,8 @@ pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Applies the results of the fit to the measured curve: the displacement at first touch, and the
-/// scene with the fitted parameters.
+/// Applies the results of a fit. The measured curve gets the displacement at first touch, and the
+/// scene gets the fitted parameters.
 pub fn found(app: &mut App) {
     if let Some(Fitting {
         found: Some(found), ..
@@ -136,7 +137,7 @@ pub fn is_option(app: &App) -> bool {
     selected(app).is_some()
 }
 
-/// Sets the selected option to the typed value. The curve is then read again.
+/// Sets the option in the selected row to the typed value. The measured curve is then read again.
 pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     let Some((option, measured)) = selected(app) else {
         return Ok(());
@@ -151,8 +152,10 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Steps through the values of the selected option. If the value is a force, it changes by the
-/// steps that forces in a scene have, otherwise to the next choice.
+/// Changes the value of the option in the selected row. A force changes by `steps` steps, which are
+/// as large as the steps of the explorer for a force in a scene, and larger if `coarse` is true. An
+/// option with a list of values gets the next value, or the previous one if `steps` is negative. A
+/// message appears if the option can only be typed.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
     let Some((option, measured)) = selected(app) else {
@@ -186,8 +189,9 @@ fn next_value(
     option.field.stepped(&present, steps, coarse)
 }
 
-/// Shows the curve that was read with other options, and sets the loading that follows from this
-/// curve, in one edit. If reading the curve failed, a message states the reason.
+/// Shows the measured curve that was read with other options, and sets the loading that follows
+/// from this curve. Both changes are one edit. If the curve could not be read, a message states the
+/// reason.
 pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured>, String>) {
     match read.and_then(|measured| with_loading(app, *measured)) {
         Ok(edited) => {

@@ -44,8 +44,8 @@ pub fn separate(app: &mut App) {
 }
 
 /// Starts or pauses the animation. If the animation has reached its end, it starts again from the
-/// beginning. Like all commands of the animation, this one ends manual loading, because the
-/// animation shows the loading of the scene.
+/// beginning. Manual loading ends, as with all commands of the animation, because the animation
+/// shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
     let is_last = app.play.leg + 1 >= app.legs().len();
@@ -90,9 +90,9 @@ pub fn restart(app: &mut App) {
     app.play = Player::START;
 }
 
-/// Moves the animation to the start of the loading stage that is `legs` stages after the present
-/// one. If `legs` is negative and the animation is inside a stage, moves to the start of this stage
-/// instead.
+/// Moves the animation to the start of another loading stage, which is `legs` stages after the
+/// present stage. If `legs` is negative and the animation is inside a stage, it moves to the start
+/// of this stage instead.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // While the animation plays, it moves on between two presses of the key. Therefore a position
@@ -119,7 +119,7 @@ pub fn go_to_pull_off(app: &mut App) {
     app.manual = None;
 }
 
-/// Advances the animation by the elapsed time.
+/// Advances the animation by the time that has passed since the last call.
 pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return;
@@ -149,8 +149,8 @@ pub fn elapse(app: &mut App, time: Duration) {
     app.play = player;
 }
 
-/// Shows a snapshot from the solver. If the snapshot belongs to manual loading, its points are
-/// added to the manual force curve.
+/// Shows a snapshot that the solver has computed. If the snapshot belongs to manual loading, its
+/// points are added to the force curve of manual loading.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     // The snapshot may answer an earlier request with another focus. Then it does not answer the
     // question which patch to show.
@@ -193,7 +193,8 @@ fn continue_path(app: &mut App, travelled: &ManualPath) {
     }
 }
 
-/// Begins manual loading, unless it has already begun. If `order` is a move, moves the body.
+/// Begins manual loading, unless it has already begun. Then carries out the manual move `order`, if
+/// there is one.
 pub fn take(app: &mut App, order: Option<ManualMove>) {
     if !app.is_current() || app.legs().is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! Opening of scenes, studies and measured curves.
+//! Functions that show what the user opens: scenes, studies and measured curves.
 
 use super::edit;
 use crate::explorer::app::App;
@@ -39,8 +39,8 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     app
 }
 
-/// Shows what the user has opened by a path: a scene, a study, or a measured curve, which is
-/// compared with the present scene.
+/// Shows what was found at the path that the user has opened: a scene, a study, or a measured
+/// curve. A measured curve is compared with the present scene.
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {

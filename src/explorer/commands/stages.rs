@@ -1,5 +1,5 @@
-//! Edits of the loading: changes of single stages, and use of the manual loading as the new loading
-//! of the scene.
+//! Edits of the loading. They change single stages, or make the manual loading the loading of the
+//! scene.
 
 use super::{edit, measured};
 use crate::explorer::app::App;
@@ -52,9 +52,9 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one, and opens its editor. After a stage that does not press,
-/// the new stage presses. After a stage that presses, the new stage goes to zero force or, at the
-/// end of the loading, to separation.
+/// Adds a stage to the loading after the selected stage, and opens the editor of the new stage. If
+/// the selected stage does not press the body, the new stage presses it. If the selected stage
+/// presses the body, the new stage goes to zero force or, at the end of the loading, to separation.
 pub fn add(app: &mut App) {
     let force = pressing_force(app);
     let before = app.edit.generation;
@@ -102,9 +102,10 @@ pub fn shift(app: &mut App, distance: isize) {
     })
 }
 
-/// Changes the selected stage to the next kind of stage that the loading allows, or to the previous
-/// kind if `forwards` is false. Its new number is the value that the stage reaches now. If no other
-/// kind is allowed, a message states why the last kind was refused.
+/// Changes the kind of the selected stage to the next kind that the loading allows, or to the
+/// previous kind if `forwards` is false. The target value of the new kind, such as an indentation,
+/// is the value at which the stage ends now. If no other kind is allowed, a message states why the
+/// last kind was refused.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(selected) = selected(app) else {
         return;
@@ -186,9 +187,10 @@ fn pressing_force(app: &App) -> f64 {
 /// Force in N of a stage that presses, if neither the scene nor its outcome suggests a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// Changes the selected value by a number of steps. For an option for reading the measured curve,
-/// selects the next choice. A stage without a number, such as a separation, does not change,
-/// because a change would replace it by another kind of stage.
+/// Changes the value in the selected row by a number of steps. If the row is an option for reading
+/// the measured curve, the option changes as in [`measured::step_option`]. A stage without a target
+/// value, such as a separation, does not change, because a target value would make it another kind
+/// of stage.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -221,7 +223,8 @@ fn replaced(document: &Document, loading: &[Move]) -> Stages {
     stages
 }
 
-/// Returns the scene with the manual loading as its loading; `None` if there is no manual loading.
+/// Returns a copy of the scene in which the manual loading is the loading; `None` if there is no
+/// manual loading.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let document = &app.edit.document;
     let stages = replaced(document, &app.manual.as_ref()?.loading);

@@ -16,8 +16,8 @@ use crate::explorer::request::Focus;
 use Run::{Do, Key};
 use crossterm::event::KeyEvent;
 
-/// Row of the table of keys, with its function, and with the condition under which the footer shows
-/// the row.
+/// Row of the table of keys, with the function that the keys run, and the condition under which the
+/// footer shows the row.
 pub struct Entry {
     row: Row,
     run: Run,

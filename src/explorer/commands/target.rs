@@ -19,8 +19,8 @@ use std::sync::Arc;
 /// Target that the prompt proposes.
 const USUAL: &str = "F_a/F_a,max = 80 %";
 
-/// Answer to an inverse question: at which value of a number does a result have the wanted value?
-/// `key` identifies the question.
+/// Answer to an inverse question: at which value of a number of the scene does a result have the
+/// wanted value? `key` is a text that identifies the question.
 #[derive(Clone, Debug)]
 pub struct Sought {
     key: String,
@@ -45,7 +45,7 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
 }
 
-/// Returns the name of the number whose value an inverse question seeks: the preload if a row of
+/// Returns the name of the number that an inverse question seeks. This is the preload if a row of
 /// the loading is selected, otherwise the parameter of the selected row.
 pub fn name(app: &App) -> String {
     match app.edit.parameter() {
@@ -126,8 +126,8 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     }
 }
 
-/// Returns the answer to the inverse question as text, or a text about what is missing; `None` if
-/// the user is typing no target.
+/// Returns the answer to the inverse question as text, or a text that states what is missing for an
+/// answer. `None` if the user is not typing a target.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     if let Err(why) = Question::parse_condition(typed) {
@@ -163,8 +163,8 @@ fn value(found: &Found) -> Option<f64> {
     if is_needed { Some(median) } else { None }
 }
 
-/// Sets the selected parameter to the value that was found. If the value is a preload, it becomes
-/// the force of the stage with the largest force.
+/// Sets the selected parameter to the value that the inverse question has found. If this value is a
+/// preload, it becomes the force of the loading stage with the largest force.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Question::parse_condition(typed).map_err(|error| error.to_string())?;
     let known = match found(app, typed) {

@@ -13,8 +13,8 @@ use crossterm::event::{KeyCode, KeyEvent};
 /// Smallest number of springs in the visible part of the profile.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows another patch in the close-up. `question` gets the middle spring of the patch that is
-/// shown now, and returns which patch is shown next, such as the patch after this spring.
+/// Shows another contact patch in the close-up. `question` receives the middle spring of the patch
+/// that is shown now, and returns which patch is shown next, such as the patch after this spring.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let snapshot = app.snapshot.as_ref();
     let shown = snapshot.and_then(|snapshot| snapshot.close_up.patch);
@@ -76,8 +76,8 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms in the selected pane. The point of the profile at `position` (in m) does not move on the
-/// screen.
+/// Zooms the selected pane. Positive `steps` zoom in, negative `steps` zoom out. The point of the
+/// profile at `position` in m does not move on the screen.
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let pointer = position.and_then(|position| share_of_shown(app, position));
     let profile = app.view.profile;
@@ -121,7 +121,8 @@ fn focus_within(app: &App, spring: f64) -> Focus {
     Focus::Spring(spring.clamp(0.0, last) as usize)
 }
 
-/// Moves the visible part of the profile by a quarter of its width.
+/// Moves the visible part of the profile by a quarter of its width, in the direction of the pressed
+/// key.
 pub fn pan(app: &mut App, key: &KeyEvent) {
     let is_left = key.code == KeyCode::Char('(');
     let quarter = if is_left { -0.25 } else { 0.25 };

@@ -1,5 +1,5 @@
-//! Demo of the explorer, for a terminal, a pipe or a recording. Each time it plays, it shows
-//! exactly the same frames.
+//! Demo of the explorer, which plays a script in a terminal, for a pipe or for a recording. The
+//! demo shows exactly the same frames each time.
 
 pub mod script;
 pub mod watch;

@@ -1,13 +1,14 @@
-//! Scripts of the demos.
+//! Scripts of the demos. A script is a list of commands and pauses that a demo plays.
 
 use Cue::{Do, Enter, Open, Repeat, Select, Wait};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
     Wait(f64),
-    /// Runs the command with this name in the table of keys.
+    /// Runs the command that has this name in the table of keys.
     Do(&'static str),
-    /// Runs a command several times: number of times, interval in s, and name of the command.
+    /// Runs a command several times. The values are the number of times, the interval in s, and the
+    /// name of the command.
     Repeat(u32, f64, &'static str),
     Open(&'static str),
     Select(&'static str),
@@ -59,7 +60,7 @@ pub const TOUR: &[Cue] = &[
     Wait(LOOP),
 ];
 
-/// One scene: its loading and unloading, with the contact patches.
+/// Script for a single scene: its loading and unloading, with the contact patches.
 pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 
 #[cfg(test)]

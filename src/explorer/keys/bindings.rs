@@ -1,26 +1,26 @@
-//! The rows of the table of keys, and the keys in use. These are the keys of the table, unless the
-//! configuration replaces them.
+//! The rows of the table of keys, and the keys in use. The keys in use are those of the table,
+//! unless the configuration of the user replaces them.
 
 use super::key::Key;
 use asperity_scene::text::nearest;
 use crossterm::event::KeyEvent;
 use std::fmt;
 
-/// Context in which a key is pressed, which determines the function of the key. If a prompt (a line
-/// in which the user types, or a question) is open, the context depends on the prompt, otherwise on
-/// the selected pane.
+/// Context in which a key is pressed. It determines the function of the key. If a prompt is open (a
+/// line in which the user types, or a question), the context depends on the prompt. Otherwise it
+/// depends on the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     Explore,
-    /// No prompt, and the map is selected.
+    /// No prompt is open, and the map is selected.
     Map,
-    /// No prompt, and the selected pane shows a crosshair.
+    /// No prompt is open, and the selected pane shows a crosshair.
     Crosshair,
-    /// No prompt, and the list of parameters is selected.
+    /// No prompt is open, and the list of parameters is selected.
     Parameters,
-    /// A prompt with a line that the user types, but no list.
+    /// A prompt is open that has a line which the user types, but no list.
     Line,
-    /// A prompt with a line that the user types, and a list of matching entries.
+    /// A prompt is open that has a line which the user types, and a list of matching entries.
     List,
     Overwrite,
     Help,
@@ -43,13 +43,14 @@ pub struct Row {
     /// Rank in the footer. The row with the smallest rank comes first.
     pub rank: u8,
     pub is_listed: bool,
-    /// True if successive commands of this row count as one edit, which one undo reverts.
+    /// True if successive commands of this row count as one edit. One undo then reverts all of
+    /// them.
     pub merges: bool,
     /// True if each key of the row has another effect. The function then receives the pressed key.
     pub takes_key: bool,
 }
 
-/// A row of the table that is to be run as a command, with the pressed key if there is one.
+/// Command that is to be run: a row of the table of keys, and the pressed key if there is one.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyCommand {
     pub row: &'static Row,
@@ -130,13 +131,13 @@ fn names_of(keys: &[Key]) -> String {
     names.join(" ")
 }
 
-/// The keys of all commands: the keys in the table of commands, or the keys with which the
+/// Key bindings in use: the default keys from the table of commands, or the keys with which the
 /// configuration of the user replaces them.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 
 impl Bindings {
-    /// Creates the bindings of these rows, with the keys of the table.
+    /// Creates the bindings of these rows. Each command has its default keys.
     pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
         let mut bindings = Vec::new();
         for row in rows {
@@ -168,9 +169,9 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_listed())
     }
 
-    /// Returns the command with this name that is valid in the context. If the function needs a
-    /// pressed key, the name of the key is written after the name of the command, as in
-    /// `start-value 3`.
+    /// Returns the command that has this name and is valid in the context. If the command needs a
+    /// pressed key, `name` also has the name of this key, as in `start-value 3`. Returns `None` if
+    /// there is no such command.
     pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
         let (name, key) = match name.split_once(' ') {
             Some((name, key)) => (name, Key::named(key)),
@@ -203,11 +204,12 @@ impl Bindings {
         items
     }
 
-    /// Replaces the keys of the function with the name `action`. Ctrl+C cannot be replaced, and
-    /// always ends the explorer.
+    /// Replaces the keys of the command with the name `action`. The key Ctrl+C cannot be replaced,
+    /// and always ends the explorer.
     ///
     /// # Errors
-    /// Returns which field of the setting is wrong, `action` or `keys`, and an error message.
+    /// Returns the name of the wrong field of the setting, `action` or `keys`, and an error
+    /// message.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         const ALLOWED: &str = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
         let mut parsed = Vec::new();
@@ -249,8 +251,8 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_rebindable())
     }
 
-    /// Returns lists in Markdown for docs/keys.md: the keys of each section, with their functions
-    /// and the names of these functions in the configuration.
+    /// Returns the lists of keys for docs/keys.md as Markdown. For each section, the list has the
+    /// keys, their functions, and the names of these functions in the configuration.
     pub fn markdown(&self) -> String {
         let mut text = String::new();
         let mut section = "";
@@ -266,8 +268,8 @@ impl Bindings {
         text
     }
 
-    /// Returns a key that has two functions in the same context, and the names of the two
-    /// functions; `None` if no key has two.
+    /// Returns a key that has two functions in the same context, with the names of both functions.
+    /// `None` if no key has two functions.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         for context in ANY {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();

@@ -3,7 +3,7 @@
 use asperity_data::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// Key with its modifiers, such as `Ctrl+p`, or range of characters, such as `1–9`.
+/// Key with its modifiers, such as `Ctrl+p`, or a range of characters, such as `1–9`.
 #[derive(Clone, Debug)]
 pub struct Key {
     /// Name of the key in the table of keys or in the configuration.
@@ -24,13 +24,13 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Returns the event of a press of this key. For a range of characters, returns the event of
-    /// the first character.
+    /// Returns the event that the terminal sends when this key is pressed. For a range of
+    /// characters, it is the event of the first character.
     pub fn event(&self) -> KeyEvent {
         KeyEvent::new(self.first, self.modifiers)
     }
 
-    /// Returns true if there is an event that matches both keys.
+    /// Returns true if one key press can match both this key and the key `other`.
     pub fn overlaps(&self, other: &Key) -> bool {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
@@ -87,19 +87,19 @@ fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
     }
 }
 
-/// Step to which an arrow key, or a letter that replaces it, corresponds.
+/// Step of a selection or a mark that an arrow key causes. A letter can have the same effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyDirection {
-    /// Number of columns to the right; negative to the left.
+    /// Number of columns to the right. A negative number means to the left.
     pub columns: i32,
-    /// Number of rows upwards; negative downwards.
+    /// Number of rows upwards. A negative number means downwards.
     pub rows: i32,
     /// True for a large step.
     pub is_coarse: bool,
 }
 
-/// Returns the step of an arrow key or of a letter that replaces it; `None` for any other key. With
-/// Shift, or for a capital letter, the step is large.
+/// Returns the step that an arrow key causes, or a letter with the same effect; `None` for any
+/// other key. With Shift, or for a capital letter, the step is large.
 pub fn direction(key: &KeyEvent) -> Option<KeyDirection> {
     let (columns, rows) = match key.code {
         KeyCode::Left | KeyCode::Char('h' | 'H') => (-1, 0),

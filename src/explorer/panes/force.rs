@@ -308,8 +308,8 @@ fn units(app: &App) -> LoopUnits {
     }
 }
 
-/// Returns the indentation in m that belongs to a number on the horizontal axis; `None` if the
-/// number does not determine the indentation.
+/// Returns the indentation in m that belongs to the number `x` on the horizontal axis of the force
+/// curve; `None` if `x` does not determine the indentation.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }

@@ -1,5 +1,5 @@
-//! The table of panes, with one row for each pane. Each pane has a file of its own, with a function
-//! that makes the panel of the pane from the state.
+//! The table of panes, with one row for each pane. Each pane has a file of its own. The file has a
+//! function that makes the content of the pane from the state of the explorer.
 
 mod close_up;
 pub mod force;
@@ -43,7 +43,8 @@ pub fn row(pane: Pane) -> &'static PaneRow {
     }
 }
 
-/// Returns the panel of a pane, including the crosshair, for an area of this size inside the frame.
+/// Returns the content of a pane, including the crosshair, for an area of this size inside the
+/// frame of the pane.
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
     // The profile and the close-up draw their crosshair themselves, because it is at a spring.
@@ -62,7 +63,8 @@ pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
     (properties.figure)(app, &content)
 }
 
-/// Returns the pane at a cell of the screen, and what the pane shows in this cell.
+/// Returns the pane that is drawn at a character cell of the screen, and what the pane shows in
+/// this cell; `None` if there is no pane.
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
     let mut panes = Layout::of(app).panes.into_iter();
     let (pane, area) = panes.find(|(_, area)| area.contains(cell))?;

@@ -1,6 +1,6 @@
-//! The pane of adhesion force against preload. It shows the staircase of the scene's profile, the
-//! scatter over random profiles, the adhesion forces after the loading turned at first touch and at
-//! zero force, and the present preload.
+//! The pane of the adhesion force as a function of the preload. It shows the steps of the adhesion
+//! force of the scene's own profile, the scatter over random profiles, and the present preload. It
+//! also shows the adhesion forces of loadings that turn at first touch and at zero force.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;

@@ -1,4 +1,4 @@
-//! The properties of a pane, collected in one row of the table of panes.
+//! The properties of a pane. Each pane has one row with these properties in the table of panes.
 
 use crate::explorer::advice;
 use crate::explorer::app::App;
@@ -12,29 +12,30 @@ use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Result of a pane, with the command that computes it; `None` as long as there is no result.
+/// Result of a pane for an exported file, and the shell command that computes this result. `None`
+/// as long as there is no result.
 pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
-    /// Makes the panel of the pane for an area of this size inside the frame.
+    /// Function that makes the content of the pane for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
-    /// Makes the figure of the pane for an exported file. The figure may contain more than the
-    /// chart of the panel.
+    /// Function that makes the figure of the pane for an exported file. The figure may contain more
+    /// than the chart on the screen. The function returns `None` if the pane has no chart.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// Makes the table or the JSON of the pane for an exported file, with the command that computes
-    /// it. Returns `None` if there is no result yet, or if the curves of the figure are the whole
-    /// result.
+    /// Function that makes the table or the JSON of the pane for an exported file, with the shell
+    /// command that computes it. It returns `None` if there is no result yet, or if the curves of
+    /// the figure are the whole result.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Function that returns the studies (background computations) whose values the pane needs
     /// while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
-    /// Paragraphs of the help that explain the signs in the pane. Each has a name and a text.
+    /// Paragraphs of the help that explain the symbols in the pane, each with a name and a text.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// Row of a pane without content. The rows of all other panes begin with these properties and
-    /// replace some of them.
+    /// Row with the properties of a pane without content. The rows of all panes begin with a copy
+    /// of it and replace some of its properties.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| {
@@ -49,12 +50,13 @@ impl PaneRow {
     };
 }
 
-/// Command for a result that no other command computes: it opens the explorer on the scene. If the
-/// result is the path of manual loading, the scene has this path as its loading.
+/// Shell command that is stated for a result if no other command computes it. The command opens the
+/// explorer on the scene. If the result is the path of manual loading, the scene has this path as
+/// its loading.
 pub const OPEN_COMMAND: &str = "asperity";
 
-/// Returns the path of manual loading as a report. Without manual loading, returns the outcome of
-/// the scene with its force curve.
+/// Returns the path of manual loading as a report. If there is no manual loading, returns the
+/// outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let scene = app.edit.document.scene();
     if let Some(manual) = &app.manual {

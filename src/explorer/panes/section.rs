@@ -1,5 +1,5 @@
-//! Chart of a section, which is a part of the profile: rigid profile, elastic surface and contact.
-//! The profile pane and the close-up both show such a chart.
+//! Chart of a section. A section is a part of the profile, with the rigid profile, the elastic
+//! surface and the contact. The profile pane and the close-up both show such a chart.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
@@ -49,9 +49,9 @@ pub fn panel(
     panel
 }
 
-/// Returns the chart of a section, a part of the profile with its contact, for an exported file. It
-/// does not depend on the size of the pane. `part` chooses the springs, and `z` is the range of
-/// heights in m.
+/// Returns the chart of a section for an exported file. A section is a part of the profile with its
+/// contact. The chart does not depend on the size of the pane. `part` chooses the springs, and `z`
+/// is the range of heights in m.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,
@@ -63,7 +63,8 @@ pub fn of_springs(
     Some(whole.chart(snapshot.line, z))
 }
 
-/// Returns a figure with this chart. Its note states the force and the indentation.
+/// Returns a figure with the chart of a section. The note of the figure states the force and the
+/// indentation.
 pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", app.without_rounding(point.force)).then(", ");
@@ -75,7 +76,7 @@ pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     }
 }
 
-/// Returns a table of the curves in this chart; `None` as long as the scene is not computed.
+/// Returns a table of the curves in the chart of a section; `None` until the scene is computed.
 pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     if !app.is_current() {
         return None;
@@ -84,8 +85,9 @@ pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     Some((OPEN_COMMAND.into(), figure))
 }
 
-/// Returns the range of heights in m for the vertical axis. It contains the profile and the surface
-/// at all indentations of the loop, but not a surface that is far above the profile.
+/// Returns the range of heights in m that the vertical axis of a section shows. It contains the
+/// profile, and the elastic surface at all indentations of the loop. A surface that is far above
+/// the profile is left out.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);
@@ -99,7 +101,7 @@ pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     Span::around(ends.into_iter(), 0.05)
 }
 
-/// Returns the position of the middle of a spring in m.
+/// Returns the position of the middle of spring number `spring` along the profile in m.
 pub fn position(line: LineFacts, spring: usize) -> f64 {
     (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }

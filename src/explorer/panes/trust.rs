@@ -1,5 +1,6 @@
-//! The pane of accuracy of the adhesion force. It shows errors over computing times (the cost of
-//! accuracy), the errors from each source, and what other theories state about the same surface.
+//! The pane that shows the accuracy of the adhesion force. The first part is the cost of accuracy:
+//! the error as a function of the computing time. The second part has the errors from each source.
+//! The third part has the verdicts of other theories on the adhesion of the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;

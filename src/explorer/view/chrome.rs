@@ -46,8 +46,8 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// Returns the status lines below the panes, at most `rows`: the main results of the scene, a
-/// question, an error, or the typed text.
+/// Returns the status lines below the panes, at most `rows` lines. They contain the main results of
+/// the scene, a question, an error, or the text that the user is typing.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     if let Some(prompt) = &app.prompt
         && let Some(lines) = status_of_prompt(app, prompt, width, rows)

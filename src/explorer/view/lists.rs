@@ -58,7 +58,7 @@ impl List<'_> {
 }
 
 /// Draws the help or the list of commands. If the user has typed a text, only the topics that match
-/// this text are drawn, otherwise all topics in sections.
+/// this text are drawn. Otherwise all topics are drawn in sections.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,
@@ -125,7 +125,7 @@ fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> 
     rows
 }
 
-/// Draws the list of what can be opened, and on its right the selected entry.
+/// Draws the list of what the user can open, with the selected entry in detail on the right.
 pub fn draw_openables(
     area: Rect,
     look: Appearance,

@@ -1,4 +1,4 @@
-//! Draws the state of the explorer. Nothing here changes the state.
+//! The views, which draw the state of the explorer. They never change the state.
 
 mod chrome;
 mod lists;

@@ -1,14 +1,15 @@
-//! Spans and their levels. A span is a range of neighbouring springs that one patch contains. The
-//! level of a patch is the gap at which its edges lie. The length of the patch and its edge cells,
-//! the cells at its ends that are partly in contact, follow from the level.
+//! Spans and levels of contact patches. A span is a range of neighbouring springs that one patch
+//! contains. The level of a patch is the gap at which the edges of the patch lie. From the level
+//! follow the length of the patch and the edge cells: the cells at the ends of the patch that are
+//! partly in contact.
 
 use crate::detachment::{DetachmentRule, Levels};
 use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Edge model: where an edge of a contact patch may lie, either only in the middle between two
-/// springs or anywhere between them.
+/// Edge model: where an edge of a contact patch may lie. An edge lies either only in the middle
+/// between two springs, or anywhere between two springs.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -25,18 +26,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie
-    /// in the middle between two springs. Deviations of forces and energies from a continuous
-    /// profile are proportional to the spacing Δx of the springs.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx, where Δx is the
+    /// spacing of the springs. The edges of the patch lie in the middle between two springs.
+    /// Deviations of forces and energies from a continuous profile are proportional to Δx.
     Grid,
     /// The profile is straight between neighbouring springs, and an edge may lie anywhere between
     /// two springs. Deviations of forces and energies from a continuous profile are proportional to
-    /// the square of the spacing Δx of the springs. Under a flat punch they are proportional to Δx.
+    /// the square of the spacing Δx of the springs. Under a flat punch these deviations are
+    /// proportional to Δx.
     SubCell,
 }
 
 impl Edges {
-    /// Returns the name by which scene files state where the edges of patches may lie.
+    /// Returns the name of the edge model in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Edges::Grid => "Grid",
@@ -45,11 +47,11 @@ impl Edges {
     }
 }
 
-/// A span: the springs `first..=last` of one patch, and their largest gap in m.
+/// A span: the springs `first..=last` of one patch, and the largest gap of these springs in m.
 ///
-/// In equilibrium the two springs beside each patch have larger gaps than all springs of the patch.
-/// This holds under any loading history. Each span is therefore a subtree of the max-Cartesian tree
-/// of the gaps. If gaps are equal, the leftmost one is nearest the root of that tree.
+/// In equilibrium the two springs beside each patch have larger gaps than all springs of the patch,
+/// under any loading history. Each span is therefore a subtree of the max-Cartesian tree of the
+/// gaps. If gaps are equal, the leftmost one is nearest the root of that tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     pub gap: f64,
@@ -74,9 +76,9 @@ impl Span {
         span
     }
 
-    /// Returns the index of the wall, the spring beside the span that attaches next. It is the
-    /// spring with the smaller gap of the two beside the span. Returns `None` if the span fills the
-    /// profile.
+    /// Returns the index of the spring that attaches next, called the wall. Of the two springs
+    /// beside the span, the wall is the one with the smaller gap. Returns `None` if the span fills
+    /// the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         let left = self.first.checked_sub(1);
@@ -102,8 +104,8 @@ impl Span {
         span
     }
 
-    /// Returns this span extended by the spring that attaches next. If the span fills the profile,
-    /// returns it unchanged.
+    /// Returns this span extended by the spring that attaches next. A span that fills the profile
+    /// is returned unchanged.
     #[inline]
     pub fn grown(&self, gaps: &[f64]) -> Self {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
@@ -120,8 +122,8 @@ impl Span {
     }
 }
 
-/// Returns the smaller of two numbers, neither of which may be NaN. It is faster than `f64::min`,
-/// which checks for NaN.
+/// Returns the smaller of two numbers, neither of which may be NaN. This function is faster than
+/// `f64::min`, which checks for NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
@@ -142,17 +144,17 @@ fn growth_over(height: f64) -> f64 {
     if growth < f64::INFINITY { growth } else { 0.0 }
 }
 
-/// Sums over the two edge cells of a patch at one indentation. An edge cell is the cell at an end
-/// of the patch, which is only partly in contact.
+/// Sums over the two edge cells of a patch at one indentation. The edge cells are the cells at the
+/// two ends of the patch, which are only partly in contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
     /// Length in contact of both cells together, in cells.
     pub length: f64,
-    /// Compression ∫ (d − c) dx over the length in contact, in cells times metres. Here d is the
-    /// indentation and c the gap.
+    /// Compression ∫ (d − c) dx over the length in contact, in cells times m. d is the indentation,
+    /// c the gap, and x the position in cells.
     pub compression: f64,
-    /// ∫ (d − c)² dx over the length in contact, in cells times m², where d is the indentation and
-    /// c the gap.
+    /// ∫ (d − c)² dx over the length in contact, in cells times m². d is the indentation, c the
+    /// gap, and x the position in cells.
     pub squares: f64,
 }
 
@@ -181,15 +183,15 @@ impl EdgeSum {
     }
 }
 
-/// An edge cell of a patch, and the part of the cell that lies below the level of the edge. The
-/// cell lies between the outermost spring of the patch and the first spring outside. The level is
-/// the gap at which the edge lies.
+/// An edge cell of a patch: the cell between the outermost spring of the patch and the first spring
+/// outside. The fields describe the part of the cell below the level of the edge, which is the gap
+/// at which the edge lies.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
     /// Gap in m of the first spring outside. It is infinite if the patch reaches the end of the
     /// foundation, which is half a cell away from the last spring.
     outside: f64,
-    /// Share of the length of the cell on which the gap is at most the level of the edge.
+    /// Share of the cell, from 0 to 1, on which the gap is at most the level of the edge.
     pub share: f64,
     /// Growth of the share with the level in 1/m. It is zero if the share is constant or jumps.
     growth: f64,
@@ -203,8 +205,8 @@ pub struct EdgeCell {
 
 impl EdgeCell {
     /// Returns the left and the right edge cell of a patch with the springs of `span`. The edges of
-    /// the patch lie at the gap `level` in m, which must be between the largest gap of the patch
-    /// and the gap of the spring that attaches next.
+    /// the patch lie at the gap `level` in m. The level must be at least the largest gap of the
+    /// patch and at most the gap of the spring that attaches next.
     #[inline]
     pub fn of_span(gaps: &[f64], span: &Span, level: f64) -> [Self; 2] {
         let before = if span.first > 0 {
@@ -257,8 +259,8 @@ impl EdgeCell {
         }
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m², where c is the gap. The integral is over the part
-    /// of the cell below the level t of the edge. θ = t − `above` is an indentation in m.
+    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the cell below the level t of the
+    /// edge. c is the gap, and θ = t − `above` is an indentation; `above` is in m.
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
@@ -281,8 +283,8 @@ impl Levels {
         (levels, cells)
     }
 
-    /// Returns how far the edges of a patch lie above the largest gap of the patch, in m, at an
-    /// indentation in m.
+    /// Returns the height in m of the edges of a patch above the largest gap of the patch, at an
+    /// indentation in m. The edges are free to move.
     #[inline]
     pub fn rise<R: DetachmentRule>(&self, rule: R, indentation: f64) -> f64 {
         if self.growth <= 0.0 {
@@ -303,9 +305,9 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Returns the indentation in m at which pinned edges of a patch begin to move, and how they
-    /// move: true if they slide, false if they jump. Edges are pinned while they stay in place
-    /// although the body moves. `rise` is their height in m above the largest gap of the patch.
+    /// Returns the indentation in m at which pinned edges of a patch begin to move, and how the
+    /// edges then move: true if they slide, false if they jump. Pinned edges stay in place although
+    /// the body moves. `rise` is the height of the edges in m above the largest gap of the patch.
     #[inline]
     pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -335,8 +337,8 @@ pub struct Slider<R> {
 
 impl<R: DetachmentRule> Slider<R> {
     /// Creates the two edge cells of a patch that consists of the springs of `span`. `pin` is
-    /// `None` if the edges slide. If the edges are pinned and stay in place, `pin` is their height
-    /// in m above the largest gap of the patch.
+    /// `None` if the edges slide with the indentation. If the edges stay in place, `pin` is the
+    /// height of the edges in m above the largest gap of the patch.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -359,9 +361,9 @@ impl<R: DetachmentRule> Slider<R> {
         slider
     }
 
-    /// Creates the cell between two neighbouring springs with the gaps `left` and `right` in m. The
-    /// contact in this cell grows from the smaller gap to the larger one. The rule `no_stretch`
-    /// allows no stretch.
+    /// Creates a cell of a contact without adhesion, between two neighbouring springs with the gaps
+    /// `left` and `right` in m. The contact in this cell grows from the smaller gap to the larger
+    /// one. `no_stretch` is a rule that allows no stretch.
     #[inline]
     pub fn of_cell(left: f64, right: f64, no_stretch: R) -> Self {
         let gap = smaller(right, left);
@@ -375,8 +377,9 @@ impl<R: DetachmentRule> Slider<R> {
         Self::without_adhesion(levels, no_stretch)
     }
 
-    /// Creates the half cell at an end of the foundation. Its gap is everywhere `gap` in m, the gap
-    /// of the outermost spring. The rule `no_stretch` allows no stretch.
+    /// Creates the half cell at an end of the foundation, for a contact without adhesion. The gap
+    /// in this half cell is everywhere `gap` in m, the gap of the outermost spring. `no_stretch` is
+    /// a rule that allows no stretch.
     pub fn half_cell(gap: f64, no_stretch: R) -> Self {
         let levels = Levels {
             gap,
@@ -414,18 +417,18 @@ impl<R: DetachmentRule> Slider<R> {
         }
     }
 
-    /// Returns ∫ Δl² dℓ in cells times m², where Δl is the largest stretch that a patch of the
-    /// length ℓ bears. The integral goes from zero to the length of the patch at an indentation in
-    /// m. It is the sum of the squared stretches with which springs attached at the moving edges.
-    /// It equals twice the surface energy of the patch divided by the stiffness of a spring.
+    /// Returns ∫ Δl² dℓ in cells times m², from zero to the length of the patch at an indentation
+    /// in m. Δl is the largest stretch that a patch of the length ℓ bears. The integral is the sum
+    /// of the squared stretches with which springs attached at the moving edges. Half the integral
+    /// times the stiffness of a spring is the surface energy of the patch.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.cells + self.edge_cells(indentation).length;
         self.rule.squares_up_to(length)
     }
 
     /// Returns the derivative of the compression of both edge cells with respect to the
-    /// indentation, in cells. The derivative never falls while the indentation grows. The force is
-    /// therefore convex between two events, at which springs attach or detach.
+    /// indentation, in cells. This derivative never falls while the indentation grows. The force is
+    /// therefore convex between two events, the indentations at which springs attach or detach.
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let levels = self.levels;

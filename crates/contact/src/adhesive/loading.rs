@@ -1,6 +1,6 @@
-//! Loading: finds the indentation at which each node of the contact tree closes, and lists the
-//! patches between these events. A run is a patch over a range of indentations in which its edges
-//! do not jump. A held patch is a patch that is in contact at the beginning of the loading.
+//! Loading: finds the indentation at which each node of the contact tree closes, and lists the runs
+//! between these events. A run is a patch over a range of indentations in which the edges of the
+//! patch do not jump. A held patch is a patch that is in contact at the beginning of the loading.
 
 use super::levels::{Span, larger, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
@@ -14,11 +14,11 @@ use std::ops::Range;
 /// Closing thresholds of the nodes of a contact tree: the indentations in m at which the nodes
 /// close on a loading from separation.
 ///
-/// A node of the tree is a local maximum of the gap. It closes when one of the two patches beside
-/// it attaches the spring of the node. All springs of the subtree of the node then belong to one
-/// patch. The threshold of node v is s_v = min over its two branches u of max(s_u, all φ of the
-/// patch while it grows from u to v). φ is the indentation at which a patch with its edges at a
-/// given gap is in equilibrium; see the module `run`.
+/// A node of the tree is a local maximum of the gap. The node closes when one of the two patches
+/// beside the node attaches the spring of the node. From then on all springs of the subtree of the
+/// node belong to one patch. The threshold of node v is s_v = min over its two branches u of
+/// max(s_u, all φ of the patch while the patch grows from u to v). φ is the indentation at which a
+/// patch with its edges at a given gap is in equilibrium; see the module `run`.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes: all springs of its subtree then belong to one
@@ -154,8 +154,8 @@ impl Closing {
     }
 
     /// Lists the runs of a loading from right to left, in the order that [`Run`] describes. A run
-    /// is a patch over a range of indentations in which its edges do not jump. `held` are the
-    /// patches in contact at the beginning of the loading.
+    /// is a patch over a range of indentations in which the edges of the patch do not jump. `held`
+    /// are the patches that are in contact at the beginning of the loading.
     pub fn list<const SLIDES: bool, R: DetachmentRule>(
         &self,
         ground: &Ground<'_, SLIDES, R>,

@@ -3,8 +3,9 @@
 //! The local maxima of the gap form a `ContactTree`. A loading passes over the tree from the leaves
 //! to the root and finds where the nodes close. An unloading passes over the tree from the root to
 //! the leaves and finds where the nodes open. Both passes list *runs*. A run is a patch over a
-//! range of indentations in which its edges move without a jump. Curves, extremes and energies are
-//! sums over the runs. Only the edge model determines the length of a patch.
+//! range of indentations in which the edges of the patch move without a jump. Curves, extremes and
+//! energies are sums over the runs. The edge model, which states where edges may lie, decides the
+//! length of a patch.
 
 pub(crate) mod jumps;
 pub(crate) mod levels;
@@ -24,7 +25,8 @@ use asperity_data::CompensatedSum;
 use levels::EdgeCell;
 
 /// The runs of a motion, with the profile, the contact tree and the rule of detachment from which
-/// they follow. A run is a patch over a range of indentations in which its edges do not jump.
+/// the runs follow. A run is a patch over a range of indentations in which the edges of the patch
+/// do not jump.
 pub struct Runs<'a, const SLIDES: bool, R> {
     pub ground: Ground<'a, SLIDES, R>,
     pub runs: &'a [Run],
@@ -32,8 +34,8 @@ pub struct Runs<'a, const SLIDES: bool, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Returns the patches in contact at an indentation in m, from left to right. If `pins` is
-    /// true, [`HeldPatch::pin`] is the height of the edges of each patch. The next motion needs
-    /// this height if the edges first stay in place when the motion begins.
+    /// true, each patch also has [`HeldPatch::pin`], the height of its edges. The next motion needs
+    /// this height if the edges stay in place at its beginning.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
         let runs = self.runs.iter().rev();
         runs.filter(move |run| run.is_at(indentation))
@@ -61,8 +63,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         Some(outermost.map(|run| self.ground.span_at(run, indentation)))
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which it is in
-    /// contact: −∞ if it is always in contact, +∞ if never.
+    /// Returns one indentation in m for each spring of the profile: the smallest indentation at
+    /// which the spring is in contact. It is −∞ for a spring that is always in contact, and +∞ for
+    /// a spring that is never in contact.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
         // Larger patches come first in the list. The smaller patches inside them have smaller
@@ -223,9 +226,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile that attach or detach
-    /// at an indentation θ above `low` and up to `high` (m). c is the gap. From this integral
-    /// follows the energy that springs release when they detach, or gain when they attach with a
-    /// stretch.
+    /// at an indentation θ above `low` and up to `high` (m). c is the gap. The energy that springs
+    /// release on detaching, or gain on attaching with a stretch, follows from this integral.
     ///
     /// When a patch forms at an indentation θ, all springs between its edges attach, except springs
     /// that are already in contact in smaller patches. The runs of the smaller patches end at θ.

@@ -1,5 +1,6 @@
-//! Runs. A run is a patch over a range of indentations in which its edges move without a jump. The
-//! two edge models determine the length of a patch, its next attachment and its next detachment.
+//! Runs. A run is a patch over a range of indentations in which the edges of the patch move without
+//! a jump. The edge model decides the length of a patch, its next attachment and its next
+//! detachment.
 //!
 //! A span is a range of springs that one patch contains. A patch grows from span to span. The level
 //! of a patch is the gap at which its edges lie. On each span the level lies between the largest
@@ -11,9 +12,9 @@
 //!   Δx at all levels of its span.
 //! * Edges that slide between springs: the profile is straight between neighbouring springs, and a
 //!   patch ends where the profile crosses the level of the patch. A patch at the level t is in
-//!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It grows while φ(t) ≤ d and recedes
-//!   while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest value and
-//!   then rises. A patch is stable only where φ rises.
+//!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). The patch grows while φ(t) ≤ d and
+//!   recedes while φ(t) ≥ d, where d is the indentation. On one span ℓ is linear in t, so φ is
+//!   convex: φ falls to its lowest value and then rises. A patch is stable only where φ rises.
 
 use super::levels::{EdgeCell, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
@@ -21,27 +22,29 @@ use crate::detachment::{DetachmentRule, Levels, ROUNDING};
 use crate::history::Patch;
 use crate::totals::ContactTotals;
 
-/// A run: one patch over a range of indentations, in which it grows by one spring after the other
-/// without a jump. The range ends where the patch jumps, merges or splits.
+/// A run: one patch over a range of indentations, in which the patch grows by one spring after the
+/// other without a jump. The range ends where the patch jumps, merges or splits.
 ///
-/// The runs of a motion are listed in the order of a walk through the contact tree from its root,
-/// with the right one of two parts first. On each branch of the tree the larger patch comes first.
-/// A run therefore comes before the runs of the smaller patches that it contains, and the right one
-/// of two separate runs comes first.
+/// The runs of a motion are listed in the order of a walk through the contact tree from its root.
+/// Of the two parts of a patch, the walk visits the right one first. On each branch of the tree the
+/// larger patch comes first. A run therefore comes before the runs of the smaller patches inside
+/// its patch, and before the runs of patches on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound of the indentations of the run in m; the bound belongs to the run. It is −∞ if
-    /// the patch is already in contact when a loading begins.
+    /// Lower bound of the indentations of the run in m, which belongs to the run. The bound is −∞
+    /// if the patch is already in contact when a loading begins.
     pub from: f64,
-    /// Upper bound of the indentations of the run in m; the bound does not belong to the run. It is
-    /// +∞ if the patch is already in contact when an unloading begins.
+    /// Upper bound of the indentations of the run in m, which does not belong to the run. The bound
+    /// is +∞ if the patch is already in contact when an unloading begins.
     pub to: f64,
     /// Height in m of pinned edges above the largest gap of the patch. Pinned edges stay in place
     /// although the body moves. NaN if the edges are free to move.
     pub pin: f64,
-    /// First and last spring of the patch at its smallest, at the lower end of the range.
+    /// First and last spring of the patch at the lower end of the range, where the patch is
+    /// smallest.
     pub bottom: [u32; 2],
-    /// First and last spring of the patch at its largest, at the upper end of the range.
+    /// First and last spring of the patch at the upper end of the range, where the patch is
+    /// largest.
     pub top: [u32; 2],
     pub branch: Branch,
 }
@@ -57,12 +60,14 @@ pub struct HeldPatch {
     pub pin: Option<f64>,
 }
 
-/// The runs of a motion: patches over ranges of indentations in which their edges do not jump.
+/// The runs of a motion. A run is a patch over a range of indentations in which the edges of the
+/// patch do not jump.
 #[derive(Debug)]
 pub struct RunList {
     pub runs: Vec<Run>,
-    /// An indentation in m. For a loading it is the smallest indentation of full contact. For an
-    /// unloading it is the smallest indentation at which any spring is in contact.
+    /// Indentation in m at which the list ends. For a loading it is the smallest indentation of
+    /// full contact. For an unloading it is the smallest indentation at which any spring is in
+    /// contact.
     pub end: f64,
     /// Number of times that the rule of Hess was evaluated for this motion.
     pub evaluations: u64,
@@ -71,9 +76,9 @@ pub struct RunList {
 /// Input of all passes over the contact tree: the gaps, the tree, and the rule of detachment for
 /// the direction of the motion.
 ///
-/// If `SLIDES` is true, the edges of patches move between springs, and between two events the force
-/// is a curve. If `SLIDES` is false, patches consist of whole springs. The length of a patch then
-/// depends only on the number of its springs, and there are no edge cells.
+/// If `SLIDES` is true, the edges of patches move between springs, and the force is a curve between
+/// two events. If `SLIDES` is false, patches consist of whole springs. The length of a patch then
+/// depends only on the number of springs of the patch, and there are no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool, R> {
     pub gaps: &'a [f64],
@@ -104,8 +109,8 @@ impl Run {
         }
     }
 
-    /// Returns the height in m of pinned edges above the largest gap of the patch. Pinned edges
-    /// stay in place although the body moves. Returns `None` if the edges are free to move.
+    /// Returns the height in m of pinned edges above the largest gap of the patch; `None` if the
+    /// edges are free to move. Pinned edges stay in place although the body moves.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -149,25 +154,25 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Returns the gap in m at which the edges of a patch lie, at an indentation in m. The patch
-    /// consists of the springs of `span`. `pin` is the height in m of the edges above the largest
-    /// gap of the patch if they are pinned, which means that they stay in place. `pin` is `None` if
-    /// the edges are free to move.
+    /// Returns the level of a patch at an indentation in m: the gap in m at which the edges of the
+    /// patch lie. The patch consists of the springs of `span`. `pin` is `None` if the edges are
+    /// free to move. If the edges stay in place although the body moves, `pin` is the height in m
+    /// of the edges above the largest gap of the patch.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Returns how far the edges of a patch lie above the largest gap of the patch, in m, at an
-    /// indentation in m. `pin` is this height if the edges are pinned, which means that they stay
-    /// in place although the body moves. `pin` is `None` if the edges are free to move.
+    /// Returns the height in m of the edges of a patch above the largest gap of the patch, at an
+    /// indentation in m. The patch consists of the springs of `span`. `pin` is `None` if the edges
+    /// are free to move. If the edges stay in place although the body moves, `pin` is this height.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))
     }
 
-    /// Returns sums over one patch that consists of the springs of `span`. If `SLIDES` is true, the
-    /// sums are over the whole cells of the patch; otherwise they are over its springs.
+    /// Returns sums over one patch that consists of the springs of `span`. The sums are over the
+    /// whole cells of the patch if `SLIDES` is true, otherwise over the springs of the patch.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -194,9 +199,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end of the range of indentations in m at which the patch of `run` has
-    /// exactly the springs of `span`. A run is a patch over a range of indentations in which its
-    /// edges do not jump.
+    /// Returns the indentation in m up to which the patch of `run` has exactly the springs of
+    /// `span`. A run is a patch over a range of indentations in which the edges of the patch do not
+    /// jump.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top {
@@ -205,9 +210,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns a gap in m: all springs beside the patch with smaller gaps certainly belong to the
-    /// patch at this indentation in m. This holds on loading and on unloading. The value saves
-    /// evaluations of the rule of Hess.
+    /// Returns a gap in m below which every spring beside the patch certainly belongs to the patch
+    /// at `indentation` in m. The patch has at least the springs of `span`. The returned gap holds
+    /// on loading and on unloading. It saves evaluations of the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let stretch = self
@@ -218,8 +223,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 
     /// Calls `see` for each size that the patch of `run` has, from the smallest to the largest. A
     /// run is a patch over a range of indentations. The arguments of `see` are the springs of the
-    /// patch, and the range of indentations in m at which the patch has exactly these springs.
-    /// Indentations below `low` (m) are left out. The calls end when `see` returns true.
+    /// patch, and the lower and the upper end of the range of indentations in m at which the patch
+    /// has exactly these springs. Indentations below `low` (m) are left out. The calls end when
+    /// `see` returns true.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -236,8 +242,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the springs of the patch of `run` at an indentation in m. A run is a patch over a
-    /// range of indentations. `from` are the springs of the patch at a smaller indentation, where
-    /// the search begins.
+    /// range of indentations. The search begins with `from`, the springs of the patch at a smaller
+    /// indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let mut span = from;
         while span.ends() != run.top {
@@ -256,8 +262,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         span
     }
 
-    /// Returns the springs that the patch of `run` has at an indentation in m. A run is a patch
-    /// over a range of indentations in which its edges do not jump.
+    /// Returns the springs of the patch of `run` at an indentation in m. A run is a patch over a
+    /// range of indentations in which the edges of the patch do not jump.
     #[inline]
     pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
         self.filled(run, self.bottom(run), indentation)
@@ -281,8 +287,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns a lower bound of the length, in cells, that a patch with the springs `first..=last`
-    /// has just before it attaches the next spring.
+    /// Returns a lower bound, in cells, of the length that a patch with the springs `first..=last`
+    /// has just before the patch attaches its next spring.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
         // Before the next spring attaches, one of the two edge cells is fully in contact.
@@ -303,9 +309,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the smallest indentation in m at which a patch still bears the stretch of its most
-    /// stretched spring. The returned value is at most the largest gap of the patch. `levels` is
-    /// the length of the patch as a function of its level, the gap at which the edges of the patch
-    /// lie.
+    /// stretched spring, or the largest gap of the patch if this gap is smaller. `levels` is the
+    /// length of the patch as a function of its level, the gap at which the edges of the patch lie.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
@@ -332,8 +337,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns true if the edges of a patch do not jump when the patch attaches its next spring.
-    /// `lower` is the length of the patch before the attachment, and `upper` the length afterwards.
-    /// Both are functions of the level, the gap at which the edges of the patch lie.
+    /// `lower` is the length of the patch before the attachment, and `upper` the length after the
+    /// attachment. Both lengths are functions of the level, the gap at which the edges of the patch
+    /// lie.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {
@@ -375,7 +381,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 }
 
-/// The springs of a patch, and the level of the patch: the gap in m at which its edges lie.
+/// The springs of a patch, and the level of the patch: the gap in m at which the edges of the patch
+/// lie.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanAtLevel {
     pub span: Span,

@@ -4,7 +4,7 @@ use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Number of springs from which a second thread saves more time than it costs.
+/// Number of springs of a profile from which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
 /// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
@@ -36,20 +36,19 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap in m of the springs between the two ends of the patch that forms at this local
-    /// maximum.
+    /// Smallest gap in m of all springs of the patch that forms at this local maximum.
     pub lowest: f64,
     /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
     /// Number of local maxima in the subtree of this one, including this one.
     pub size: u32,
-    /// Number of local maxima in the right part of the subtree.
+    /// Number of local maxima in the part of the subtree on the right of this one.
     pub right: u32,
 }
 
-/// A branch of the contact tree: one patch on a range of levels. The level of a patch is the gap at
-/// which its edges lie. The branch begins at the local minimum or the merger at which the patch
-/// appears, and ends at the next merger.
+/// A branch of the contact tree: one patch from its appearance to its merger with another patch.
+/// The patch appears at a local minimum of the gap, or at the merger of two smaller patches. Along
+/// the branch the level of the patch rises: the gap at which the edges of the patch lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
@@ -66,9 +65,9 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the index of the node, a local maximum of the gap, at which the branch begins. If
-    /// the branch begins at a local minimum of the gap, returns `Err` with the index of this
-    /// minimum among all minima.
+    /// Returns the index of the node at which the branch begins. A node is a local maximum of the
+    /// gap. If the branch begins at a local minimum of the gap instead, returns `Err` with the
+    /// index of this minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -138,7 +137,7 @@ impl ContactTree {
         self.nodes.len()
     }
 
-    /// Returns the branch of the patch that finally fills the whole profile.
+    /// Returns the branch of the patch that fills the whole profile when all patches have merged.
     pub(crate) fn root(&self) -> Branch {
         match self.nodes.len() {
             0 => Branch::leaf(0),
@@ -158,7 +157,7 @@ impl ContactTree {
         self.turns[2 * node.rank as usize + 1] as usize
     }
 
-    /// Returns the left and the right branch that merge at a node.
+    /// Returns the left and the right branch that merge at the node with this index.
     #[inline]
     pub(crate) fn parts(&self, index: usize) -> [Branch; 2] {
         let node = &self.nodes[index];
@@ -178,9 +177,10 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns the sum of the gaps and the sum of their squares over all springs to the left of
+    /// Returns the sum of the gaps and the sum of the squared gaps over all springs to the left of
     /// `spring`. If `of_cells` is true, the sums are over the cells to the left of `spring`
-    /// instead. The units are those of [`ContactTotals`](crate::totals::ContactTotals).
+    /// instead. The units are the quanta and the squares of
+    /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;

@@ -1,6 +1,6 @@
 //! Unloading: finds the indentation at which each node of the contact tree opens, and lists the
-//! patches between these events. A run is a patch over a range of indentations in which its edges
-//! do not jump.
+//! runs between these events. A run is a patch over a range of indentations in which the edges of
+//! the patch do not jump.
 
 use super::levels::{Span, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
@@ -81,12 +81,12 @@ impl Descent {
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Lists the runs of an unloading that begins at the indentation `from` in m. A run is a patch
-    /// over a range of indentations in which its edges do not jump. `held` are the patches in
-    /// contact at `from`, from left to right.
+    /// over a range of indentations in which the edges of the patch do not jump. `held` are the
+    /// patches in contact at `from`, from left to right.
     ///
-    /// A patch v splits when its most stretched spring detaches. This requires that the larger
-    /// patch around v has already split, and that the rule no longer allows the stretch of the
-    /// spring. The indentation of the split is therefore t_v = min(t of the patch around v,
+    /// A patch v splits when the most stretched spring of v detaches. This has two conditions: the
+    /// larger patch that contains v has already split, and the rule no longer allows the stretch of
+    /// the spring. The indentation of the split is therefore t_v = min(t of the larger patch,
     /// smallest φ of v). φ is the indentation at which a patch with its edges at a given gap is in
     /// equilibrium; see the module `run`.
     pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {

@@ -1,5 +1,5 @@
-//! The rule of Hess, whose largest stretch is proportional to the square root of the length of the
-//! patch.
+//! The rule of Hess. The largest stretch that a patch bears is proportional to the square root of
+//! the length of the patch.
 
 use super::{DetachmentRule, Levels, ROUNDING, Rules};
 use crate::foundation::Foundation;
@@ -8,8 +8,9 @@ use std::f64::consts::PI;
 /// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): a patch of ℓ cells bears at
 /// most the stretch Δl = √(π ℓ Δx γ/E*) = s √ℓ.
 ///
-/// The length ℓ is a linear function of the level of the patch, the gap at which its edges lie. All
-/// searched values are therefore roots of quadratic equations for y = √ℓ.
+/// The length ℓ is a linear function of the level of the patch, the gap at which the edges of the
+/// patch lie. All values that the solver searches are therefore roots of quadratic equations for y
+/// = √ℓ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     /// Largest stretch s in m of a patch one cell long.

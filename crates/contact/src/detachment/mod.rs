@@ -1,10 +1,10 @@
 //! Rules of detachment: how far the springs of a patch may be stretched, as a function of the
 //! length of the patch alone.
 //!
-//! A rule states its largest stretch Δl(ℓ) and the slope of Δl. The trait computes everything else
-//! that the exact solver needs by searches and numerical integration. Another rule therefore needs
-//! only another file. A rule with closed-form results, such as the rule of Hess, replaces the
-//! searches.
+//! A rule states the largest stretch Δl(ℓ) of a patch of the length ℓ, and the slope of Δl. From
+//! these two functions the trait computes everything else that the exact solver needs, by searches
+//! and numerical integration. A further rule therefore needs only one further file. A rule with
+//! closed-form results, such as the rule of Hess, replaces the searches.
 
 mod hess;
 
@@ -18,7 +18,8 @@ use std::fmt::Debug;
 /// The rule that all contacts use.
 pub type ContactRule = HessRule;
 
-/// Relative margin that bounds have for rounding errors.
+/// Relative margin for rounding errors by which bounds of stretches and gaps are widened or
+/// narrowed.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Number of nodes of the numerical integration of squared stretches along a slide of the edges.
@@ -27,9 +28,9 @@ const NODES: usize = 16;
 /// Largest number of doublings or halvings until a search has enclosed the sought length.
 const MOST_DOUBLINGS: usize = 1000;
 
-/// Length of a patch in cells, as a function of its level t in m: `length + growth (t − gap)`. The
-/// level is the gap at which the edges of the patch lie. While the patch consists of the same
-/// springs, the level is between `gap` and `top`.
+/// Length of a patch in cells, as a function of the level t in m: `length + growth (t − gap)`. The
+/// level is the gap at which the edges of the patch lie. While the springs of the patch remain the
+/// same, the level is between `gap` and `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
     /// Largest gap of the patch in m, which is its lowest level.
@@ -44,8 +45,8 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Returns the length of the patch in cells when its edges lie `rise` (m) above its largest
-    /// gap.
+    /// Returns the length of the patch in cells when the edges of the patch lie `rise` (m) above
+    /// the largest gap of the patch.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
@@ -76,8 +77,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
     }
 
     /// Returns true only if a patch certainly bears a stretch, whatever the rounding. `stretch` is
-    /// in m, at least zero, and `cells` is the length of the patch in cells. The function saves
-    /// evaluations of the rule.
+    /// in m, at least zero, and `cells` is the length of the patch in cells. An answer of true
+    /// saves an evaluation of the rule.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
         stretch <= self.sure_stretch(cells)
@@ -97,10 +98,10 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         self.largest_stretch(cells) * (1.0 - ROUNDING)
     }
 
-    /// Returns the smallest length in cells at which the equilibrium of a patch is stable: there
-    /// φ(t), the indentation at which a patch with its edges at the gap t is in equilibrium, rises
-    /// with t. `growth` is the growth of the length with t, in cells per metre. At the returned
-    /// length, slope × growth is 1.
+    /// Returns the smallest length in cells at which the equilibrium of a patch is stable. φ(t) is
+    /// the indentation at which a patch with its edges at the gap t is in equilibrium. The
+    /// equilibrium is stable where φ rises with t. `growth` is the growth of the length with t, in
+    /// cells per metre. At the returned length, slope × growth is 1.
     fn turning_length(&self, growth: f64) -> f64 {
         let rises = |cells: f64| self.slope(cells) * growth <= 1.0;
         let mut high = 1.0;
@@ -121,9 +122,9 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         0.0
     }
 
-    /// Returns true if the edges of a patch move with the indentation. The edges move if the patch
-    /// bears a stretch, and if its length grows with the gap at its edges. `growth` is this growth
-    /// in cells per metre.
+    /// Returns true if the edges of a patch move with the indentation. This requires that the patch
+    /// bears a stretch, and that the length of the patch grows with the gap at its edges. `growth`
+    /// is this growth in cells per metre.
     #[inline]
     fn slides(&self, growth: f64) -> bool {
         growth > 0.0 && !self.bears_no_stretch()
@@ -167,14 +168,15 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         length - levels.growth * self.largest_stretch(length) / (1.0 - steepness)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² from zero length to the length `cells` in cells.
+    /// Computes ∫ Δl² dℓ in cells times m², from ℓ = 0 to ℓ = `cells`. Δl is the largest stretch of
+    /// a patch of ℓ cells.
     fn squares_up_to(&self, cells: f64) -> f64 {
         self.squares_between(cells, cells)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² between two lengths. The arguments are the difference
-    /// and the sum of the two lengths in cells, so that a small difference is as accurate as
-    /// possible.
+    /// Computes ∫ Δl² dℓ in cells times m² between two lengths ℓ. Δl is the largest stretch of a
+    /// patch of ℓ cells. The arguments are the difference and the sum of the two lengths in cells,
+    /// so that a small difference is as accurate as possible.
     fn squares_between(&self, difference: f64, sum: f64) -> f64 {
         let shorter = 0.5 * (sum - difference);
         let mut integral = 0.0;
@@ -188,8 +190,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         difference * integral
     }
 
-    /// Computes Σ Δl(n)² in m² over patches of n springs, from n = `first` to n = `last`. The sum
-    /// is zero if `last` is smaller than `first`.
+    /// Computes Σ Δl(n)² in m² from n = `first` to n = `last`, where Δl(n) is the largest stretch
+    /// of a patch of n springs. The sum is zero if `last` is smaller than `first`.
     fn squares_of_patches(&self, first: f64, last: f64) -> f64 {
         let mut sum = 0.0;
         let mut springs = first;
@@ -203,7 +205,7 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
 }
 
 /// Two rules of the same kind: `closing` for attachment and `opening` for detachment. The rule for
-/// detachment allows at least the stretch that the rule for attachment allows. If the stretch at
+/// detachment allows at least the stretch that the rule for attachment allows. While the stretch at
 /// the edges of a patch is between the two limits, the edges do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<R> {
@@ -222,7 +224,7 @@ impl<R: DetachmentRule> Rules<R> {
         }
     }
 
-    /// Returns true if springs attach and detach by the same rule.
+    /// Returns true if the rules for attachment and for detachment are equal.
     pub fn is_one(&self) -> bool {
         self.opening == self.closing
     }

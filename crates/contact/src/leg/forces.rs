@@ -1,11 +1,13 @@
 //! Forces and energies of a leg: on a grid of indentations, at the extremes of the force, and at
-//! the indentation at which the force reaches a value.
+//! the indentation at which the force reaches a value. A leg is the contact at all indentations of
+//! a motion in one direction.
 //!
-//! At an event springs attach or detach in a jump. The force does not rise in such a jump while d
-//! grows; between two events the force is convex. The contact at two indentations therefore gives
-//! bounds of the force between them: springs that attach in between are either stretched, or just
-//! touch and are then compressed by at most the difference of the two indentations. A search
-//! examines only those intervals whose bounds allow the sought force.
+//! An event is an indentation at which springs attach or detach in a jump. While the indentation d
+//! grows, the force does not rise in such a jump, and between two events the force is convex. The
+//! contact at two indentations therefore gives bounds of the force between them. Springs that
+//! attach in between are either stretched, or just touch and are then compressed by at most the
+//! difference of the two indentations. A search examines only those intervals whose bounds allow
+//! the sought force.
 
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
@@ -53,14 +55,14 @@ impl Leg {
     }
 
     /// Returns the energy in J that springs release on this motion at indentations above `low` and
-    /// up to `high` (m). It is the elastic energy that they release on detaching, minus the elastic
-    /// energy that they gain on attaching.
+    /// up to `high` (m). It is the elastic energy released on detaching, minus the elastic energy
+    /// gained on attaching.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
     /// Converts a sum of squared stretches in m² to the energy in J that springs release on this
-    /// leg. The stretches are those with which springs attach or detach.
+    /// leg. The sum is over springs that attach or detach, each with its stretch at this moment.
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // 0.0 − energy instead of −energy, so that an energy of zero is not −0.
@@ -86,9 +88,9 @@ impl Leg {
         }
     }
 
-    /// Finds the indentation in m at which a motion reaches its goal. The motion begins at the
-    /// indentation `from` in m. If the contact is lost before, the goal that is returned is the
-    /// separation.
+    /// Finds the indentation in m at which a motion ends, and the goal that the motion reaches
+    /// there. The motion begins at the indentation `from` in m. The returned goal is `goal`, or
+    /// separation if the contact is lost before `goal` is reached.
     pub(crate) fn reach(
         &self,
         goal: Goal,
@@ -113,8 +115,8 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// Returns the point of a sampled unloading at which the displacement of the instrument is
-    /// smallest.
+    /// Returns the contact at which the displacement of the drive of the instrument is smallest on
+    /// a sampled unloading.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -132,9 +134,10 @@ impl Leg {
     }
 
     /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of
-    /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps, where D is the displacement of the
-    /// instrument and k its stiffness. `extreme` is the extreme compression so far, of contact and
-    /// instrument together; `None` at the beginning of a motion.
+    /// a sampled motion. The energy is ∫ (k (D − d) − F) dd over the jumps, where D is the
+    /// displacement of the instrument and k the stiffness of the instrument. `extreme` is the
+    /// extreme compression in m of contact and instrument together, so far on this motion. It is
+    /// `None` at the beginning of a motion.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
@@ -274,7 +277,7 @@ impl Leg {
         intervals.finish(&mut work.events_sorted)
     }
 
-    /// Finds the contact of the extreme force between the first and the last point of a sampled
+    /// Finds the contact with the extreme force between the first and the last point of a sampled
     /// leg.
     pub(crate) fn extreme(
         &self,
@@ -293,9 +296,9 @@ impl Leg {
         best
     }
 
-    /// Finds the contact of the smallest force of an unloading between the ends of a grid. The
-    /// search first evaluates a coarser grid. It evaluates the other points of `grid` only where
-    /// the bounds of the force allow a smaller force.
+    /// Finds the contact with the smallest force of an unloading between the ends of a grid. The
+    /// search first evaluates a coarser grid. The search evaluates the other points of `grid` only
+    /// where the bounds of the force allow a smaller force.
     pub(crate) fn smallest(
         &self,
         grid: &Grid,

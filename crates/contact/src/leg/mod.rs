@@ -13,8 +13,8 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// A motion of a contact in one direction. It gives the springs in contact, the force and the
-/// energy at each indentation.
+/// A motion of a contact in one direction. A leg gives the springs in contact, the force and the
+/// energy at each indentation of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
@@ -85,9 +85,9 @@ pub struct PatchState {
     /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and
     /// Filippov (2012).
     pub largest_stretch: f64,
-    /// Stretch of the most stretched part of the patch in m. With [`Edges::SubCell`] this is the
-    /// stretch at the edges of the patch. With [`Edges::Grid`] it is the stretch of the most
-    /// stretched spring.
+    /// Stretch in m of the most stretched part of the patch. With [`Edges::SubCell`] the most
+    /// stretched parts are the edges of the patch. With [`Edges::Grid`] it is the most stretched
+    /// spring.
     pub most_stretched: f64,
 }
 
@@ -99,8 +99,8 @@ struct PinnedPatch {
     pin: Option<f64>,
 }
 
-/// Evaluates an expression with the runs of a leg, the patches over ranges of indentations in which
-/// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
+/// Evaluates an expression with the runs of a leg. A run is a patch over a range of indentations in
+/// which its edges do not jump. The code is compiled once for each kind of [`Edges`].
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $leg.contact.edges {
@@ -176,7 +176,7 @@ impl Leg {
         }
     }
 
-    /// Computes the motion of a loading that begins with a separated body.
+    /// Computes the loading that begins with a separated body.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if !contact.has_adhesion() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
@@ -185,8 +185,8 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the motion in the opposite direction that begins at an indentation in m of this
-    /// motion.
+    /// Computes the motion in the opposite direction. The new motion begins at `indentation` in m,
+    /// at which this motion turns.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if this motion was computed by the [stepwise
@@ -253,7 +253,7 @@ impl Leg {
         }
     }
 
-    /// Returns the contact whose motion this is.
+    /// Returns the contact whose motion this leg describes.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
@@ -263,7 +263,8 @@ impl Leg {
         self.direction
     }
 
-    /// Returns the last indentation in m at which the contact changes on this motion:
+    /// Returns the indentation in m beyond which the contact does not change further on this
+    /// motion:
     ///
     /// * on loading, the smallest indentation with all springs in contact;
     /// * on unloading, the smallest indentation with any spring in contact;
@@ -319,8 +320,9 @@ impl Leg {
         }
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which the spring is
-    /// in contact: −∞ if it is always in contact, and +∞ if never.
+    /// Returns one indentation in m for each spring of the profile: the smallest indentation at
+    /// which the spring is in contact. It is −∞ for a spring that is always in contact, and +∞ for
+    /// a spring that is never in contact.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -331,8 +333,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. `number` is the index of the patch
-    /// from left to right, from 0. Returns `None` if there is no patch with this index.
+    /// Computes the state of one patch at an indentation in m. `number` is the index of the patch,
+    /// counted from the left, from 0. Returns `None` if no patch has this index.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation)
             .get(number)

@@ -34,8 +34,8 @@ const DEVIATES: f64 = 3.5;
 const FOUND: [f64; 2] = [5.0, 3.0];
 /// Distance from first touch, in units of h₀, beyond which points are far from contact.
 const FAR: f64 = 1.0;
-/// Largest ratios between the coefficient from points far from contact and the coefficient from all
-/// points, with which the far points show the same drag: first on the approach, second on the
+/// The points far from contact count as showing the same drag as all points if the ratio of the two
+/// coefficients of drag, or its inverse, is at most this: first on the approach, second on the
 /// retraction.
 const ALIKE: [f64; 2] = [2.0, 3.0];
 /// Smallest significant coefficient of the approach, in standard errors, if it is computed from
@@ -45,20 +45,21 @@ const FOUND_FAR: f64 = 2.5;
 /// speed, so this is the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
 
-/// Forces of a drag on a body in contact. The program has subtracted the drag from the curve.
+/// Forces of the drag of a fluid on a body in contact. The program has subtracted the drag from the
+/// curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DragForce {
-    /// Force on the approach in N, relative to the force far before contact.
+    /// Force of the drag on the approach in N, relative to the force far before contact.
     pub pressed: f64,
-    /// Force on the retraction in N, relative to the force far before contact.
+    /// Force of the drag on the retraction in N, relative to the force far before contact.
     pub pulled: f64,
-    /// Length h₀ in m: at this distance from first touch, the drag is half of its value in contact.
-    /// `None` for a drag that does not depend on the distance.
+    /// Distance h₀ in m from first touch at which the drag is half as large as in contact. `None`
+    /// for a drag that does not depend on the distance.
     pub reach: Option<f64>,
 }
 
-/// Drag that was found in the points before and after contact.
+/// Drag of a fluid that was found in the points before and after contact.
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
@@ -70,8 +71,8 @@ pub(crate) struct Drag {
     /// retraction.
     pressed: f64,
     pulled: f64,
-    /// Number of points before contact that the drag describes. `after` is the number of points
-    /// after contact that it describes.
+    /// Number of points before contact that the drag describes. The field `after` is the number of
+    /// points after contact that the drag describes.
     pub before: usize,
     pub after: usize,
 }
@@ -169,8 +170,8 @@ fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
 
 impl Drag {
     /// Finds the drag of a curve that has an approach and a retraction. Returns `None` if the
-    /// points without contact show no drag. A drag is distinguished from a tilt or a weak contact
-    /// by the opposite signs of its coefficients on approach and retraction.
+    /// points without contact show no drag. The force of a drag has opposite signs on approach and
+    /// retraction, which distinguishes a drag from a tilt or a weak contact.
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();

@@ -32,10 +32,10 @@ const STILL: f64 = 0.002;
 /// 1/20 of its points.
 const END: usize = 20;
 
-/// Place at which the force jumps.
+/// Jump of the force of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ForceJump {
-    /// Index, from 0, of the segment.
+    /// Index, from 0, of the segment in which the force jumps.
     pub segment: usize,
     /// Displacement in m at the last point before the jump.
     pub displacement: f64,
@@ -50,20 +50,20 @@ impl ForceJump {
     }
 }
 
-/// Numbers of a measured curve by itself, before any fit.
+/// Features of a measured curve that are known without a fit of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CurveFeatures {
-    /// Number of jumps. A jump is a drop of the force while the body is pressed, or a rise while it
-    /// is pulled, within three points and by more than 6 times the noise and 1 % of the range of
-    /// the force.
+    /// Number of jumps of the force. A jump is a drop of the force while the body is pressed, or a
+    /// rise of the force while the body is pulled. It occurs within three points, and is larger
+    /// than 6 times the noise and than 1 % of the range of the force.
     pub jumps: usize,
     /// Largest number of jumps in one segment (a single loading or unloading). A sphere has at most
     /// one.
     pub jumps_in_one_motion: usize,
     /// Area between the loading and the unloading curve, divided by the area under the loading
-    /// curve, both over the displacements at which loading and unloading are in compression. `None`
-    /// if the curve has no loading or no unloading in compression.
+    /// curve. Both areas are taken over the displacements at which loading and unloading are in
+    /// compression. `None` if the curve has no loading or no unloading in compression.
     pub hysteresis: Option<f64>,
     /// Largest decrease of the force during a pause in contact, divided by the largest force;
     /// `None` if the curve has no such pause.
@@ -84,7 +84,7 @@ impl CurveFeatures {
         features
     }
 
-    /// Returns a sentence that describes the features, for the report.
+    /// Returns a sentence for the report that describes these features.
     pub(crate) fn sentence(&self) -> String {
         let jumps = match self.jumps {
             0 => "No jump of the force".to_owned(),

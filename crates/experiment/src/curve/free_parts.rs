@@ -7,7 +7,7 @@ use crate::read::options::CurveOptions;
 use asperity_data::mean;
 use std::ops::Range;
 
-/// Smallest number of points without contact.
+/// Smallest allowed number of points in a part without contact.
 pub(crate) const FEWEST: usize = 10;
 /// Smallest number of points in contact.
 const FEWEST_IN_CONTACT: usize = 4;
@@ -55,23 +55,24 @@ const LIKE_NEIGHBOURS: f64 = 1.5;
 pub(crate) enum NoFreePart {
     /// The segment has too few points.
     Few,
-    /// The segment is a straight line, with this range and this noise of the force in N.
+    /// The segment is a straight line, so that no contact is found. `range` is the change of the
+    /// force along the line and `noise` the noise of the force, both in N.
     Straight { range: f64, noise: f64 },
-    /// The force changes from the first point on.
+    /// The force changes from the first point on, so that the whole segment is in contact.
     InContact,
 }
 
-/// Returns the number of points before contact at the beginning of a segment with these forces in
-/// N. The noise is assumed to be at least `least_noise` in N.
+/// Returns the number of points before contact at the beginning of a segment. `forces` are the
+/// forces of the segment in N. The noise is assumed to be at least `least_noise` in N.
 ///
-/// First the function finds the place at which a straight line before it and a parabola after it
-/// describe the segment best. This place lies in the steep part of the contact. Then it goes back
-/// to the weak beginning of the contact: it removes points until the last ones no longer deviate
-/// from the straight line through the points before them.
+/// First the function finds the point that divides the segment best into a straight line and a
+/// parabola. This point lies in the steep part of the contact. Then the function goes back to the
+/// weak beginning of the contact: it removes points until the last ones no longer deviate from the
+/// straight line through the points before them.
 ///
-/// If the force rises in several steep parts, as in a loading by steps, the place found may lie in
-/// a later part. The noise before this place is then far above the differences of neighbouring
-/// points, and the search is repeated among the points before it.
+/// If the force rises in several steep parts, as in a loading by steps, the dividing point may lie
+/// in a later part. The noise before this point is then far above the differences of neighbouring
+/// forces, and the search is repeated among the points before it.
 pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let mut free = count_before_change(forces, least_noise)?;
     loop {
@@ -146,8 +147,8 @@ fn steepest_change(forces: &[f64], before: &[f64], floor: f64) -> Change {
     best
 }
 
-/// Returns the number of forces before the steep part of a contact. The last of these forces may
-/// belong to the weak beginning of the contact.
+/// Returns the number of forces before the steep part of the contact. The last of these forces may
+/// already belong to the weak beginning of the contact.
 pub(crate) fn count_before_steep_part(forces: &[f64]) -> usize {
     let before = growing(forces.iter().copied(), 2);
     steepest_change(forces, &before, 0.0).place
@@ -218,15 +219,16 @@ pub(crate) struct FreeParts {
     pub before: Option<usize>,
     /// Number of points after contact at the end of the curve; 0 if no such points are found.
     pub after: usize,
-    /// True if the last points of the last retraction look straight, but are a tension that still
-    /// holds the body.
+    /// True if the curve ends in contact although its last points look straight: a tension still
+    /// holds the body at the end of the last retraction.
     pub ends_in_contact: bool,
-    /// Time and displacement of each point, as shares of the whole curve.
+    /// Time and displacement of each point. Both are given as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
 }
 
 impl FreeParts {
-    /// Finds the points without contact. Each point is the mean of `averaged` points of the file.
+    /// Finds the parts of a curve without contact. Each of the `points` is the mean of `averaged`
+    /// points of the file. `least_noise` is the smallest assumed noise in N.
     pub fn of(
         points: &Points,
         options: &CurveOptions,
@@ -284,8 +286,8 @@ impl FreeParts {
         })
     }
 
-    /// Returns the index range of the points without contact that determine the zero offset of the
-    /// force and the noise.
+    /// Returns the range of indices of those points without contact from which the zero offset and
+    /// the noise of the force are determined.
     pub fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
         match self.before {
@@ -294,10 +296,10 @@ impl FreeParts {
         }
     }
 
-    /// Returns an estimate of the displacement in m at which the contact begins: the end of the
-    /// part before contact. For a retraction without an approach, it is the displacement at which
-    /// compression ends. If such a retraction begins in tension, it is the displacement at half of
-    /// its points in contact.
+    /// Returns an estimate of the displacement in m at which the contact begins. It is the end of
+    /// the part before contact. For a retraction without an approach, it is the displacement at
+    /// which the compression ends. If such a retraction begins in tension, it is the displacement
+    /// at the middle one of its points in contact.
     pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -388,9 +390,9 @@ fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64)
     way_without_contact < LONG * way_of_tension
 }
 
-/// Returns true if a segment ends without contact. Its end must have a part without contact. Its
-/// beginning must have no such part, or one along which the force changes more than along the part
-/// at the end.
+/// Returns true if a segment ends without contact. The end of the segment must have a part without
+/// contact. If the beginning of the segment has such a part too, the force must change more along
+/// it than along the part at the end.
 pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
     let Ok(at_end) = free_count_at_end(forces, least_noise) else {
         return false;

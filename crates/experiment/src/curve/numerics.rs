@@ -3,13 +3,14 @@
 use asperity_data::{mean, median};
 use std::f64::consts::SQRT_2;
 
-/// Standard deviation of a normal distribution divided by the median of its absolute value.
+/// Factor between two measures of a normal distribution: its standard deviation divided by the
+/// median of the absolute deviation from its mean.
 pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
 /// Smallest number of independent parts that a curve is assumed to have. It limits the number of
 /// points over which correlations of the residuals are added up.
 const RANGES: usize = 20;
 
-/// Straight line through evenly spaced values by least squares.
+/// Least-squares straight line through evenly spaced values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Baseline {
     count: f64,
@@ -63,8 +64,8 @@ pub(crate) fn noise_of_neighbours(values: &[f64]) -> f64 {
     median(&mut differences).unwrap_or(0.0) * MEDIAN_TO_DEVIATION / SQRT_2
 }
 
-/// Returns, for each value, the sum of squared residuals of the least-squares polynomial with
-/// `terms` terms through all values up to this one.
+/// Returns sums of squared residuals, one for each value. The residuals belong to a least-squares
+/// polynomial with `terms` terms that is fitted to all values up to and including this value.
 pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let mut triangle = Triangle::default();
@@ -127,7 +128,7 @@ pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Subtracts from the values their component along a column of length 1, and returns this
+/// Subtracts from the values their component along `column`, a vector of length 1, and returns this
 /// component.
 pub(crate) fn subtract(values: &mut [f64], column: &[f64]) -> f64 {
     let component = dot(values, column);
@@ -144,12 +145,12 @@ pub(crate) fn subtract_all(values: &mut [f64], columns: &[Vec<f64>]) {
     }
 }
 
-/// Returns the sum of the products of two columns, up to the length of the shorter one.
+/// Returns the scalar product of two columns, up to the length of the shorter column.
 pub(crate) fn dot(first: &[f64], second: &[f64]) -> f64 {
     first.iter().zip(second).map(|(x, y)| x * y).sum()
 }
 
-/// Smallest and largest of some values.
+/// Smallest and largest value of a set of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extent {
     pub low: f64,
@@ -175,8 +176,8 @@ impl Extent {
     }
 }
 
-/// Returns the factor by which correlations between the residuals increase the variance of their
-/// mean. The factor of uncorrelated residuals is 1.
+/// Returns the factor by which the variance of the mean of residuals is larger than for
+/// uncorrelated residuals.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
@@ -199,8 +200,8 @@ pub(crate) struct Coefficient {
     pub error: f64,
 }
 
-/// Returns the coefficients of the linear combination of columns that fits the values by least
-/// squares; `None` if a column is a linear combination of the columns before it.
+/// Fits a linear combination of columns to the values by least squares, and returns its
+/// coefficients. `None` if a column is a linear combination of the columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<Coefficient>> {
     let basis = right_angled(columns);
     let mut residuals = values.to_vec();
@@ -260,7 +261,8 @@ pub(crate) mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns the values with added, approximately normal noise of this standard deviation.
+    /// Returns the values with added noise, which is approximately normal and has the standard
+    /// deviation `noise`.
     pub(crate) fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let mut gauss = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;

@@ -15,7 +15,7 @@ pub(crate) struct Points {
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
-    /// Number of points of the file that were averaged into each point.
+    /// Number of points of the file of which each point is the mean.
     pub counts: Vec<usize>,
 }
 
@@ -52,14 +52,15 @@ impl Points {
         self.segment[self.segment.len() - 1]
     }
 
-    /// Returns the index range of the points of a segment.
+    /// Returns the range of indices of the points in segment number `number`.
     pub fn range_of(&self, number: usize) -> Range<usize> {
         let start = self.segment.partition_point(|segment| *segment < number);
         let end = self.segment.partition_point(|segment| *segment <= number);
         start..end
     }
 
-    /// Returns the index range of the points of a segment, without the pause at the turning point.
+    /// Returns the range of indices of the points in segment number `number`, without the pause at
+    /// the turning point.
     pub fn moving(&self, number: usize) -> Range<usize> {
         let range = self.range_of(number);
         let is_still = |index: &usize| self.is_still[*index];
@@ -72,8 +73,9 @@ impl Points {
     }
 
     /// Reverses the signs of displacement and force so that both grow when the body is pressed. If
-    /// `asked` is given, the signs of these quantities are reversed; otherwise the first segment
-    /// decides. Returns the quantities whose signs were reversed.
+    /// `asked` is given, the signs of the quantities in `asked` are reversed. Otherwise the first
+    /// segment shows which signs have to be reversed. Returns the quantities whose signs were
+    /// reversed.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.range_of(self.segment[0]);
         let moved = self.displacement[first.end - 1] - self.displacement[0];
@@ -109,9 +111,10 @@ impl Points {
         Ok(negate)
     }
 
-    /// Converts the displacement of the body, from the column `name`, to the displacement of the
-    /// instrument: adds the deflection of an instrument with this stiffness in N/m. Returns a
-    /// sentence on this conversion.
+    /// Converts the displacement of the body to the displacement of the instrument, by adding the
+    /// deflection of the instrument. `name` is the name of the column of displacements in the file,
+    /// and `stiffness` is the stiffness of the instrument in N/m. Returns a sentence about this
+    /// conversion.
     pub fn add_deflection(&mut self, name: &str, stiffness: f64) -> String {
         for (displacement, force) in self.displacement.iter_mut().zip(&self.force) {
             *displacement += force / stiffness;
@@ -122,9 +125,9 @@ impl Points {
         )
     }
 
-    /// Returns the displacement in m at the end of each segment up to the number `last`. If the
-    /// curve is a retraction alone, the approach before it is assumed to end at the largest
-    /// displacement.
+    /// Returns the displacement in m at the end of each segment, from the first segment to segment
+    /// number `last`. If the curve is a retraction alone, the approach before the retraction is
+    /// assumed to end at the largest displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let mut turns = Vec::with_capacity(last + 1);
         for number in 0..=last {

@@ -1,5 +1,5 @@
-//! The segments of a curve, in which the body is pressed and pulled in turn, and the pauses between
-//! them.
+//! The segments of a curve, and the pauses between them. In one segment the body is pressed, in the
+//! next the body is pulled.
 
 use crate::curve::numerics::Extent;
 use crate::read::points::Label;
@@ -52,7 +52,7 @@ impl Segments {
         segments
     }
 
-    /// Exchanges the first two segments. `first` is the number of points of the first segment.
+    /// Exchanges the first two segments. `first` is the number of points in the first segment.
     pub fn exchange(&mut self, first: usize) {
         self.is_still.rotate_left(first);
         let second = self.numbers.len() - first;

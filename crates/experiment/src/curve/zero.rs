@@ -137,12 +137,14 @@ impl Residual {
 
 /// Result of the subtraction of zero offset, drift and tilt from the force of a curve.
 pub(crate) struct Subtracted {
-    /// Drift, tilt and step that remain in the curve, in N; 0 for a term that was not found.
+    /// Terms in N that were found but not subtracted: drift, tilt and step. A term that was not
+    /// found is 0.
     pub remaining: [f64; 3],
-    /// Step of the force by drag in N that was subtracted from the retractions; 0 if there is none.
+    /// Step of the force in N, caused by drag, that was subtracted from the retractions; 0 if there
+    /// is none.
     pub step_of_retraction: f64,
-    /// Lines that were subtracted: for each of drift, tilt and step, its contribution to the force
-    /// at each point. The zero offset is not included.
+    /// Contributions to the force that were subtracted as lines: for each drift, tilt or step, the
+    /// values at all points. The zero offset is not included.
     pub columns: Vec<Vec<f64>>,
     /// Sentences on zero offset, drift, tilt and step, for the report.
     pub statement: Note,

@@ -1,4 +1,4 @@
-//! Agreement between a model and a measured curve in contact.
+//! Agreement between a model and a measured curve at the points in contact.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::dot;
@@ -7,7 +7,7 @@ use asperity_data::format_rounded;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Residual in contact, in units of the noise, above which a model does not describe the curve.
+/// Largest residual in contact, in units of the noise, with which a model describes the curve.
 pub(crate) const MISFIT: f64 = 1.5;
 /// Share of the largest force above which a residual is counted in
 /// [`Agreement::beyond_one_percent`].
@@ -20,9 +20,9 @@ const ROUGHLY: f64 = 0.03;
 /// treated like all other points.
 const MOST_AT_JUMPS: f64 = 0.1;
 
-/// Agreement of a model with a measured curve over the points that are in contact in the
-/// measurement or in the model. Points at jumps, which lie on the wrong side of a jump of the
-/// model, are counted separately.
+/// Agreement of a model with a measured curve, at the points that are in contact in the measurement
+/// or in the model. Points at jumps are counted separately. At such a point the measured force has
+/// already jumped and the force of the model has not, or the reverse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Agreement {
@@ -37,22 +37,22 @@ pub struct Agreement {
     pub beyond_one_percent: f64,
     /// Share of the points in contact, from 0 to 1, that lie at jumps.
     pub at_jumps: f64,
-    /// Largest distance in m of a point at a jump from the jump of the model; `None` without such
-    /// points.
+    /// Largest distance in m by which a point at a jump is away from the jump of the model; `None`
+    /// if there are no points at jumps.
     pub off_at_jumps: Option<f64>,
 }
 
-/// Grade of the description of a curve by a model.
+/// Grade that states how well a model describes a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Grade {
     /// The model describes the curve within the noise of the force.
     WithinNoise,
-    /// The residual is at most 1 % of the largest force.
+    /// The root mean square of the residuals is at most 1 % of the largest force.
     Well,
-    /// The residual is at most 3 % of the largest force.
+    /// The root mean square of the residuals is at most 3 % of the largest force.
     Roughly,
-    /// The residual is above 3 % of the largest force.
+    /// The root mean square of the residuals is above 3 % of the largest force.
     No,
 }
 
@@ -73,7 +73,8 @@ impl Serialize for Grade {
     }
 }
 
-/// Residuals of a curve, and which of them belong to points in contact and to points at jumps.
+/// Residuals of a curve, with the information which points are in contact and which points are at
+/// jumps.
 pub(crate) struct Compared<'a> {
     pub curve: &'a MeasuredCurve,
     /// Residuals of all points in units of the noise.
@@ -83,7 +84,8 @@ pub(crate) struct Compared<'a> {
     pub distances_from_jumps: &'a [Option<f64>],
 }
 
-/// Agreement, and results for the same points in units of the noise.
+/// Agreement of a model with a curve, and further results for the same points in units of the
+/// noise.
 pub(crate) struct Comparison {
     pub agreement: Agreement,
     pub residual_over_noise: f64,
@@ -91,8 +93,8 @@ pub(crate) struct Comparison {
 }
 
 impl Compared<'_> {
-    /// Computes the agreement over the points in contact. Points at jumps are left out, unless they
-    /// are too many.
+    /// Computes the agreement at the points in contact. Points at jumps are left out, unless there
+    /// are too many of them.
     pub fn comparison(&self) -> Comparison {
         let points = self.in_contact.iter().filter(|touches| **touches).count();
         let mut at_jumps = 0;
@@ -145,8 +147,9 @@ impl Compared<'_> {
 }
 
 impl Agreement {
-    /// Returns the grade of a model with this [misfit](crate::FitResult::misfit). `has_reason` is
-    /// true if another reason against the model was found.
+    /// Returns the grade of a model that has the robust residual
+    /// [`misfit`](crate::FitResult::misfit). `has_reason` is true if another reason was found why
+    /// the model does not describe the curve.
     pub(crate) fn grade(&self, misfit: f64, has_reason: bool) -> Grade {
         if misfit <= MISFIT && !has_reason {
             Grade::WithinNoise

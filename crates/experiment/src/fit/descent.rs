@@ -12,8 +12,9 @@ struct Corner {
     cost: f64,
 }
 
-/// Returns the place with the lowest cost that a simplex finds with at most `most` costs. The other
-/// corners of the first simplex are `step` away from the start along one coordinate each.
+/// Returns the place with the lowest cost that a simplex finds. A place has one number for each
+/// coordinate, and at most `most` costs are computed. The first corner of the simplex is the start.
+/// Each other corner is `step` away from the start along one coordinate.
 ///
 /// # Errors
 /// Returns the first error of `cost`.

@@ -1,9 +1,9 @@
-//! The lengths of a form that a fit can search.
+//! The lengths of a form, such as the radius of a sphere, that a fit can search.
 
 use crate::fit::parameter::{Parameter, Values};
 use asperity_surface::Form;
 
-/// Lengths of a form in m; 0 for those that the form does not have.
+/// Lengths of a form in m. A length that the form does not have is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Lengths {
     pub radius: f64,

@@ -1,9 +1,10 @@
-//! Lines of a curve: contributions to the force, such as its zero and its drift, that were
-//! estimated before the fit, and that are fitted again for each computed model.
+//! Lines of a curve: contributions to the measured force that do not come from the contact, such as
+//! the zero and the drift. They were estimated before the fit, and are fitted again for each
+//! computed model.
 //!
-//! In this fit, the points without contact have the weight that follows from the noise of the
-//! curve, however large the residuals in contact are. So a model that deviates from the curve in
-//! contact cannot improve its agreement by a wrong zero.
+//! The points without contact have the same weight in this second fit, however large the residuals
+//! in contact are. This weight follows from the noise of the curve. A model that deviates from the
+//! curve in contact can therefore not improve its agreement by a wrong zero.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::dot;
@@ -12,7 +13,8 @@ use crate::fit::population::WRONG_SIDE;
 /// Smallest pivot of a matrix, as a share of its diagonal element, that is not a rounding error.
 const LEAST_PIVOT: f64 = 1e-12;
 
-/// Lines of a curve, with the data for their fit.
+/// Lines of a curve (contributions to the force such as zero and drift), with the data for their
+/// fit.
 pub(crate) struct Lines {
     columns: Vec<Vec<f64>>,
     /// True for each point of the curve that is in contact.
@@ -26,7 +28,7 @@ pub(crate) struct Lines {
 
 impl Lines {
     /// Prepares the fit of the lines of a curve. `has_zero` is true if the zero of the force is a
-    /// free parameter, and therefore no line.
+    /// free parameter of the fit; the zero is then not one of the lines.
     pub fn new(curve: &MeasuredCurve, has_zero: bool) -> Self {
         let in_contact = curve.in_contact();
         let first = usize::from(has_zero || !curve.subtracted.has_zero);
@@ -69,10 +71,11 @@ impl Lines {
         }
     }
 
-    /// Returns the residuals after a fit of the lines. Residuals and `noise` are in units of the
-    /// noise of the curve. In the fit, residuals in contact have the standard deviation `noise`,
-    /// and other residuals the standard deviation 1. Residuals above 5 standard deviations are
-    /// replaced by 5 standard deviations.
+    /// Fits the lines, which are contributions to the measured force such as the zero and the
+    /// drift, to the residuals, and returns what remains of the residuals. All numbers are in units
+    /// of the noise without contact. The fit assumes the standard deviation `noise` for a residual
+    /// in contact, and 1 for any other residual. A residual above 5 of its own standard deviations
+    /// enters the fit as 5 of them.
     pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
         let mut refined = residuals.to_vec();
         if self.columns.is_empty() {

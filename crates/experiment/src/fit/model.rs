@@ -1,4 +1,5 @@
-//! The force of a scene at the measured displacements, for any values of the parameters.
+//! Computation of the force at the measured displacements. The force is that of a scene in which
+//! the parameters of a fit have given values.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
@@ -33,7 +34,8 @@ pub(crate) struct Model<'a> {
     scene: CheckedScene,
     simulation: &'a mut Simulation,
     contact: Option<ContactOfForm>,
-    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
+    /// Accuracy of the computed forces. It is given as a noise, in units of the noise of the curve,
+    /// and is at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
@@ -45,13 +47,12 @@ struct ContactOfForm {
     lengths: Lengths,
 }
 
-/// Stiffness of the instrument in N/m, and number and choice of the points at which a curve is
-/// computed.
+/// Choice of the points at which a force curve is computed, and stiffness of the instrument in N/m.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampling {
     pub stiffness: f64,
     pub points: usize,
-    /// Smallest jump of the force in N that gets points at both of its ends.
+    /// Size in N of the smallest jump of the force at whose both ends the curve gets points.
     pub least_jump: f64,
 }
 
@@ -113,7 +114,8 @@ impl<'a> Model<'a> {
         Ok(ContactOfForm { contact, lengths })
     }
 
-    /// Computes the forces in N at the points of the curve.
+    /// Computes the forces in N at all points of the measured curve, for the given values of the
+    /// parameters.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
@@ -127,10 +129,10 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns, for each point of the curve, the range of forces that a jump of the model covers,
-    /// relative to the force of the model at the point, in N. Only jumps of at least `least` N
-    /// between the two neighbouring points count. The value is `None` for a point without such a
-    /// jump.
+    /// Returns for each point of the curve at which the force of the model jumps, how far the force
+    /// reaches below and above its value at the point, in N. A jump counts if it lies between the
+    /// previous and the next point and is at least `least` N. The element is `None` for a point
+    /// without such a jump.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -162,12 +164,14 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns, for each point of the curve, the distance in m from a jump of the model, if the
-    /// point lies on the wrong side of the jump; otherwise `None`. A point lies on the wrong side
-    /// if its residual exceeds `least` N, and its force lies inside the jump or nearer to the force
-    /// of the model beyond the jump than to the force of the model at the point. All points between
-    /// such a point and the jump have to lie on the wrong side too. `residuals` are the measured
-    /// forces minus those of the model, in N.
+    /// Returns for each point of the curve the distance in m from a jump of the model, if the point
+    /// lies on the wrong side of this jump; otherwise `None`. `residuals` are the measured forces
+    /// minus those of the model, in N.
+    ///
+    /// A point lies on the wrong side if two conditions are met. First, its residual exceeds
+    /// `least` N. Second, its measured force lies inside the jump, or nearer to the force of the
+    /// model beyond the jump than to the force of the model at the point. All points between such a
+    /// point and the jump have to lie on the wrong side too.
     pub fn distances_from_jumps(
         &mut self,
         values: &Values,
@@ -342,7 +346,7 @@ impl Sampling {
         self.over(leg, [from, high], 1, free)
     }
 
-    /// Returns the curve of an unloading from an indentation in m to separation.
+    /// Returns the force curve of an unloading from the indentation `from` in m to separation.
     pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = leg.end().min(from);
         let separated = CurvePoint {

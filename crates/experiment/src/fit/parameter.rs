@@ -1,5 +1,5 @@
-//! Parameters of a fit: their names, units and ranges, and the coordinates in which a fit searches
-//! their values.
+//! Parameters of a fit: their names, units and ranges. A fit searches coordinates, such as the
+//! logarithm of a value, from which the values of the parameters follow.
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
@@ -14,13 +14,14 @@ use std::str::FromStr;
 pub enum Parameter {
     /// Work of adhesion γ in J/m².
     Work,
-    /// Work of adhesion on closing γ₁ in J/m²: the energy per area gained where the contact grows.
+    /// Work of adhesion on closing γ₁ in J/m²: the energy per area that is gained when the contact
+    /// area grows.
     ClosingWork,
     /// Effective modulus E* in Pa.
     Modulus,
     /// Displacement D₀ in m that the measured curve has at first touch.
     Offset,
-    /// Force F₀ in N that the measured curve has before contact.
+    /// Force F₀ in N that the instrument reports before contact.
     Zero,
     /// Stiffness of the instrument in N/m.
     Stiffness,
@@ -28,7 +29,8 @@ pub enum Parameter {
     Radius,
     /// Radius R₂ of the second of two spheres on one probe, m.
     SecondRadius,
-    /// Distance b of the apex of the second of two spheres behind that of the first one, m.
+    /// Distance b in m between the apexes of two spheres on one probe, in the direction of motion.
+    /// The apex of the second sphere is behind the apex of the first sphere.
     Behind,
 }
 
@@ -105,18 +107,18 @@ impl Parameter {
         self.row().name
     }
 
-    /// Returns true for a parameter that may have either sign.
+    /// Returns true for a parameter that may be positive or negative.
     pub(crate) fn is_signed(self) -> bool {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
-    /// Returns true for a parameter of a body with two spheres alone.
+    /// Returns true for a parameter that only a body with two spheres has.
     pub(crate) fn is_of_two_spheres(self) -> bool {
         matches!(self, Parameter::SecondRadius | Parameter::Behind)
     }
 
-    /// Returns the least and the largest value that a scene may have for the parameter; `None` for
-    /// a parameter without such limits, or one that no search comes close to.
+    /// Returns the smallest and the largest value, in SI units, that a scene allows for the
+    /// parameter. `None` if scenes have no such limits, or if no search comes close to the limits.
     pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
         let path = match self {
             Parameter::Modulus => "material.youngs_modulus",
@@ -165,8 +167,9 @@ impl Parameter {
         format!("two values{least}, the first below the second")
     }
 
-    /// Returns in words a further measurement that helps if a fit cannot separate two parameters.
-    /// If both arguments are the same parameter, the measurement helps to determine this parameter.
+    /// Returns in words a further measurement that helps if a fit cannot separate the parameters
+    /// `first` and `second`. If both are the same parameter, the measurement helps to determine
+    /// this parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -234,7 +237,8 @@ impl Parameter {
 pub struct Free {
     /// Parameter that is searched.
     pub parameter: Parameter,
-    /// Lower and upper end of the range in SI units; `None` for a range around the initial value.
+    /// Lower and upper end of the range in SI units. `None` means that the fit chooses a range
+    /// around the initial value.
     pub(crate) range: Option<(f64, f64)>,
 }
 
@@ -323,17 +327,18 @@ fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// Coordinate in which a free parameter is searched. For the offset and the zero it is the value in
-/// a unit, for the work of adhesion on closing its share of the work of adhesion, and for other
-/// parameters a logarithm. The coordinate of the work of adhesion is linear up to a unit and
-/// logarithmic above it, so that the work of adhesion can be 0.
+/// Coordinate in which a free parameter is searched. For the offset and the zero, the coordinate is
+/// the value divided by [`Coordinate::unit`]. For the work of adhesion on closing, it is the ratio
+/// of this work to the work of adhesion. For the work of adhesion, it is linear up to `unit` and
+/// logarithmic above it, so that the work of adhesion can be 0. For other parameters it is a
+/// logarithm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit of the coordinate in SI units, for a parameter that may have either sign and for the
-    /// work of adhesion.
+    /// Unit of the coordinate in the SI unit of the parameter. It is used for a parameter that may
+    /// be positive or negative, and for the work of adhesion.
     pub unit: f64,
 }
 
@@ -387,7 +392,7 @@ impl Coordinate {
         )
     }
 
-    /// Returns true for the work of adhesion in a range that begins at 0.
+    /// Returns true if this is the coordinate of the work of adhesion and its range begins at 0.
     pub fn is_work_from_zero(&self) -> bool {
         self.parameter == Parameter::Work && self.range.0 == 0.0
     }

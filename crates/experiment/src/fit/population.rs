@@ -10,8 +10,8 @@ const MOVED: f64 = 0.8;
 /// the wrong side of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
-/// A value of each coordinate, and the residuals of the curve at these values in units of the noise
-/// of the curve.
+/// Member of a search: a value of each coordinate, and the residuals of the curve at these values.
+/// The residuals are in units of the noise of the curve.
 #[derive(Clone)]
 pub(crate) struct Member {
     pub place: Vec<f64>,
@@ -31,7 +31,7 @@ impl Member {
     }
 }
 
-/// Members of a search, with their costs for a noise.
+/// Members of a search, with their costs for one assumed noise of the curve.
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
@@ -44,7 +44,7 @@ pub(crate) struct Population {
 }
 
 impl Population {
-    /// Keeps a member as the best one if its cost is smaller.
+    /// Makes a member the best one if its cost is smaller than the cost of the best member so far.
     pub fn keep(&mut self, member: &Member, cost: f64) {
         if cost < self.cost {
             self.best = member.clone();
@@ -64,7 +64,8 @@ impl Population {
         count
     }
 
-    /// Returns the logarithm of the extent of the members, as a mean over the coordinates.
+    /// Returns a measure of the extent of the population: the logarithm of the standard deviation
+    /// of the members in one coordinate, averaged over all coordinates.
     pub fn log_extent(&self) -> f64 {
         let count = self.members.first().map_or(0, |member| member.place.len());
         let mut sum = 0.0;
@@ -76,21 +77,23 @@ impl Population {
         sum / count.max(1) as f64
     }
 
-    /// Returns true if most members differ, so that the next step can be taken.
+    /// Returns true if most members differ from each other, so that the next step of the search can
+    /// be taken.
     pub fn has_moved(&self) -> bool {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
 
-    /// Returns false if most members are copies, so that the extent of the population is
-    /// meaningless.
+    /// Returns true if the extent of the population is meaningful. Returns false if most members
+    /// are copies of others.
     pub fn has_spread(&self) -> bool {
         self.distinct() as f64 >= DISTINCT * self.members.len() as f64
     }
 }
 
-/// Returns the cost of a residual in units of the noise: half its square, as for normal noise.
-/// Above [`WRONG_SIDE`] the cost grows only with the logarithm of the residual, because a point may
-/// lie on the wrong side of a jump: measured displacements are not exact.
+/// Returns the cost of a residual, which is in units of the noise. The cost is half the square of
+/// the residual, as for normal noise. Above [`WRONG_SIDE`] the cost grows only with the logarithm
+/// of the residual, because measured displacements are not exact and a point may lie on the wrong
+/// side of a jump.
 pub(crate) fn loss(residual: f64) -> f64 {
     let size = residual.abs();
     if size > WRONG_SIDE {
@@ -100,8 +103,9 @@ pub(crate) fn loss(residual: f64) -> f64 {
     }
 }
 
-/// Draws `count` members in proportion to their weights, at equal distances along the sum of the
-/// weights. `share`, from 0 to 1, is the place of the first draw in the first of these distances.
+/// Draws `count` members in proportion to their weights. The weights are added up, and members are
+/// drawn at equal distances along their sum. `share`, from 0 to 1, is the position of the first
+/// draw within the first of these distances.
 pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let mut drawn = Vec::with_capacity(count);
@@ -115,8 +119,8 @@ pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
     drawn
 }
 
-/// Returns the element `number` of the van der Corput sequence in this base, whose values are
-/// evenly scattered between 0 and 1.
+/// Returns element number `number` of the van der Corput sequence in the base `base`. The elements
+/// of this sequence are evenly scattered between 0 and 1.
 pub(crate) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 {
         return 0.0;

@@ -21,14 +21,14 @@ const OF_SAMPLES: f64 = 1.06;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Probability distribution of the parameters after a search.
+/// Probability distribution of the parameters after a search, from which their errors follow.
 pub(crate) struct Posterior<'a> {
     space: &'a Space<'a>,
     result: &'a SearchResult,
     /// Samples whose deviations from the mean are increased, because residuals that correlate along
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
-    /// Best value of each parameter.
+    /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,
     /// True if the profile of the specimen differs from the random profile of the scene.
     has_other_profile: bool,
@@ -118,7 +118,7 @@ impl<'a> Posterior<'a> {
             .collect()
     }
 
-    /// Returns the correlation of each pair of parameters.
+    /// Returns each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub fn correlations(&self) -> Vec<(Parameter, Parameter, f64)> {
         let coordinates = &self.space.coordinates;
         let mut correlations = Vec::new();

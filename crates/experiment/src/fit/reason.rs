@@ -1,4 +1,5 @@
-//! The reason why a model does not describe a curve, found from the pattern of the residuals.
+//! The reason why a model does not describe a measured curve. The fit finds this reason from the
+//! pattern of the residuals.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{Extent, dot, least_squares, right_angled, subtract_all};
@@ -41,21 +42,21 @@ const LEAPS: f64 = 0.02;
 /// because such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
-/// Reason why a model does not describe a measured curve. `Display` writes a reason as one
-/// sentence, with the field of the scene that removes the cause if there is one.
+/// Reason why a model does not describe a measured curve. `Display` writes the reason as one
+/// sentence. If a field of the scene can remove the cause, the sentence names this field.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact reaches the ends of the profile, so the profile is too short. The value is its
-    /// length in m.
+    /// The contact reaches the ends of the profile, so the profile is too short. The value is the
+    /// length of the profile in m.
     #[error("{}", Warning::ContactAtEnds { length: *.0 })]
     ShortProfile(f64),
     /// Too few springs are in contact for an accurate force. The value is the largest number of
     /// springs in contact.
     #[error("{}", Warning::FewSpringsInContact { springs: *.0 })]
     CoarseProfile(u64),
-    /// The measured force jumps by this value in N between two points, but the instrument of the
-    /// scene is rigid.
+    /// The measured force jumps between two points, although the instrument of the scene is rigid.
+    /// The value is the jump in N.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
@@ -70,15 +71,16 @@ pub enum Reason {
     /// The measured force without contact changes over time and also over the displacement.
     #[error("The force has slopes over time and displacement where nothing touches.")]
     DriftAndTilt,
-    /// The measured force after contact is higher by this value in N than before contact. A drag
-    /// makes the force after contact lower.
+    /// The measured force without contact is higher after contact than before contact. A drag
+    /// cannot be the cause, because a drag makes the force after contact lower. The value is the
+    /// difference in N.
     #[error(
         "The force is higher by {} after contact than before.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below
-    /// 5.
+    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which must be
+    /// at least 5 for this theory.
     #[error("{}", Warning::of_tabor_number(*.0).map_or_else(String::new, |warning| warning.to_string()))]
     TaborNumber(f64),
     /// The profile of the scene is one of many random profiles, and the specimen has another
@@ -87,16 +89,16 @@ pub enum Reason {
         "The profile of the scene is one of many random ones, and the specimen has another one."
     )]
     OtherProfile,
-    /// Approach and retraction differ more than in an elastic contact with a single work of
-    /// adhesion.
+    /// Approach and retraction differ more than they can differ in an elastic contact with a single
+    /// work of adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not, because it relaxes (viscoelasticity) or adheres less \
          on closing."
     )]
     Branches,
-    /// The measured force rises over the displacement with a slope, the first value in N/m, that is
-    /// larger than the stiffness of the instrument, the second value in N/m. No modulus follows
-    /// from such a curve.
+    /// The measured force rises over the displacement with a slope that is larger than the
+    /// stiffness of the instrument. No modulus follows from such a curve. The first value is the
+    /// slope, the second value the stiffness, both in N/m.
     #[error(
         "The force rises by {} over the displacement, and an instrument of {} allows no more than its stiffness: the stiffness, \
          the sensitivity of the force or the column of the height is wrong, and E* cannot be found.",
@@ -104,16 +106,17 @@ pub enum Reason {
         format_quantity(*.1, "N/m")
     )]
     Stiffness(f64, f64),
-    /// The force jumps more than once in one motion, which the force of a smooth body does not do.
-    /// The value is the number of jumps of the curve.
+    /// The force jumps more than once in one motion, which is impossible for a smooth sphere. The
+    /// value is the number of jumps of the curve.
     #[error(
         "The curve has {} jumps, and a smooth sphere has one on loading and one on unloading: the body has another form or \
          several contacts, on which γ and E* depend.",
         .0
     )]
     SeveralContacts(usize),
-    /// The hysteresis in compression is as large as for a body with a smaller work of adhesion on
-    /// closing. The value is the hysteresis as a share of the loading.
+    /// The hysteresis in compression is as large as for a body whose work of adhesion on closing is
+    /// smaller than on opening. The value is the hysteresis divided by the area under the loading
+    /// curve.
     #[error(
         "The hysteresis in compression is {} % of the loading, and an elastic body with one work of adhesion has none. Such \
          curves need a smaller work of adhesion on closing.",
@@ -128,7 +131,7 @@ pub enum Reason {
         in_pause(*.fall_in_pause)
     )]
     Relaxation {
-        /// Hysteresis in compression divided by the loading.
+        /// Hysteresis in compression divided by the area under the loading curve.
         hysteresis: f64,
         /// Largest fall of the force in a pause divided by the largest force; 0 without a pause.
         fall_in_pause: f64,
@@ -146,7 +149,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Returns the sentence with the steps that remove the cause.
+    /// Returns the reason as a sentence, with the steps that remove the cause.
     pub fn note(&self) -> Note {
         let mut note = Note::new(self.to_string());
         for remedy in self.remedies() {
@@ -293,7 +296,7 @@ fn has_two_directions(curve: &MeasuredCurve) -> bool {
 }
 
 /// Returns the reason why the profile is unsuitable for a fit: the contact reaches the ends of the
-/// profile, or has too few springs. Returns `None` if there is no such reason.
+/// profile, or too few springs are in contact. Returns `None` if the profile is suitable.
 pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.compute(scene).ok()?;
     outcome.warnings.iter().find_map(|warning| match warning {

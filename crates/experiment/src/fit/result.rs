@@ -12,27 +12,28 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FittedParameter {
-    /// Which parameter of the scene or of the curve was fitted.
+    /// Parameter of the scene or of the curve that was fitted.
     #[serde(skip)]
     pub parameter: Parameter,
     /// Value with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the
-    /// interval is [`Self::range`], unless the parameter is the offset or the zero.
+    /// Lower and upper end of the 95 % interval of the value. If [`FitResult::has_other_profile`]
+    /// is true, the value is not known, and the interval is the whole [`Self::range`]. The offset
+    /// and the zero are exceptions.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
     /// Standard error of the value due to the noise of the force. If the model does not describe
     /// the curve, the standard error is at least the scatter of the value between parts of the
     /// curve (jackknife).
     pub noise_error: f64,
-    /// Value with which the fit begins. It is an estimate from the curve; for the force F₀ it is 0,
-    /// and for the radius the value in the scene. A value outside [`Self::range`] is replaced by
-    /// the nearer end of the range.
+    /// Value with which the fit begins. It is an estimate from the curve. For the force F₀ it is 0,
+    /// and for the radius it is the value in the scene. If this value is outside [`Self::range`],
+    /// the fit begins at the nearer end of the range.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
-    /// End of the range at which the best value lies, so that the value is only a bound;
-    /// [`Self::interval`] is then the whole range. `None` for a value inside the range.
+    /// End of the range at which the best value lies. The value is then only a bound, and
+    /// [`Self::interval`] is the whole range. `None` for a value inside the range.
     pub at_end: Option<RangeEnd>,
 }
 
@@ -40,9 +41,9 @@ pub struct FittedParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RangeEnd {
-    /// Lower end of the range: the true value is at most this end.
+    /// Lower end of the range: the true value is at most the value at this end.
     Low,
-    /// Upper end of the range: the true value is at least this end.
+    /// Upper end of the range: the true value is at least the value at this end.
     High,
 }
 
@@ -54,8 +55,8 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// Marks the value as a bound: it lies at this end of the range, and the interval is the whole
-    /// range.
+    /// Marks the value as a bound. `end` is the end of the range at which the value lies. The
+    /// interval becomes the whole range.
     pub(crate) fn set_at_end(&mut self, end: RangeEnd) {
         self.at_end = Some(end);
         self.interval = self.range;
@@ -100,8 +101,8 @@ pub struct FitResult {
     pub residual: f64,
     /// [`Self::residual`] divided by the [noise](crate::MeasuredCurve::noise) of the force.
     pub residual_over_noise: f64,
-    /// Share of the points in [`Self::residual`], from 0 to 1, whose residual exceeds 5 times the
-    /// noise in magnitude.
+    /// Share of points with a large residual, from 0 to 1: the residual exceeds 5 times the noise
+    /// in magnitude. Only the points that count in [`Self::residual`] are considered.
     pub beyond_five_sigma: f64,
     /// Robust root mean square of the residuals in contact, divided by the noise. Points near a
     /// jump of the force and outliers have a smaller weight. The model describes the curve within
@@ -112,14 +113,16 @@ pub struct FitResult {
     /// How well the model describes the curve.
     #[serde(rename = "description")]
     pub grade: Grade,
-    /// Upper end of the 95 % interval of the work of adhesion in J/m²; `None` if this parameter is
-    /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
+    /// Largest work of adhesion in J/m² that is compatible with a curve without clear adhesion. It
+    /// is the upper end of the 95 % interval. `None` if the curve excludes a scene without adhesion
+    /// at the level of 5 %, or if the work of adhesion is not free.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values. `None` if the curve shows no adhesion, or
     /// if the form has no radius of curvature, such as a cone.
     pub tabor: Option<f64>,
-    /// Reason why the model does not describe the curve within its noise; `None` if the model does.
+    /// Reason why the model does not describe the curve within its noise; `None` if the model
+    /// describes the curve.
     pub reason: Option<Reason>,
     /// Premises of the model that the scene with the found values does not meet.
     #[serde(skip)]
@@ -129,8 +132,8 @@ pub struct FitResult {
     /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself
     /// means that the curve does not determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Sentences about values that the fit took from the file or the points of the curve and did
-    /// not search, such as the stiffness of the instrument.
+    /// Sentences about values that the fit did not search but took from the file or from the points
+    /// of the curve, such as the stiffness of the instrument.
     #[serde(skip)]
     pub assumptions: Vec<Note>,
     /// Number of force curves that the fit computed.
@@ -158,11 +161,11 @@ fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, 
 }
 
 impl FitResult {
-    /// Largest [`Self::misfit`] with which the model describes the curve.
+    /// Largest [`Self::misfit`] at which the model is considered to describe the curve.
     pub const MOST_MISFIT: f64 = MISFIT;
 
     /// Returns true if the model describes the curve within its noise: [`Self::misfit`] is at most
-    /// 1.5, and no drift or tilt remains. [`Self::grade`] has further grades.
+    /// 1.5, and no drift or tilt remains. [`Self::grade`] gives a finer judgement.
     pub fn describes(&self) -> bool {
         self.grade == Grade::WithinNoise
     }

@@ -20,8 +20,8 @@ fn change(path: &str, value: f64) -> Change {
     (path.to_owned(), ron_float(value))
 }
 
-/// Returns the values of the parameters of a fit in the scene. `governing` has the work of adhesion
-/// of the scene.
+/// Returns the values that the parameters of a fit have in a scene, in SI units. `governing` has
+/// the work of adhesion of the scene.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let mut values = [0.0; 9];
@@ -49,8 +49,8 @@ pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
         .unwrap_or(f64::INFINITY)
 }
 
-/// Returns the document with works of adhesion in place of κ or e_el/γ. A document without adhesion
-/// gets the work `start` in J/m², if it is given.
+/// Returns a copy of the document in which works of adhesion replace κ or e_el/γ. If the document
+/// has no adhesion, the copy gets the work of adhesion `start` in J/m², if `start` is given.
 pub(crate) fn written_out(
     document: &Document,
     governing: &Governing,
@@ -71,7 +71,7 @@ pub(crate) fn written_out(
     })
 }
 
-/// Returns the document with the fitted values, and with the loading of the measurement.
+/// Returns a copy of the document with the fitted values and with the loading of the measurement.
 pub(crate) fn with_values(
     document: &Document,
     values: &Values,
@@ -124,10 +124,11 @@ fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
 }
 
 impl MeasuredCurve {
-    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the
-    /// scene, or else the stiffness in the file of the curve. If the measured displacement is that
-    /// of the body, the instrument becomes rigid. The second value is a sentence about this choice;
-    /// it is `None` if there was no choice, because scene and file agree.
+    /// Returns a copy of a scene that has the stiffness of the instrument. This is the
+    /// `loading_stiffness` of the scene or, if the scene has none, the stiffness in the file of
+    /// this curve. If the measured displacement is that of the body, the instrument becomes rigid.
+    /// The second value is a sentence about the choice of the stiffness. It is `None` if nothing
+    /// had to be chosen, because scene and file agree.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.
@@ -158,9 +159,9 @@ impl MeasuredCurve {
         Ok((document.clone(), None))
     }
 
-    /// Returns the scene with the stiffness of the instrument that the file of the curve states, in
-    /// place of the stiffness of the scene. The second value is a sentence about the change; it is
-    /// `None` if nothing has changed. Without a stiffness in the file, the scene stays as it is.
+    /// Returns a copy of a scene in which the stiffness of the instrument is the one that the file
+    /// of this curve states. If the file states none, the scene is not changed. The second value is
+    /// a sentence about the change, or `None` if nothing has changed.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.
@@ -184,8 +185,8 @@ impl MeasuredCurve {
         Ok((document, Some(text)))
     }
 
-    /// Returns the scene with two fields taken from the measured curve: the loading, and the
-    /// stiffness of the instrument as in [`Self::with_instrument`]. `offset` is the measured
+    /// Returns a copy of a scene with the loading of this measured curve and with the stiffness of
+    /// the instrument, which is chosen as in [`Self::with_instrument`]. `offset` is the measured
     /// displacement in m at which the bodies first touch.
     ///
     /// # Errors
@@ -228,7 +229,7 @@ fn as_body_displacement(
     Ok((document, Some(text)))
 }
 
-/// Converts the first of the errors of a scene with changed values to an error of the fit.
+/// Converts the first error of a scene with changed values to an error of the fit.
 pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     let found = format!("{} = {}", error.field, error.value);

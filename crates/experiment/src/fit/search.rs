@@ -107,22 +107,25 @@ const PRIMES: [usize; 9] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
 
 /// Result of a search.
 pub(crate) struct SearchResult {
-    /// The member with the smallest residuals.
+    /// Member with the smallest residuals. A member is a set of values of the parameters.
     pub best: Member,
     /// Residuals of the best member in contact, in units of the noise, after a fit of the zero, the
     /// drift and the other lines.
     pub residuals: Vec<f64>,
-    /// Noise for which the samples are distributed, divided by the noise of the curve. The noise is
-    /// above 1 if the residual of the best member exceeds the noise of the curve.
+    /// Noise that is assumed in the probability distribution of the samples, divided by the noise
+    /// of the curve. It is above 1 if the residual of the best member exceeds the noise of the
+    /// curve.
     pub noise: f64,
     /// Coordinates of the samples, which follow the probability distribution of the parameters.
     pub samples: Vec<Vec<f64>>,
-    /// Other places that are nearly as good as the best one, and may be far from it.
+    /// Coordinates of other sets of parameters that describe the curve nearly as well as the best
+    /// one. They may be far from the best one.
     pub alternatives: Vec<Vec<f64>>,
-    /// Costs of each sample for each block of the curve; empty if the model describes the curve.
+    /// Cost of each sample in each block of the curve, which is a part of its points. The list is
+    /// empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
-    /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no
-    /// sample is close to zero adhesion.
+    /// Difference of two costs: the smallest cost of a scene without adhesion minus the cost of the
+    /// best member. Infinite if no sample is close to zero adhesion.
     pub without_adhesion: f64,
 }
 
@@ -167,15 +170,16 @@ impl Search<'_> {
         })
     }
 
-    /// Computes the member with the coordinates `place`, with forces of full accuracy.
+    /// Computes the residuals for the coordinates `place`, with forces of full accuracy.
     pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
         self.model.noise = 1.0;
         self.member(place.to_vec())
     }
 
-    /// Returns residuals in which a point inside a jump of the model counts as described. If a
-    /// residual exceeds [`WRONG_SIDE`] and the model jumps at most one point away, the residual
-    /// becomes the distance of the force from the range of forces of the jump.
+    /// Returns the residuals after a correction at jumps of the model. If a residual exceeds
+    /// [`WRONG_SIDE`] and the model jumps at most one point away, the jump covers a range of
+    /// forces. The corrected residual is the distance of the measured force from this range, so
+    /// that a point inside the jump counts as described.
     pub fn beyond_jumps(
         &mut self,
         place: &[f64],
@@ -298,30 +302,32 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Finds the member with the smallest residuals, and samples of the coordinates. Another
-    /// population is drawn in three cases. First, the residuals exceed the noise: one population in
-    /// thirty ends in a wrong minimum, and one in 200 does so twice. Second, the initial values
-    /// have a lower cost than the population; they then become a member of the next population.
-    /// Third, the members of the population have not spread.
+    /// Finds the member (set of parameters) with the smallest residuals, and samples of the
+    /// coordinates. The search draws a population of members. It draws another population in three
+    /// cases. First, the residuals exceed the noise: one population in thirty ends in a wrong
+    /// minimum, and one in 200 does so twice. Second, the initial values have a lower cost than the
+    /// population; they then become a member of the next population. Third, the members of the
+    /// population have not spread.
     pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
     }
 
-    /// Returns the first population, and the generator that made it.
+    /// Returns the first population of a search, and the random generator with which it was drawn.
     pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         let population = self.anneal(0, None, 0.0, &mut generator)?;
         Ok((population, generator))
     }
 
-    /// Returns true for a population whose residuals are so large that the model does not describe
+    /// Returns true if the residuals of a population are so large that the model does not describe
     /// the curve.
     pub fn is_systematic(&self, population: &Population) -> bool {
         self.misfit(&population.best, population.noise) > SYSTEMATIC
     }
 
-    /// Continues the search of [`Search::find`] after the first population.
+    /// Completes the search of [`Search::find`] if the first population is already known.
+    /// `generator` is the random generator with which this population was drawn.
     pub fn find_from(
         &mut self,
         mut population: Population,

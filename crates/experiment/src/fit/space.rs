@@ -1,5 +1,5 @@
-//! The coordinates in which a scene is fitted, with their ranges and initial values, which follow
-//! from the curve.
+//! The coordinates in which a scene is fitted, with their ranges and initial values. Ranges and
+//! initial values follow from the measured curve.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
@@ -39,7 +39,7 @@ pub(crate) struct Space<'a> {
     pub coordinates: Vec<Coordinate>,
     /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
-    /// Values at which further descents begin.
+    /// Sets of parameter values at which further descents of the fit begin.
     pub other_starts: Vec<Values>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
@@ -351,7 +351,7 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// Returns the place within all ranges that is nearest to a place.
+    /// Returns the nearest place that lies within the ranges of all coordinates.
     pub fn inside(&self, place: &[f64]) -> Vec<f64> {
         let coordinates = self.coordinates.iter().zip(place);
         let inside = coordinates.map(|(coordinate, position)| {
@@ -361,7 +361,7 @@ impl<'a> Space<'a> {
         inside.collect()
     }
 
-    /// Returns true if a place lies within all ranges.
+    /// Returns true if each coordinate of a place lies within its range.
     pub fn contains(&self, place: &[f64]) -> bool {
         self.coordinates
             .iter()
@@ -372,12 +372,14 @@ impl<'a> Space<'a> {
             })
     }
 
-    /// Returns the free parameters with larger ranges, if a place lies at the end of a range that
-    /// the user did not give. Returns `None` if the place does not, or if scenes allow no larger
-    /// range. Larger ranges may be needed because the pull-off force of rough bodies may be a small
-    /// part of that of smooth bodies, and because a drag or a drift may falsify the initial
-    /// modulus. `given` are the free parameters as the user gave them, and `free` those of the
-    /// search.
+    /// Returns the free parameters with larger ranges, if a coordinate of `place` lies at an end of
+    /// its range and the user did not give this range. Otherwise, or if scenes allow no larger
+    /// range, returns `None`. `given` are the free parameters as the user gave them, and `free` are
+    /// those of the search.
+    ///
+    /// Larger ranges may be needed for two reasons. The pull-off force of a rough body may be a
+    /// small part of the pull-off force of a smooth body. A drag or a drift may falsify the initial
+    /// modulus.
     pub fn extended(&self, place: &[f64], given: &[Free], free: &[Free]) -> Option<Vec<Free>> {
         let mut wider = free.to_vec();
         let mut is_wider = false;
@@ -407,9 +409,10 @@ impl<'a> Space<'a> {
         is_wider.then_some(wider)
     }
 
-    /// Returns the end of the range of a coordinate at which a place lies. Returns `None` if the
-    /// place lies inside the range, or at an end that is a possible value: a work of adhesion of 0,
-    /// or a work on closing equal to that on opening.
+    /// Returns the end of the range at which coordinate number `index` of a place lies. Returns
+    /// `None` if this coordinate lies inside its range. Some ends are possible values, and give
+    /// `None` too: a work of adhesion of 0, and a work of adhesion on closing equal to that on
+    /// opening.
     pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
@@ -424,7 +427,7 @@ impl<'a> Space<'a> {
         (value < low + room && !may_be_low).then_some(RangeEnd::Low)
     }
 
-    /// Returns the place at which the search begins.
+    /// Returns the coordinates at which the search begins.
     pub fn start(&self) -> Vec<f64> {
         self.coordinates
             .iter()
@@ -432,7 +435,8 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns the place within all ranges that is nearest to these values.
+    /// Returns the coordinates that belong to these values of the parameters. A coordinate outside
+    /// its range is replaced by the nearer end of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
         let of =
             |coordinate: &Coordinate| coordinate.of(values[coordinate.parameter as usize], values);
@@ -440,8 +444,8 @@ impl<'a> Space<'a> {
         self.inside(&place)
     }
 
-    /// Returns consecutive parts of the points of each segment that are in contact. Parts depend on
-    /// each other less than points do.
+    /// Divides the points in contact of each segment into consecutive parts, and returns the
+    /// indices of the points in each part. Parts depend on each other less than single points do.
     pub fn blocks(&self, in_contact: &[bool]) -> Vec<Vec<usize>> {
         let mut blocks = Vec::new();
         let mut start = 0;
@@ -458,8 +462,8 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Returns the lines, such as the zero of the force, that are fitted again for each computed
-    /// model.
+    /// Returns the lines of the curve: contributions to the force, such as its zero, that are
+    /// fitted again for each computed model.
     pub fn lines(&self) -> Lines {
         let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
         Lines::new(self.curve, self.coordinates.iter().any(is_zero))

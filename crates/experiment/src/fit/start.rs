@@ -1,5 +1,5 @@
-//! Initial values of a fit. They follow from the curve and the known parameters. The values in the
-//! scene for free parameters have no effect on them.
+//! Initial values of a fit. They follow from the curve and the known parameters. They do not depend
+//! on the values that the scene has for free parameters.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{Extent, dot};
@@ -35,9 +35,10 @@ pub(crate) struct Known {
     pub radius: Option<f64>,
     /// Length of the profile in m.
     pub length: f64,
-    /// Effective modulus in Pa; `None` if it is free.
+    /// Effective modulus in Pa; `None` if the modulus is free.
     pub modulus: Option<f64>,
-    /// Stiffness of the instrument in N/m, infinite for a rigid one; `None` if it is free.
+    /// Stiffness of the instrument in N/m, infinite for a rigid instrument. `None` if the stiffness
+    /// is free.
     pub stiffness: Option<f64>,
 }
 
@@ -47,11 +48,11 @@ pub(crate) struct Starts {
     /// Work of adhesion in J/m² with which a smooth body would have the pull-off force of the
     /// curve.
     pub work: f64,
-    /// Work of adhesion in J/m² with which a smooth body would have a pull-off force that the noise
-    /// hides.
+    /// Work of adhesion in J/m² below which the pull-off force of a smooth body would be hidden by
+    /// the noise.
     pub least_work: f64,
-    /// Effective modulus in Pa with which the body without adhesion has the upper half of the
-    /// loading of the curve.
+    /// Effective modulus in Pa with which a body without adhesion would have the measured loading.
+    /// Only the upper half of the loading is used.
     pub modulus: f64,
     /// Stiffness of the instrument in N/m.
     pub stiffness: f64,
@@ -62,9 +63,10 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    /// Estimates the initial values. The modulus follows from the upper half of the loading, and
-    /// the work of adhesion from the pull-off force of a smooth body. The contact point is that of
-    /// the curve, unless the loading extrapolates to a very different one.
+    /// Estimates the initial values. The modulus follows from the upper half of the loading. The
+    /// work of adhesion follows from the pull-off force, as if the body were smooth. The contact
+    /// point is the one that was found when the curve was read, unless the extrapolated loading
+    /// gives a very different one.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,

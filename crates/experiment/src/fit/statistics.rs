@@ -1,4 +1,4 @@
-//! Statistics of samples and residuals.
+//! Statistics of samples and of residuals (measured minus computed forces).
 
 use crate::curve::numerics::dot;
 use asperity_data::{mean, quantile, standard_deviation};
@@ -7,9 +7,9 @@ use asperity_data::{mean, quantile, standard_deviation};
 /// the blocks of the curve.
 pub(crate) const PARTS: usize = 4;
 
-/// Returns a robust root mean square of residuals, the scale. A residual above `cut` times the
-/// scale is replaced by `cut` times the scale (Huber, Robust Statistics, proposal 2), so that
-/// single points on the wrong side of a jump have little influence.
+/// Returns a robust root mean square of residuals, called the scale. A residual above `cut` times
+/// the scale is replaced by `cut` times the scale (Huber, Robust Statistics, proposal 2). Single
+/// points on the wrong side of a jump therefore have little influence.
 pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals
         .iter()
@@ -32,11 +32,12 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     (sum / count).sqrt()
 }
 
-/// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal
-/// jackknife; Giordano and Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for
-/// each block. If a model does not describe a curve, its residuals are not independent noise, and
-/// each block alone would give another value. The error is also computed for several neighbouring
-/// blocks joined, up to whole segments, and the largest error is returned.
+/// Returns the standard error of a value that follows from a curve, computed from the scatter of
+/// the value over blocks of the curve (infinitesimal jackknife; Giordano and Broderick, arXiv
+/// 2305.06466). `values` are the values of the samples, and `blocks` has the cost of each sample in
+/// each block. This error is needed if a model does not describe a curve: the residuals are then
+/// not independent noise, and each block alone would give another value. The error is also computed
+/// for several neighbouring blocks joined, up to whole segments, and the largest error is returned.
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let count = values.len() as f64;
     let average = mean(values);
@@ -73,7 +74,7 @@ fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
     samples.iter().map(|sample| sample[index]).collect()
 }
 
-/// Multiplies the deviations of samples from their mean by a factor.
+/// Multiplies the deviation of each sample from the mean of the samples by a factor.
 pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     for index in 0..samples.first().map_or(0, Vec::len) {
         let mean = mean(&column(samples, index));
@@ -87,12 +88,12 @@ pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
     pub standard_deviation: f64,
-    /// Quantiles at 2.5 % and 97.5 %.
+    /// Quantiles of the values at 2.5 % and 97.5 %, which are the ends of the 95 % interval.
     pub interval: (f64, f64),
 }
 
 impl Spread {
-    /// Returns the spread of a single value.
+    /// Returns the spread of a single value, which is zero.
     pub(crate) fn at(value: f64) -> Self {
         Spread {
             standard_deviation: 0.0,

@@ -21,19 +21,23 @@ const SHARES: [f64; 3] = [0.0, 0.02, 0.1];
 /// Limits of the ratio of both radii at the start.
 const RATIO: [f64; 2] = [0.1, 10.0];
 
-/// What the jumps of a curve say about a body with two spheres.
+/// Properties of a body with two spheres that follow from the jumps of a measured curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct TwoContacts {
-    /// Pull-off force of the first sphere alone, N, if the spheres detach one after the other.
+    /// Pull-off force in N of the first sphere alone; `None` if the spheres do not detach one after
+    /// the other.
     pub pull_off: Option<f64>,
-    /// Radius of the second sphere divided by that of the first one.
+    /// Radius of the second sphere divided by the radius of the first sphere; `None` if the curve
+    /// does not show it.
     pub ratio: Option<f64>,
-    /// Distance of the second apex behind the first one, m.
+    /// Distance in m of the apex of the second sphere behind the apex of the first sphere; `None`
+    /// if the curve does not show it.
     pub behind: Option<f64>,
 }
 
 impl TwoContacts {
-    /// `stiffness` is that of the instrument in N/m, infinite for a rigid one.
+    /// Estimates these properties from the jumps of a curve. `stiffness` is the stiffness of the
+    /// instrument in N/m, infinite for a rigid instrument.
     pub fn of(curve: &MeasuredCurve, stiffness: f64) -> Self {
         let compliance = 1.0 / stiffness;
         let of_body = |jump: &ForceJump| jump.displacement - compliance * jump.forces[0];
@@ -50,9 +54,10 @@ impl TwoContacts {
         }
     }
 
-    /// Returns the values of all parameters at which further descents begin: `start` with other
-    /// radii and distances, if these are free. A single detachment may be that of both spheres.
-    /// `way` is the way of the instrument in contact, m.
+    /// Returns the values of all parameters at which further descents of the fit begin. These are
+    /// the values `start` with other radii and other distances of the apexes, if these parameters
+    /// are free. Several starts are needed because a single detachment may be that of both spheres.
+    /// `way` is the distance in m that the instrument moves in contact.
     pub fn other_starts(
         &self,
         start: &Values,
@@ -85,16 +90,17 @@ impl TwoContacts {
         starts
     }
 
-    /// Returns the work of adhesion in J/m² by the pull-off force of the first sphere, which has
-    /// this radius in m.
+    /// Returns the work of adhesion in J/m² that follows from the pull-off force of the first
+    /// sphere. `radius` is the radius of this sphere in m.
     pub fn work(&self, radius: f64) -> Option<f64> {
         let work = self.pull_off? / (1.5 * PI * radius);
         (work > 0.0 && work.is_finite()).then_some(work)
     }
 }
 
-/// Returns values at which both spheres have exchanged their pull-off forces and their ranges of
-/// adhesion. A curve without separate jumps hardly shows which sphere is ahead.
+/// Returns the values of the parameters with which the two spheres exchange their pull-off forces
+/// and their ranges of adhesion. A fit tries them too, because a curve without separate jumps
+/// hardly shows which sphere is ahead.
 pub(crate) fn exchanged(values: &Values) -> Values {
     let ratio = values[Parameter::SecondRadius as usize] / values[Parameter::Radius as usize];
     let mut exchanged = *values;

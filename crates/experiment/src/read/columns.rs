@@ -21,8 +21,8 @@ const COLUMNS: &str = "displacement and force by names or numbers of their colum
 /// Addition to [`COLUMNS`] in the error message for a file that states neither names nor units.
 const UNITS: &str = ", with their units, since the file states none";
 
-/// A column of displacements and a column of forces. `places` are the indices of these columns, and
-/// `units` are the SI values that the number 1 in them means.
+/// A column of displacements and a column of forces. `places` are the indices of these two columns.
+/// `units` are their units, each as the SI value of one unit, such as 1e-9 for nm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub places: [usize; 2],
@@ -42,13 +42,13 @@ pub(crate) struct Choice {
     /// Name of the column of the displacement if this displacement excludes the deflection of the
     /// instrument, otherwise `None`.
     pub of_body: Option<String>,
-    /// Description of the chosen columns and their units, for the report.
+    /// Text for the report that describes the chosen columns and their units.
     pub assumed: String,
-    /// Sentences, for the report, on names and units in the file that the options replace.
+    /// Sentences for the report about names and units in the file that the options replace.
     pub statements: Vec<String>,
 }
 
-/// What the header of the file states.
+/// Information in the header of the file.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,

@@ -91,8 +91,9 @@ const FORMATS: [Format; 12] = [
     },
 ];
 
-/// Returns an error for a binary file. The error names the format, if it is known, and says how to
-/// export a text.
+/// Returns an error if the content of a file is binary. The error names the format of the file, if
+/// it is known, and says how to export a text. `path` is the path of the file, and `bytes` its
+/// content.
 pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), SurfaceError> {
     let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     if is_utf16 || !bytes.contains(&0) {

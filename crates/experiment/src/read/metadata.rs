@@ -1,4 +1,4 @@
-//! Properties of the instrument that a file states in the lines above the points of a curve.
+//! Properties of the instrument. Many files state them in the lines above the points of a curve.
 
 use crate::read::names::{letters, unit};
 use asperity_data::parse_quantity;
@@ -24,10 +24,11 @@ const SENSITIVITY: [&str; 5] = [
 /// Names of the travel of the piezo in files, reduced by [`letters`].
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
-/// Stiffness and sensitivity of the instrument, and the travel of its piezo.
+/// Properties of the instrument that a file states: stiffness, sensitivity, and travel of the
+/// piezo.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Metadata {
-    /// Stiffness of the instrument: its name in the file, and its value in N/m.
+    /// Stiffness of the instrument: the name of the stiffness in the file, and its value in N/m.
     pub stiffness: Option<(String, f64)>,
     /// Sensitivity: deflection of the instrument for 1 V, in m/V.
     pub sensitivity: Option<f64>,

@@ -3,7 +3,7 @@
 use asperity_data::parse_quantity;
 use asperity_data::text_table::is_one_of;
 
-/// Quantity that a column may have.
+/// Quantity that a column of a file may contain, with the names of such columns.
 pub(crate) struct Quantity {
     pub term: &'static str,
     pub si_unit: &'static str,
@@ -17,9 +17,9 @@ pub(crate) struct Quantity {
 pub(crate) const DISPLACEMENT: usize = 0;
 /// Index of the force in [`QUANTITIES`].
 pub(crate) const FORCE: usize = 1;
-/// Displacement and force, with the names of their columns. The displacement of the instrument is
-/// preferred to that of the body, which lacks the deflection of the instrument. A force is
-/// preferred to a deflection.
+/// Displacement and force, with the names of their columns; preferred names come first. The
+/// displacement of the instrument is preferred to the displacement of the body, which lacks the
+/// deflection of the instrument. A force is preferred to a deflection.
 pub(crate) const QUANTITIES: [Quantity; 2] = [
     Quantity {
         term: "displacement",
@@ -84,7 +84,7 @@ pub(crate) fn names_segment(text: &str) -> bool {
     is_pause(text) || words(text).any(|word| direction(word).is_some())
 }
 
-/// Returns true for a unit of length or force.
+/// Returns true if a word is a unit of length or of force.
 pub(crate) fn is_unit(text: &str) -> bool {
     QUANTITIES
         .iter()
@@ -100,8 +100,8 @@ pub(crate) fn names_unit(word: &str) -> bool {
     word == "V"
 }
 
-/// Returns the SI value that the number 1 means in a unit, such as 1e-9 for nm; `None` for a unit
-/// of another quantity.
+/// Returns the SI value of one unit, such as 1e-9 for nm. `si_unit` is the SI unit of the expected
+/// quantity; `None` if the unit belongs to another quantity.
 pub(crate) fn unit(text: &str, si_unit: &str) -> Option<f64> {
     let value = parse_quantity(&format!("1 {text}"), si_unit).ok()?;
     text.ends_with(si_unit).then_some(value)

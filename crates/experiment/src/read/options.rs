@@ -19,8 +19,8 @@ pub enum Negate {
     Both,
 }
 
-/// Treatment of a drift of the force, which is a change along a straight line over time. Time is
-/// counted in points.
+/// Treatment of a drift of the force. A drift is a change along a straight line over time, and time
+/// is counted in points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
     /// Subtracts no drift from the force.
@@ -34,8 +34,8 @@ pub enum Drift {
     Known(f64),
 }
 
-/// Treatment of a tilt of the force, which is a change along a straight line over the displacement.
-/// An example is the virtual deflection of a cantilever.
+/// Treatment of a tilt of the force. A tilt is a change along a straight line over the
+/// displacement, such as the virtual deflection of a cantilever.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Tilt {

@@ -19,9 +19,9 @@ const WILD: f64 = 10.0;
 /// Label that a file gives to the points of one part of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Number of the part, which grows where the name of the segment changes in the file.
+    /// Number of the part. It increases where the name of the segment changes in the file.
     pub part: usize,
-    /// True if the name of the part means a pause of the instrument.
+    /// True if the instrument pauses in this part, according to the name of the part.
     pub is_pause: bool,
 }
 
@@ -51,9 +51,9 @@ pub(crate) struct Columns {
     /// Name of the column of the displacement if this displacement excludes the deflection of the
     /// instrument, otherwise `None`.
     pub of_body: Option<String>,
-    /// Description of the columns and their units, for the report.
+    /// Text for the report that describes the chosen columns and their units.
     pub assumed: String,
-    /// Sentences, for the report, on names and units in the file that the options replace.
+    /// Sentences for the report about names and units in the file that the options replace.
     pub statements: Vec<String>,
     /// Number of points left out because they are equal to the previous point.
     repeated: usize,
@@ -90,7 +90,8 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Returns phrases on how many points were left out, and why; empty if no points were left out.
+    /// Returns phrases that state how many points were left out, and why; empty if no points were
+    /// left out.
     pub fn left_out(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.missing > 0 {
@@ -171,8 +172,8 @@ impl Columns {
     }
 
     /// Returns an error if a few displacements are far from all others. Such displacements are
-    /// errors of the file, and the range of displacements, by which the segments are found, would
-    /// depend on them. `place` converts the number of a line or of a point to its place in the
+    /// errors in the file. They must be refused because the segments are found from the range of
+    /// all displacements. `place` converts the number of a line or of a point to its place in the
     /// file.
     pub fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();

@@ -1,5 +1,5 @@
-//! Reader of a curve from a text. It finds where the points begin, takes the information from the
-//! lines above them, and reads the rows of points.
+//! Reader of a curve from a text. The reader finds where the points begin, takes information from
+//! the lines before the points, and reads the points row by row.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
@@ -171,7 +171,7 @@ impl Above {
         self.merged = names_before_numbers(line, shape);
     }
 
-    /// Returns names and units of the columns.
+    /// Returns the columns of the table with their names and units.
     pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
         let Some(names) = &self.merged else {
             return columns_of(&self.header, shape);

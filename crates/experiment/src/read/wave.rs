@@ -1,6 +1,6 @@
-//! Reader of force curves from binary waves, which are the array files of the program Igor, written
-//! by microscopes of Asylum Research. A wave has a column for each quantity, and a note with the
-//! properties of the cantilever.
+//! Reader of force curves from binary waves, as microscopes of Asylum Research write them. A binary
+//! wave is an array file of the program Igor. It has a column for each quantity, and a note with
+//! the properties of the cantilever.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;

@@ -167,8 +167,7 @@ impl Case {
     }
 }
 
-/// With white noise the fit describes the curve; noise that is coloured, and rounding, may look like
-/// more.
+/// With white noise the fit describes the curve. Coloured noise and rounding may look like more.
 fn assert_is_found(case: Case, free: &str) {
     let curve = case.curve();
     let fit = fit_from(&curve, &case.document(1.0, 1.0), free);
@@ -300,8 +299,8 @@ fn an_end_in_contact_is_no_zero() {
     }
 }
 
-/// A drag of a fluid is no tension of a contact: a curve without adhesion, whose retraction is lower
-/// by half of the largest force, has a part without contact at its end.
+/// A drag of a fluid is no tension of a contact: a curve without adhesion, whose retraction is
+/// lower by half of the largest force, has a part without contact at its end.
 #[test]
 fn a_drag_is_no_end_in_contact() {
     let force = |at: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * at.max(0.0).powi(3)).sqrt();

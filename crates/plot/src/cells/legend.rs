@@ -30,9 +30,9 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the entries of the legend of these charts for a terminal. Each entry is a list of
-/// coloured texts: first a short piece of the line or the marker of each layer, and then the name
-/// that these layers share.
+/// Returns the entries of the legend of these charts for a terminal. Each entry belongs to all
+/// layers that have one name. It is a list of coloured texts. The first texts show, for each of
+/// these layers, a short piece of its line or its marker. The last text is the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {

@@ -1,5 +1,5 @@
-//! Heat maps in terminal cells. Colours or characters show the values, letters the classes, and
-//! bars the contour.
+//! Heat maps in terminal cells. Colours or characters show the values, letters show the classes of
+//! map cells, and bars show the contour.
 
 use super::style::{CellStyle, Colours};
 use crate::axis::ChartAxis;
@@ -17,8 +17,8 @@ pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 /// Smallest width, in columns of the screen, of a map cell that shows the letter of its class.
 const WITH_LETTER: usize = 3;
 
-/// Returns, for each screen cell along an axis, the index of the value that this cell shows. The
-/// list begins at the lower end of the axis.
+/// Returns, for each screen cell along an axis, the index of the value that this screen cell shows.
+/// The list begins at the lower end of the axis.
 pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let mut indices = Vec::with_capacity(usize::from(cells));
@@ -122,10 +122,10 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     (first < contour.level) != (second < contour.level)
 }
 
-/// Returns the colour scale of a heat map as a list of styled texts, which are to be written one
-/// after the other. The scale has six numbers, with a coloured piece between each two. In a
-/// terminal without colours, the pieces consist of the characters [`SHADES`]. If the scale has no
-/// room in `columns` columns, it has only the first and the last number.
+/// Returns the colour scale of a heat map as a list of styled texts, which are written one after
+/// the other. The scale has six numbers, with a coloured piece between each two neighbouring
+/// numbers. In a terminal without colours, the pieces consist of the characters [`SHADES`]. If
+/// `columns` columns are not enough, the scale has only the first and the last number.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

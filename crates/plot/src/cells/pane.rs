@@ -35,31 +35,34 @@ const WITH_CONTACT: u16 = 5;
 pub struct PaneChart {
     /// Main chart, which has the largest part of the pane.
     pub chart: Chart,
-    /// Texts to write beside points of the main chart, in addition to the names of the curves.
+    /// Further texts beside points of the main chart, in addition to the names of the curves.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// Chart of a few rows below the main chart, with the same horizontal axis. A pane with fewer
-    /// than 11 rows does not show it.
+    /// Chart of a few rows below the main chart, with the same horizontal axis. It is not shown in
+    /// a pane with fewer than 11 rows.
     pub below: Option<Chart>,
     /// Row of characters directly below the main chart that shows which springs are in contact.
     pub contact: ContactRow,
 }
 
 /// Row of characters below a chart that shows which springs are in contact. Each character shows
-/// the springs above it: `■` if all of them are in contact, `▪` if some are, and `·` if none is.
+/// the springs that lie above this character: `■` if all these springs are in contact, `▪` if some
+/// are in contact, and `·` if none is in contact.
 #[derive(Default)]
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. If the list is empty,
     /// the row is not drawn.
     pub springs: Vec<bool>,
-    /// Part of the horizontal axis that is enclosed in brackets, as the positions of its two ends
-    /// from 0 (left end of the axis) to 1 (right end); `None` for no brackets.
+    /// Part of the horizontal axis that the row encloses in brackets; `None` for no brackets. The
+    /// part is given by the positions of its two ends, from 0 (left end of the axis) to 1 (right
+    /// end).
     pub marked: Option<(f64, f64)>,
 }
 
 /// Divides an area of the screen into a left part for one chart and a right part for a second
-/// chart. The right part is `None` if the area is too narrow for two charts.
+/// chart. If the area is too narrow for two charts, the left part is the whole area, and the right
+/// part is `None`.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -146,8 +149,8 @@ impl PaneChart {
     }
 
     /// Divides an area of the screen among the charts of the pane. Returns the layout of the main
-    /// chart [`Self::chart`], and the area of the chart [`Self::beside`] on its right. The area is
-    /// `None` if there is no such chart or not enough room for it.
+    /// chart [`Self::chart`], and the area of the chart [`Self::beside`] on the right. The area is
+    /// `None` if there is no chart on the right, or not enough room for it.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() {
             split(area)
@@ -215,8 +218,8 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts into `area`. Returns the legend entries of the curves whose names
-    /// did not fit beside the curves.
+    /// Draws all charts and texts of the pane into `area`. Returns the legend entries of those
+    /// curves whose names do not fit beside the curves.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;

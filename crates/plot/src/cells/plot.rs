@@ -1,4 +1,5 @@
-//! A chart in an area of a terminal: the plot, and the numbers on the left of it and below it.
+//! A chart in an area of a terminal. The area contains the plot, the numbers on the left of the
+//! plot and the numbers below the plot.
 
 use super::map;
 use super::shapes::LayerShape;
@@ -33,15 +34,15 @@ const ROWS_OF_DOTS: u16 = 4;
 /// Text that [`CellPlot::draw_name`] writes beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points (x, y), as numbers on the axes of the chart, beside which the text may be written.
-    /// The first point with enough room is used.
+    /// Points (x, y) beside which the text may be written, as numbers on the axes of the chart. The
+    /// text is written at the first of these points that has enough room.
     pub at: Vec<(f64, f64)>,
-    /// Alternative texts, from the longest to the shortest. The first one that fits is written.
+    /// Alternative texts, from the longest to the shortest. The first text that fits is written.
     pub texts: Vec<String>,
     pub ink: Ink,
 }
 
-/// Area of the screen for one chart, divided into the plot and the numbers on the left and below.
+/// Layout of a chart in an area of the screen: the plot, and the numbers on its left and below.
 pub struct CellPlot {
     /// Area of the screen in which the data of the chart are drawn, without the numbers along the
     /// axes.
@@ -113,8 +114,8 @@ impl CellPlot {
     }
 
     /// Returns the point (x, y) on the axes of the chart that a cell of the screen shows. The cell
-    /// is given as (column, row). In a heat map, the point is the pair of axis values of the map
-    /// cell that is drawn there, or `None` outside the map.
+    /// is given as (column, row). If the chart has a heat map, x and y are the axis values of the
+    /// map cell that is drawn at this place. A cell outside the heat map gives `None`.
     pub fn data_at(&self, chart: &Chart, cell: (u16, u16)) -> Option<(f64, f64)> {
         let (column, row) = cell;
         let plot = self.plot;
@@ -134,8 +135,8 @@ impl CellPlot {
     }
 
     /// Returns the cell of the screen, as (column, row), that contains the point (x, y) on the axes
-    /// of the chart. For a point outside the chart it returns `None`, but for a point outside a
-    /// heat map it returns the nearest cell at the edge.
+    /// of the chart. A point outside the chart gives `None`. If the chart has a heat map, a point
+    /// outside gives the nearest cell at the edge instead.
     pub fn cell(&self, chart: &Chart, point: (f64, f64)) -> Option<(u16, u16)> {
         let (x, y) = point;
         let plot = self.plot;
@@ -193,8 +194,8 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes the longest text of a name for which there are enough blank cells beside one of the
-    /// points [`Name::at`]. Returns false if no text fits.
+    /// Writes the longest text of a name that fits beside one of the points [`Name::at`]. A text
+    /// fits if all cells that it needs are blank. Returns false if no text fits.
     pub fn draw_name(
         &self,
         buffer: &mut Buffer,

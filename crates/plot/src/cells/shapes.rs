@@ -1,4 +1,4 @@
-//! Layers of a chart as Braille dots on a canvas with coordinates from 0 to 1.
+//! Draws the layers of a chart as Braille dots, on a canvas with coordinates from 0 to 1.
 
 use crate::axis::{Axes, Share};
 use crate::chart::{Chart, Shape, Sign, Stroke};

@@ -1,12 +1,12 @@
-//! Appearance of charts in terminal cells: styles of inks, available colours, and characters of
-//! markers.
+//! Appearance of charts in terminal cells: the styles of inks, the available colours, and the
+//! characters of markers. An ink is the meaning of a line, an area or a text.
 
 use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 
 /// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the
-/// terminal has.
+/// terminal can show. An ink is the meaning of a line, an area or a text.
 pub struct CellStyle<'a> {
     /// Function that returns the style of an ink, such as its colour.
     pub ink: &'a dyn Fn(Ink) -> Style,
@@ -26,8 +26,8 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// Converts a colour to the same or a similar colour that this terminal can show. For a
-    /// terminal without colours, it returns the default colour of the terminal.
+    /// Converts a colour to the same or a similar colour that this terminal can show. In a terminal
+    /// without colours, the result is the default colour of the terminal.
     pub fn colour(self, colour: Rgb) -> Color {
         let [red, green, blue] = colour;
         // The 256 colours contain a cube of 6 × 6 × 6 colours, with the levels 0, 95, 135, 175, 215

@@ -1,4 +1,4 @@
-//! Figures as text, which is written to a terminal or to a file.
+//! Figures as lines of text, for a terminal or a file.
 
 use super::legend::legend;
 use super::map;
@@ -29,8 +29,8 @@ const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
 /// Returns a figure as text for a terminal or a file, with each chart below the previous one. A
-/// line has at most `columns` characters. A value of `columns` below 40 counts as 40, and a value
-/// above 160 as 160.
+/// line has at most `columns` characters. If `columns` is below 40, 40 is used; if it is above 160,
+/// 160 is used.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(FEWEST_COLUMNS, MOST_COLUMNS);
     let ink = |ink: Ink| match (ink, colours) {

@@ -1,4 +1,5 @@
-//! The screen in ASCII, for terminals, fonts and files limited to ASCII.
+//! Converts a screen to ASCII characters, for terminals, fonts and files that have no other
+//! characters.
 
 use super::{Glyph, dots, glyphs};
 use ratatui::buffer::{Buffer, Cell};

@@ -1,4 +1,4 @@
-//! Screens of a terminal as plain text, in ASCII, or as an SVG document.
+//! Converts screens of a terminal to plain text, to ASCII, or to an SVG document.
 
 pub(crate) mod ascii;
 pub(crate) mod svg;

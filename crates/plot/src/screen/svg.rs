@@ -1,7 +1,8 @@
-//! Screens of a terminal as an SVG document, for slides and web pages.
+//! Draws screens of a terminal as SVG documents, for slides and web pages.
 //!
 //! Each word begins at its first cell and is stretched to the width of its cells. Braille dots,
-//! blocks and the lines of frames are drawn as shapes, so that they join across cells in any font.
+//! blocks and the lines of frames are drawn as shapes, so that the shapes of neighbouring cells
+//! join in any font.
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Palette, Rgb, hex};

@@ -14,8 +14,8 @@ pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 /// Position in a picture, in px from the upper left corner.
 pub(super) type Place = (f64, f64);
 
-/// Point of a label that is placed at the given position. Its height is always the middle of the
-/// label.
+/// Point of a label that lies at the given position: the left end, the middle or the right end of
+/// the label, at half its height.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -95,7 +95,7 @@ impl Svg {
         self.text
     }
 
-    /// Adds a group of the elements that `draw` draws. The group has the given attributes.
+    /// Adds a group with the given attributes. The elements of the group are drawn by `draw`.
     pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Svg)) {
         self.push(format_args!("<g {attributes}>"));
         draw(self);
@@ -153,9 +153,9 @@ impl Svg {
         ));
     }
 
-    /// Fills rectangles, each given by its upper left and its lower right corner. A smaller
-    /// rectangle is enlarged to a width and height of 0.5 px. Rectangles with a common edge meet
-    /// without a gap.
+    /// Fills rectangles with a colour. Each rectangle is given by its upper left and its lower
+    /// right corner. A rectangle below 0.5 px in width or height is enlarged to 0.5 px. Rectangles
+    /// with a common edge meet without a gap.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -182,8 +182,8 @@ impl Svg {
         ));
     }
 
-    /// Writes labels one below the other. The first one is at the position `first`. Returns the
-    /// vertical position of a further label.
+    /// Writes labels one below the other, the first label at the position `first`. Returns the
+    /// vertical position in px at which a further label would follow.
     pub(super) fn lines(
         &mut self,
         lines: &[Label],

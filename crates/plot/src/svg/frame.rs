@@ -1,4 +1,5 @@
-//! Frame of a chart and its axes. The frame converts numbers to positions in the picture.
+//! Frame of a chart with its axes. The frame converts numbers on the axes to positions in the
+//! picture.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::axis::{Axes, Share};
@@ -39,8 +40,8 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    /// Converts a position in the chart, with shares of the axes from 0 to 1, to a position in the
-    /// picture in px.
+    /// Converts a position in the chart to a position in the picture in px. The position in the
+    /// chart is given by shares of the two axes from 0 to 1.
     pub(super) fn at(&self, share: Share) -> Place {
         let (x, y) = share;
         (
@@ -141,8 +142,8 @@ impl Frame<'_> {
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
-    /// Returns the width in px that the numbers and the label of a vertical axis take beside the
-    /// frame.
+    /// Returns the width in px beside the frame that the numbers and the label of a vertical axis
+    /// need.
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.axes.y.ticks(self.ticks(side));
         beside(&ticks) + 0.7 * LABEL

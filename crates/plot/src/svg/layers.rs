@@ -1,4 +1,4 @@
-//! Layers of a chart, drawn into its frame.
+//! Draws the layers of a chart into the frame of the chart.
 
 use super::elements::{EMPTY, PAPER, Pen, Place, QUIET, Svg, TEXT};
 use super::frame::Frame;

@@ -1,4 +1,5 @@
-//! Legend of a figure: rows of entries, each with samples of its layers and a name.
+//! Legend of a figure: rows of entries. An entry has a name and short samples of the layers with
+//! this name.
 
 use super::elements::{Anchor, EMPTY, Pen, Place, Svg};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
@@ -26,7 +27,7 @@ struct Row<'a> {
 }
 
 /// Draws the entries in rows of at most `most` px. The rows are centred at x = `middle` and begin
-/// at y = `top`. Returns the y of the lower end of the legend.
+/// at y = `top`, in px. Returns the y of the lower end of the legend in px.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most: f64) -> f64 {
     let mut y = top;
     for row in rows(entries, most) {

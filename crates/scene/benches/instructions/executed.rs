@@ -80,7 +80,10 @@ pub const EFFECTS: &[Effect] = &[
 ];
 
 impl Effect {
-    /// Returns the number of instructions that were executed for the effect.
+    /// Returns the number of instructions that the program executed in the source lines of this
+    /// effect, from the counts of instructions by file and line in `profile`. An effect is a part
+    /// of the computation that only some scenes need, such as the Fourier transforms of a rough
+    /// profile.
     pub fn executed(&self, profile: &Profile) -> u64 {
         match self.lines {
             Lines::Packages(packages) => profile

@@ -37,8 +37,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Number of springs, and where the edges of contact patches may lie ([`Edges`]), so that the error
-/// of a scene is within a tolerance. [`choose`] returns a value of this type.
+/// Settings with which the error of a scene is within a tolerance: the number of springs, and where
+/// the edges of contact patches may lie ([`Edges`]). [`choose`] returns a value of this type.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
@@ -47,8 +47,8 @@ pub struct Choice {
     pub target: Target,
     /// Chosen number of springs N.
     pub points: u64,
-    /// Where an edge of a contact patch may lie: anywhere between two springs, or only so that the
-    /// patch consists of whole springs.
+    /// Where an edge of a contact patch may lie: anywhere between two springs, or only where the
+    /// patch then consists of whole springs.
     pub edges: Edges,
     /// Relative error of `target` with the chosen settings: the true error if a closed form exists,
     /// otherwise an estimate.
@@ -160,7 +160,7 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// Finds the smallest number of springs, a power of two, with which the relative error of a scene
 /// is at most `tolerance`. Also finds where the edges of contact patches should lie ([`Edges`]).
 ///
-/// The error is that of the adhesion force. For a scene without a tensile force, it is that of the
+/// The error is that of the adhesion force or, for a scene without a tensile force, that of the
 /// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying`
 /// receives each number of springs before it is tried. The search ends if `stop` returns true.
 ///

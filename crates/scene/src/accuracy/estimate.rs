@@ -50,8 +50,8 @@ const fn ratio(numerator: u64, denominator: u64) -> Ratio {
     }
 }
 
-/// Estimated relative error of an [`Outcome`] that is caused by the finite number of springs. The
-/// error is that of the adhesion force or of the force curve.
+/// Estimated relative error that the finite number of springs causes in an [`Outcome`]. The error
+/// is that of the adhesion force or of the force curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated: adhesion force or force curve.
@@ -60,7 +60,7 @@ pub struct Estimate {
     pub error: f64,
     /// True if the adhesion force F_a, as a function of the preload, has a step near the preload of
     /// the scene. The estimate compares the outcome with two further solutions. A step is assumed
-    /// under two conditions:
+    /// if two conditions hold:
     ///
     /// * F_a of one of the two solutions differs from F_a of the outcome by more than 5 %.
     /// * The difference is at least three times smaller if the loads of this solution are 5 %
@@ -89,7 +89,8 @@ impl Estimate {
     }
 
     /// Returns the text that follows the adhesion force in summaries, such as `grid ± 0.1 %`. If
-    /// [`near_step`](Self::near_step) is true, the text is `near a step of F_a(F_n)`.
+    /// [`near_step`](Self::near_step) is true, the text is `near a step of F_a(F_n)`, where F_a is
+    /// the adhesion force and F_n the preload.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -105,17 +106,18 @@ impl Estimate {
 pub enum Evidence {
     /// By an exact formula for the adhesion force. The estimate is then the true error.
     ClosedForm,
-    /// By solutions of the same scene with other numbers of springs, which are the items of the
-    /// field. The edges of patches lie between springs ([`Edges::SubCell`]).
+    /// By comparison with two further solutions of the same scene. The list has their numbers of
+    /// springs. The edges of their contact patches lie between springs ([`Edges::SubCell`]).
     Solutions(Vec<u64>),
 }
 
 /// Estimates the relative error that the finite number of springs causes in `outcome`, the result
-/// of `scene`. The error refers to the adhesion force or, if the loading has no tensile force, to
-/// the force curve. Names of measured files are relative to `folder`.
+/// of `scene`. The error is that of the adhesion force or, if the loading has no tensile force,
+/// that of the force curve. Names of measured files are relative to `folder`.
 ///
-/// If a closed form exists, the estimate is the true error. Otherwise it follows from two further
-/// solutions with other numbers of springs, and the true error exceeds it in about 5 of 100 cases.
+/// If the adhesion force has a closed form, the estimate is the true error. Otherwise the estimate
+/// follows from two further solutions with other numbers of springs, and the true error exceeds the
+/// estimate in about 5 of 100 cases.
 ///
 /// Returns `None` in these cases:
 ///
@@ -224,8 +226,10 @@ fn difference_under_load(
     difference(Target::AdhesionForce, &solution, own)
 }
 
-/// Estimates the errors of a solution whose patches have their edges between springs. The errors
-/// are estimated at the loads of the scene and at half and twice these loads.
+/// Estimates the relative errors of a solution whose patches have their edges between springs: the
+/// errors of the adhesion force, the force curve, the dissipated energy and the largest contact
+/// length. The adhesion force is compared at the loads of the scene and at half and twice these
+/// loads. Returns `None` if the further solutions that this needs cannot be computed.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,

@@ -1,7 +1,9 @@
 //! Cost of accuracy of one scene: solutions from coarse to fine within a limited time. The
-//! solutions form a ladder. Each rung has a solution with each edge model and a solution with the
-//! stepwise solver. From rung to rung the number of springs is doubled and the step of the stepwise
-//! solver is halved.
+//! solutions form a ladder. Each rung has two solutions by the exact solver: one with contact
+//! patches that end anywhere between springs, and one with patches of whole springs. As soon as an
+//! exact solution with enough springs is known, each rung also has a solution by the stepwise
+//! solver. From rung to rung the number of springs is doubled and the step of the stepwise solver
+//! is halved.
 
 use super::estimate::own_errors;
 use super::solution::{
@@ -45,7 +47,7 @@ const TRANSFORM_POINTS: usize = 1 << 20;
 /// Progress of a measurement of errors and computing times. [`measure`] passes values of this type
 /// to its argument `watch`.
 pub enum Progress<'a> {
-    /// The setting that is varied, and the value that is tried next as text, such as `512 springs`.
+    /// The setting that is varied and, as text such as `512 springs`, the value that is tried next.
     Trying(Knob, &'a str),
     /// Table of the solutions computed so far. The errors in the table are relative to the finest
     /// of these solutions.
@@ -94,10 +96,10 @@ impl Clock<'_> {
     }
 }
 
-/// Measures the errors and the computing times of a scene with more and more springs. If the scene
-/// has the stepwise [`Solver`], also measures them with smaller and smaller steps. The measurement
-/// ends when the time `budget` is used up. Names of measured files are relative to `folder`.
-/// `watch` receives each setting before it is tried, and the table of the solutions so far.
+/// Measures the errors and the computing times of a scene: with more and more springs for the exact
+/// solver, and with smaller and smaller steps for the stepwise [`Solver`]. The measurement ends
+/// when the time `budget` is used up. Names of measured files are relative to `folder`. `watch`
+/// receives each setting before it is tried, and the table of the solutions so far.
 ///
 /// Returns an error message if the scene cannot be computed, if the budget is too small for two
 /// solutions, or if `stop` returned true.

@@ -2,8 +2,9 @@
 //!
 //! * [`estimate()`](estimate::estimate) estimates the error of one outcome.
 //! * [`choose()`](choice::choose) finds the number of springs for a tolerance.
-//! * [`measure()`](ladder::measure) solves a scene from coarse to fine, with both edge models and
-//!   with the stepwise solver, and compares errors with times.
+//! * [`measure()`](ladder::measure) solves a scene from coarse to fine and compares errors with
+//!   times. It uses the exact solver, with contact patches that end anywhere between springs and
+//!   with patches of whole springs, and the stepwise solver.
 //!
 //! Errors are relative to a [`CostReference`](table::CostReference). If the scene has a closed
 //! form, the reference is the adhesion force by this formula. Otherwise it is the finest solution

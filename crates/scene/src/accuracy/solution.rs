@@ -18,8 +18,9 @@ pub(super) const FEWEST: u64 = 16;
 /// loads.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of the [`crate::accuracy::table::CostTable::QUANTITIES`], in
-/// their order. `None` if a quantity is missing.
+/// Relative errors or differences of the adhesion force, the force curve, the dissipated energy and
+/// the largest contact length ([`crate::accuracy::table::CostTable::QUANTITIES`]). `None` for a
+/// missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Forces, energy, contact length and force curve of one solution. A value of zero is stored as
@@ -28,10 +29,12 @@ pub(super) type Errors = [Option<f64>; 4];
 pub(super) struct Solution {
     pub points: u64,
     pub adhesion_force: Option<f64>,
-    /// Adhesion force in closed form in N, if the scene has one.
+    /// Adhesion force in N by an exact formula (closed form); `None` if the scene has no such
+    /// formula.
     pub closed_form: Option<f64>,
     /// Adhesion forces in N with all target forces and indentations of the scene halved, and with
-    /// all of them doubled. Empty if these forces were not computed.
+    /// all of them doubled. An element is `None` without a tensile force. The list is empty if
+    /// these forces were not computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -69,8 +72,8 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference. If the scene has an adhesion force in closed form,
-    /// this force replaces the computed one.
+    /// Returns a copy of this solution to which the errors of other solutions are relative. If the
+    /// scene has an adhesion force in closed form, this force replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         let mut reference = self.clone();
         if self.closed_form.is_some() {
@@ -81,8 +84,9 @@ impl Solution {
     }
 
     /// Returns the relative differences of this solution from a reference. The difference of the
-    /// adhesion force is the largest one among all loads at which both solutions have a force. An
-    /// error that changes its sign between two loads therefore does not seem small by chance.
+    /// adhesion force is the largest one among all loads at which both solutions have an adhesion
+    /// force. An error that changes its sign between two loads therefore does not seem small by
+    /// chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
             self.error_of_adhesion_force(reference),
@@ -123,7 +127,7 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
-    /// Adhesion force of a scene with a tensile force.
+    /// Adhesion force. Its error is used for a scene whose loading has a tensile force.
     AdhesionForce,
     /// Force curve of a scene without a tensile force.
     ///
@@ -134,7 +138,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// Returns `adhesion force` or `force curve`.
+    /// Returns the name of this quantity for users: `adhesion force` or `force curve`.
     pub fn name(self) -> &'static str {
         match self {
             Target::AdhesionForce => "adhesion force",
@@ -162,7 +166,9 @@ impl Target {
         })
     }
 
-    /// Returns the relative difference of this quantity between a solution and a reference.
+    /// Returns the relative difference of this quantity, adhesion force or force curve, between a
+    /// solution and a reference. Returns `None` if the difference is unknown, for example because a
+    /// solution has no adhesion force.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
         match self {
             Target::AdhesionForce => solution.error_of_adhesion_force(reference),

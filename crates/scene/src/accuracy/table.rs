@@ -13,24 +13,24 @@ pub(super) const REFINEMENTS: usize = 2;
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// Setting that is varied in a [`CostTable`]. It is the number of springs, separately for each
-/// value of [`Edges`], or the step of the stepwise [`Solver`].
+/// Setting that is varied in the rows of a [`CostTable`]: the number of springs, with one of the
+/// two kinds of [`Edges`], or the step of the stepwise [`Solver`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N. The edge of a contact patch may lie anywhere between two springs
-    /// ([`Edges::SubCell`]).
+    /// Number of springs N of the exact solver. The edge of a contact patch may lie anywhere
+    /// between two springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N. Contact patches consist of whole springs, as in Popov and Filippov
-    /// (2012) ([`Edges::Grid`]).
+    /// Number of springs N of the exact solver. Contact patches consist of whole springs, as in
+    /// Popov and Filippov (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
 }
 
 impl Knob {
-    /// All settings, in the order in which [`CostTable::rows`] has them.
+    /// All settings that can be varied, in the order in which [`CostTable::rows`] has them.
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
     /// Returns the name of the setting for users, such as `whole springs N`.
@@ -46,9 +46,9 @@ impl Knob {
 /// Computing times of a scene, from several computations with the same setting.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
-    /// Shortest time in s.
+    /// Shortest of the measured computing times, in s.
     pub minimum: f64,
-    /// Median time in s.
+    /// Median of the measured computing times, in s.
     pub median: f64,
     /// Number of timed computations.
     pub runs: usize,
@@ -98,7 +98,8 @@ pub struct Row {
     /// Shortest time of `seconds` divided by the time of one Fourier transform
     /// ([`CostTable::transform_seconds`]); `None` if no computation was timed.
     pub transforms: Option<f64>,
-    /// Relative errors of the [`CostTable::QUANTITIES`], in their order; `None` for a quantity
+    /// Relative errors of the adhesion force, the force curve, the dissipated energy and the
+    /// largest contact length, in this order ([`CostTable::QUANTITIES`]). `None` for a quantity
     /// whose error is unknown.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
@@ -117,8 +118,9 @@ pub struct CostReference {
     pub adhesion_force: Option<f64>,
     /// True if `adhesion_force` was computed by an exact formula.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, in the order of
-    /// [`CostTable::QUANTITIES`]. `None` for a quantity whose error is unknown.
+    /// Estimated relative errors of the reference itself: of the adhesion force, the force curve,
+    /// the dissipated energy and the largest contact length ([`CostTable::QUANTITIES`]). `None` for
+    /// a quantity whose error is unknown.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
@@ -142,8 +144,8 @@ pub struct CostTable {
     pub transform_seconds: f64,
     /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
-    /// Rows for all varied settings, one [`Knob`] after the other. The rows of one [`Knob`] are in
-    /// the order from coarse to fine.
+    /// Rows of the table. All rows in which the same setting ([`Knob`]) is varied follow each
+    /// other, from coarse to fine.
     pub rows: Vec<Row>,
     /// Values of settings that were not computed because the time or the memory was not sufficient,
     /// as text such as `512 springs`.
@@ -170,7 +172,7 @@ impl CostTable {
     }
 
     /// Returns the main error of a row: the error of the adhesion force. Without a tensile force,
-    /// the main error is that of the force curve.
+    /// the main error is that of the force curve. Returns `None` if this error is unknown.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() {
@@ -180,10 +182,12 @@ impl CostTable {
         }
     }
 
-    /// Returns true if the table states the largest of three errors of the adhesion force: at half,
-    /// once and twice the loads of `scene`. This holds for each row in which the number of springs
-    /// is varied. `scene` is the scene of this table. Returns false if the error is that at the
-    /// loads of the scene alone, which is so in three cases:
+    /// Returns true if each error of the adhesion force in this table is the largest of three
+    /// errors: at half the loads, at the loads, and at twice the loads of `scene`. Only rows in
+    /// which the number of springs is varied have such errors. `scene` is the scene of this table.
+    ///
+    /// Returns false if the errors are those at the loads of `scene` alone. There are three such
+    /// cases:
     ///
     /// * an exact formula gives the adhesion force, which holds at any load;
     /// * there is no adhesion force;
@@ -193,7 +197,7 @@ impl CostTable {
     }
 
     /// Returns the shortest computing time of a row in s, and the [`main_error`](Self::main_error)
-    /// of the row. Returns `None` unless both are known, positive and finite.
+    /// of the row. Returns `None` unless the time and the error are known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let seconds = row.seconds?.minimum;
         let figure = self.main_error(row)?;
@@ -201,19 +205,20 @@ impl CostTable {
         is_shown.then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting from which on the errors are small: the [main
-    /// errors](Self::main_error) of this row and of all finer rows are at most `bound`. Returns
-    /// `None` if there is no such row with at least two finer rows.
+    /// Returns the first row, from coarse to fine, from which on the errors are small. The setting
+    /// `knob` is varied in this row. The [main errors](Self::main_error) of this row and of all
+    /// finer rows are at most `bound`. Returns `None` if there is no such row with at least two
+    /// finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<&Row> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         Some(rows[first_within(errors, bound)?])
     }
 
-    /// Returns the computing time in s and the main error of a scene with the settings `numerics`.
-    /// Both are interpolated between two rows of the table. Returns `None` if the number of springs
-    /// or the step is outside the range of the rows. Also returns `None` if the rows of the
-    /// stepwise solver have another number of springs.
+    /// Returns the computing time in s and the relative main error of a scene with the settings
+    /// `numerics`. Both numbers are interpolated between two rows of the table. Returns `None` if
+    /// the number of springs or the step is outside the range of the rows. Also returns `None` if
+    /// the rows of the stepwise solver have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),

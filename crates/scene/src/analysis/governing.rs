@@ -13,8 +13,8 @@ use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and
-/// e_el/γ.
+/// Parameters that govern the contact of a scene: effective modulus, work of adhesion, roughness,
+/// and the two parameters κ and e_el/γ that compare the roughness with the adhesion.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -40,7 +40,8 @@ pub struct Governing {
     /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth
     /// profile.
     pub amplitude: Option<Amplitude>,
-    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None`
+    /// Roughness parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with the rms
+    /// height h, the rms gradient ⟨∇z⟩, the effective modulus E* and the work of adhesion γ. `None`
     /// without roughness or adhesion.
     pub kappa: Option<f64>,
     /// Ratio e_el/γ. e_el is the elastic energy per area that flattens the roughness, and γ the
@@ -53,9 +54,10 @@ impl Governing {
     /// Below this number the model overestimates the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
-    /// Derives the parameters of a scene. `unit` is needed for a self-affine roughness: the
-    /// [`Amplitude`] of its profile, scaled to an rms height of 1 m. `measured` is needed for a
-    /// measured roughness: the amplitude of the surface.
+    /// Derives the governing parameters of a scene. `unit` is the [`Amplitude`] of a self-affine
+    /// profile after scaling to an rms height of 1 m; it is needed only for a self-affine
+    /// roughness. `measured` is the amplitude of a measured surface; it is needed only for a
+    /// measured roughness.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         // If the scene states κ, γ = h⟨∇z⟩E*/κ². If it states e_el/γ, γ follows from e_el = E* h²
         // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
@@ -68,7 +70,8 @@ impl Governing {
         .with_adhesion(scene.adhesion)
     }
 
-    /// Returns the parameters for the same profile and modulus with another adhesion.
+    /// Returns the governing parameters of a contact with the same profile and modulus but another
+    /// adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let Some(adhesion) = adhesion else {
             return Governing {
@@ -101,8 +104,9 @@ impl Governing {
         value_of(parameter, self.energy(parameter)?, self.work_of(adhesion)?)
     }
 
-    /// Returns the work of adhesion of `adhesion` on this profile in J/m². Returns `None` if the
-    /// adhesion is stated by κ or e_el/γ and the profile is smooth.
+    /// Returns the work of adhesion in J/m² that `adhesion` means on this profile. It is the stated
+    /// work, or the work that follows from the stated κ or e_el/γ. Returns `None` if κ or e_el/γ is
+    /// stated and the profile is smooth.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -110,14 +114,16 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² for which a parameter, κ or e_el/γ, has the value
-    /// `value`. Returns `None` without roughness.
+    /// Returns the work of adhesion in J/m² for which a parameter has the value `value`. The
+    /// parameter is the roughness parameter κ, or the ratio e_el/γ of elastic energy to work of
+    /// adhesion. Returns `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of a parameter, κ or e_el/γ, for this contact. Returns `None` without
-    /// roughness or adhesion.
+    /// Returns the value of a parameter for this contact: of the roughness parameter κ, or of the
+    /// ratio e_el/γ of elastic energy to work of adhesion. Returns `None` without roughness or
+    /// adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -132,8 +138,9 @@ impl Governing {
     }
 
     /// Returns the energy per area in J/m² that a parameter compares with the work of adhesion γ.
-    /// For κ the energy is h⟨∇z⟩E*, since κ² = h⟨∇z⟩E*/γ. For e_el/γ it is e_el. Returns `None`
-    /// without roughness.
+    /// For κ it is h⟨∇z⟩E* (rms height times rms gradient times effective modulus), since κ² =
+    /// h⟨∇z⟩E*/γ. For e_el/γ it is the elastic energy e_el that flattens the roughness. Returns
+    /// `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
             .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
@@ -246,12 +253,13 @@ fn tabor_number(
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are steep: its equivalent profile does not rise everywhere from the
-/// axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts
-/// (JKR).
+/// Steep waves of a wavy sphere. Waves are steep if the equivalent profile of the sphere does not
+/// rise everywhere from the axis outwards. With steep waves, the rule of Hess differs from the
+/// theory of Johnson, Kendall and Roberts (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
-    /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
+    /// Ratio λ²/(AR), with the wavelength λ and the amplitude A of the waves and the radius R of
+    /// the sphere.
     pub ratio: f64,
     /// Factor by which the waves raise the pull-off force of the sphere in the theory of JKR. It is
     /// (1 + A√(πE*/2λγ))², with the effective modulus E* and the work of adhesion γ. The formula
@@ -260,8 +268,9 @@ pub struct SteepWaves {
 }
 
 impl SteepWaves {
-    /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere from the axis
-    /// outwards.
+    /// Smallest ratio λ²/(AR) for which the equivalent profile of a wavy sphere rises everywhere
+    /// from the axis outwards. λ is the wavelength and A the amplitude of the waves, and R the
+    /// radius of the sphere.
     pub const LEAST_RATIO: f64 = Warning::LEAST_WAVE_RATIO;
 
     /// Returns the ratio and the factor of a scene whose wavy sphere has steep waves; `None` if the

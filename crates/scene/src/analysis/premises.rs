@@ -43,7 +43,9 @@ pub(crate) struct MeasuredFacts {
     /// Share of long waves, which are longer than a quarter of the scan, in the mean squared height
     /// of the profile.
     pub long_wave_share: f64,
-    /// How many of the longest waves fit on the profile; `None` if the profile is not random.
+    /// Smallest number of periods over the profile such that the waves with at most as many periods
+    /// have together at least a tenth of its mean squared height. `None` if the profile is not
+    /// random.
     pub long_waves: Option<f64>,
 }
 
@@ -144,7 +146,8 @@ impl Scene {
         Warning::of_reach(&file, table.reach(), self.length)
     }
 
-    /// Returns a warning if the steps of the stepwise solver are too coarse for a loading.
+    /// Returns a warning if the steps of the stepwise solver are too coarse for a loading;
+    /// otherwise `None`.
     ///
     /// A force on unloading may jump past the force at which a stage should end, however short the
     /// steps are. Only stages of loading therefore show by their forces that the steps are coarse.
@@ -180,7 +183,7 @@ impl Scene {
     }
 
     /// Returns a warning if the form of the body is steep at the edge of the largest contact of a
-    /// loading. Waves of the form are left out, because they count as roughness.
+    /// loading; otherwise `None`. Waves of the form are left out, because they count as roughness.
     pub(crate) fn steep_form(&self, history: &History) -> Option<Warning> {
         let form = self.form.as_ref()?.without_waves();
         let mut contact_length = 0.0_f64;

@@ -4,9 +4,9 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)). It states how strongly
-/// the adhesion force depends on the preload. [`Regime::of_loading`] has the conditions of each
-/// regime.
+/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)). The regime states how
+/// strongly the adhesion force depends on the preload. [`Regime::of_loading`] has the conditions of
+/// each regime.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -39,8 +39,8 @@ impl Regime {
     /// [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero.
-    /// See [`Regime::of_loading`].
+    /// Bound for adhesion forces that count as zero, as a share of the adhesion force of the smooth
+    /// body: a smaller adhesion force counts as zero. See [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
     // The value of `VANISHING_SHARE` has little effect on the limit of the regime. When κ grows by
     // a factor of about three, the adhesion force without a preload falls from one half to one
@@ -60,10 +60,10 @@ impl Regime {
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile
     /// force.
     ///
-    /// `turned` is the adhesion force without a preload in N: F_a(d=0) of a loop that turns at
-    /// first touch, or F_a(F=0) of a loop that turns at zero force. `smooth` is the adhesion force
-    /// in N of the same body without roughness. Both are `None` for a contact without adhesion,
-    /// which is non-adhesive.
+    /// `turned` is the adhesion force in N without a preload: F_a(d=0) after a loading that turns
+    /// at first touch, or F_a(F=0) after a loading that turns at zero force. `smooth` is the
+    /// adhesion force in N of the same body without roughness. `turned` and `smooth` are `None` for
+    /// a contact without adhesion, which is non-adhesive.
     ///
     /// F_a is the adhesion force and F_n the preload of this loading. The conditions are, in this
     /// order:
@@ -107,9 +107,10 @@ impl Regime {
         self.into()
     }
 
-    /// Returns a text with two regimes of the same body, such as
-    /// `pressure-sensitive (d=0), insensitive (F=0)`. The first regime, `self`, follows from
-    /// F_a(d=0). The second one, `after_zero_force`, follows from F_a(F=0).
+    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0),
+    /// insensitive (F=0)`. `self` follows from the adhesion force after a loading that turns at
+    /// first touch (d = 0). `after_zero_force` follows from the adhesion force after a loading that
+    /// turns at zero force (F = 0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

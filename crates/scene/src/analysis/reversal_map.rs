@@ -8,41 +8,43 @@ use std::ops::RangeInclusive;
 /// begins. The forces are known at equally spaced indentations, the grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Grid points: ascending, equally spaced indentations in m. The grid points from the index
-    /// `below` on are also the turning points.
+    /// Equally spaced indentations in m, in ascending order, at which forces are known (grid
+    /// points). The grid points from the index `below` on are also turning points, at which a
+    /// loading ends.
     pub points: Vec<f64>,
-    /// Number of grid points below the first turning point.
+    /// Number of grid points, the indentations in `points`, that are below the first turning point.
     pub below: usize,
-    /// One unloading for each turning point. Its forces are known at the grid points up to the
-    /// turning point.
+    /// An unloading for each turning point. The forces of an unloading are known at all
+    /// indentations in `points` up to its turning point.
     pub reversals: Vec<Reversal>,
 }
 
 impl ReversalMap {
-    /// Allowed numbers of turning points.
+    /// Allowed numbers of turning points, the indentations at which a loading ends.
     pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 
-    /// Returns the indentations of the turning points in m.
+    /// Returns the turning points: the indentations in m at which a loading ends.
     pub fn turns(&self) -> &[f64] {
         &self.points[self.below..]
     }
 
-    /// Returns the distance in m between neighbouring grid points.
+    /// Returns the distance in m between neighbouring grid points, the indentations in `points`.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
     /// Returns the force in N on the unloading from the turning point with the index `turn`, at the
-    /// grid point with the index `point`. Returns `None` if the grid point is above the turning
-    /// point.
+    /// indentation with the index `point` in `points`. Returns `None` if this indentation is above
+    /// the turning point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
     /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at
     /// the turning point d_r, which has the index `turn`. F(d_r, d) is the force on the unloading
-    /// from d_r at the grid point d, which has the index `point`. Returns `None` if d is above d_r.
+    /// from d_r at the indentation d, which has the index `point` in `points`. Returns `None` if d
+    /// is above d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

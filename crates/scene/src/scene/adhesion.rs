@@ -33,7 +33,7 @@ pub enum RoughnessParameter {
 }
 
 impl RoughnessParameter {
-    /// Both parameters, κ and e_el/γ.
+    /// Both parameters: κ, and the ratio e_el/γ of elastic energy to work of adhesion.
     pub const ALL: [RoughnessParameter; 2] = [
         RoughnessParameter::Kappa,
         RoughnessParameter::ElasticEnergyRatio,
@@ -68,9 +68,11 @@ impl RoughnessParameter {
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of an energy per area to the work of adhesion γ, if this parameter has the
-    /// value `value`. For κ the energy is h⟨∇z⟩E* and the ratio is κ². For e_el/γ the energy is
-    /// e_el and the ratio is the value itself.
+    /// Returns the energy per area that this parameter compares with the work of adhesion γ,
+    /// divided by γ. `value` is the value of this parameter. For κ the energy per area is h⟨∇z⟩E*
+    /// (rms height times rms gradient times effective modulus), so that the result is κ². For
+    /// e_el/γ it is the elastic energy e_el that flattens the roughness, so that the result is
+    /// `value` itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -78,8 +80,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter that belongs to an [energy
-    /// ratio](Self::energy_over_work).
+    /// Returns the value of this parameter that belongs to `ratio`, an energy per area divided by
+    /// the work of adhesion. This function is the inverse of [`Self::energy_over_work`].
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -93,8 +95,8 @@ impl RoughnessParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
-    /// Strength of the adhesion, given by a work of adhesion or by one of the parameters κ and
-    /// e_el/γ.
+    /// Strength of the adhesion: a work of adhesion γ, or a parameter that compares γ with the
+    /// roughness ([`RoughnessParameter`]).
     pub strength: Strength,
     /// Range z₀ of the attraction in m; `None` means 0.3 nm. Only the Tabor number depends on z₀.
     pub range: Option<f64>,
@@ -104,8 +106,8 @@ pub struct Adhesion {
 /// which the work follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion. Less energy may be gained where the interface closes than is spent where
-    /// it opens.
+    /// Work of adhesion. The energy that is gained where the interface closes may be smaller than
+    /// the energy that is spent where the interface opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
@@ -113,8 +115,8 @@ pub enum Strength {
         /// `None` if γ₁ equals `opening`.
         closing: Option<f64>,
     },
-    /// One of the parameters κ and e_el/γ with its value. The work of adhesion follows from this
-    /// value.
+    /// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
+    /// adhesion. The work of adhesion follows from this value.
     Parameter(RoughnessParameter, f64),
 }
 
@@ -143,7 +145,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns an adhesion whose strength is given by this value of κ or e_el/γ.
+    /// Returns an adhesion whose strength is given by the value of a parameter: the roughness
+    /// parameter κ, or the ratio e_el/γ of elastic energy to work of adhesion.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, RoughnessParameter};
@@ -161,8 +164,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given
-    /// instead.
+    /// Returns the work of adhesion γ on opening in J/m² that the scene states. Returns `None` if
+    /// the scene instead states a parameter from which γ follows ([`RoughnessParameter`]).
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength {
             Some(opening)
@@ -180,13 +183,14 @@ impl Adhesion {
         }
     }
 
-    /// Returns true if the scene states a work of adhesion on closing.
+    /// Returns true if the scene states a work of adhesion on closing besides the work on opening.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }
 
-    /// Returns the given parameter, κ or e_el/γ, and its value; `None` if a work of adhesion is
-    /// given instead.
+    /// Returns the parameter that the scene states, and its value: the roughness parameter κ, or
+    /// the ratio e_el/γ of elastic energy to work of adhesion. Returns `None` if the scene states a
+    /// work of adhesion instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))
@@ -206,7 +210,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns this adhesion with its strength given by this value of κ or e_el/γ.
+    /// Returns this adhesion with its strength given by the value of a parameter: the roughness
+    /// parameter κ, or the ratio e_el/γ of elastic energy to work of adhesion.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion {
             strength: Strength::Parameter(parameter, value),

@@ -13,11 +13,11 @@ use std::fmt;
 /// A field with different values in two scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Symbol of the field, or its name in words if it has no symbol.
+    /// Symbol of the field that differs, or its name in words if it has no symbol.
     pub name: String,
-    /// Value in the first scene as text, with its unit.
+    /// Value of the field in the first of the two scenes, as text with its unit.
     pub from: String,
-    /// Value in the second scene as text, with its unit.
+    /// Value of the field in the second of the two scenes, as text with its unit.
     pub to: String,
 }
 

@@ -93,8 +93,9 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene without the parts that [`Scene::strip`] removes, because they do not
-    /// affect forces and energies.
+    /// Returns this scene without title, notes and [`Observer`]s, and with only two points of the
+    /// force curve for each loading stage ([`Scene::strip`]). Forces and energies do not depend on
+    /// these parts.
     pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip();

@@ -4,17 +4,18 @@
 use super::text::read_ron;
 use serde::de::DeserializeOwned;
 
-/// Default of `roughness.seed` of a measured surface.
+/// Default, in RON, of the field `roughness.seed` of a measured surface.
 pub(super) const MEASURED_SEED: &str = "1";
-/// Default of `loading`.
+/// Default, in RON, of the field `loading`.
 pub(super) const LOADING: &str = "[ToZeroForce, ToSeparation]";
-/// Default of `numerics.points`.
+/// Default, in RON, of the field `numerics.points`, the number of springs.
 pub(super) const POINTS: &str = "16384";
-/// Default of `numerics.solver`.
+/// Default, in RON, of the field `numerics.solver`.
 pub(super) const SOLVER: &str = "Exact";
-/// Default of `numerics.edges` with the exact solver.
+/// Default, in RON, of the field `numerics.edges` if the scene has the exact solver.
 pub(super) const EDGES: &str = "SubCell";
-/// Default of `numerics.samples`.
+/// Default, in RON, of the field `numerics.samples`, the number of points of the force curve on
+/// each loading stage.
 pub(super) const SAMPLES: &str = "512";
 
 /// Converts the RON text of a default to a value of its type.

@@ -125,7 +125,9 @@ impl Document {
         })
     }
 
-    /// Creates a document for a scene that has no text. The function [`to_ron`] writes the text.
+    /// Creates a document from a scene that a program has made and that therefore has no text. The
+    /// document gets the text that [`to_ron`] writes. `name` is the name with which error messages
+    /// begin.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -134,7 +136,8 @@ impl Document {
         Document::parse(&to_ron(scene), name)
     }
 
-    /// Returns this document with one field changed, as [`Document::set_all`] does.
+    /// Returns this document with one field changed. `path` is the path of the field, such as
+    /// `length`. `value` is the new value in RON, or a number with a unit, such as `2 mm`.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set_all`].
@@ -208,8 +211,8 @@ impl Document {
         &self.text
     }
 
-    /// Returns the loading stages of the scene. Each stage has its index in the loading, so that
-    /// [`Document::with_stages`] can take the list after changes.
+    /// Returns the loading stages of the scene, each with its index in the loading. The list can be
+    /// changed and passed to [`Document::with_stages`], where a new stage has the index `None`.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene
             .loading
@@ -239,7 +242,7 @@ impl Document {
         Ok(new.with_true_words())
     }
 
-    /// Returns the present text, with all comments.
+    /// Returns the present text of the scene, with all comments.
     pub fn text(&self) -> &str {
         self.text.as_str()
     }
@@ -263,8 +266,9 @@ impl Document {
         (!default.is_empty()).then_some(default)
     }
 
-    /// Returns the fields that this scene has or may have. Fields that need another choice are left
-    /// out, such as the angle of a cone in a scene with a sphere.
+    /// Returns the fields that this scene has or may have. A field is left out if it belongs to a
+    /// choice that the scene does not have: the angle of a cone, for example, in a scene with a
+    /// sphere.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -302,7 +306,8 @@ impl Document {
         &self.overrides
     }
 
-    /// Stores the lines above the scene, if the document was read from a table of results.
+    /// Returns this document with `head`, the lines above the scene in the table of results from
+    /// which the document was read.
     pub(super) fn of_table(self, head: &str) -> Document {
         Document {
             table_head: head.to_string(),
@@ -310,13 +315,13 @@ impl Document {
         }
     }
 
-    /// Returns the lines before the scene in a CSV table of results from which the document was
+    /// Returns the lines above the scene in the CSV table of results from which the document was
     /// read. If it was not read from such a table, returns an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Returns the number of comments in the text.
+    /// Returns the number of comments in the text of the scene.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
@@ -327,8 +332,9 @@ impl Document {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document as part of a resumed session: with its text when it was first opened
-    /// ([`Self::opened`]), and with the changes since then ([`Self::overrides`]).
+    /// Returns this document with the history of an earlier session of the program. `opened` is the
+    /// text with which that session began. `overrides` are the changes of fields since then, each
+    /// with the path of the field and its new value.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document {
             opened,

@@ -9,7 +9,8 @@ use super::text::index::Text;
 use std::collections::BTreeSet;
 
 /// Returns the field at a path. If several choices, such as the forms sphere and punch, have a
-/// field at this path, the choice in the text decides.
+/// field at this path, it is the field of the choice in the text. Returns `None` if there is no
+/// field at this path.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);

@@ -33,7 +33,7 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// All optional parts, in the order of their fields in a scene file.
+    /// All optional parts of a scene, in the order of their fields in a scene file.
     pub const ALL: [Effect; 4] = [
         Effect::Form,
         Effect::Roughness,
@@ -51,8 +51,8 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field of this optional part. It is `loading` for unloading. For the
-    /// other parts it is the [`name`](Self::name).
+    /// Returns the path in a scene of the field of this optional part: `loading` for the unloading,
+    /// and the [`name`](Self::name) for any other part.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self {
             "loading"

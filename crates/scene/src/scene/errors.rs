@@ -66,11 +66,12 @@ pub struct SceneError {
     /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage.
     /// Empty if the error does not concern a single field.
     pub field: String,
-    /// Invalid value as it was written; empty if there is none.
+    /// Invalid value as text, as it was written; empty if a value is missing.
     pub value: String,
     /// Allowed values of the field in words; empty if `message` states them.
     pub allowed: String,
-    /// Reason of the error or, if `allowed` is the reason, the name of the field in words.
+    /// Reason of the error in words. If the only reason is that the value is not among the values
+    /// in `allowed`, this is the name of the field instead.
     pub message: String,
 }
 
@@ -100,13 +101,14 @@ impl SceneError {
         }
     }
 
-    /// Returns the same error with another origin.
+    /// Returns the same error with another origin: a file, changes of fields, or a program.
     pub(super) fn at(self, origin: Origin) -> SceneError {
         SceneError { origin, ..self }
     }
 
-    /// Returns field, value, allowed values and reason as text, without the origin:
-    /// `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
+    /// Returns the error as text without its origin, such as `roughness.hurst = 1.4: allowed: above
+    /// 0 and below 1 (Hurst exponent)`. The text has the field, the value, the allowed values and
+    /// the reason.
     pub fn what(&self) -> String {
         let field = shown(&self.field);
         let value = shown(&self.value);
@@ -138,8 +140,9 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` with the errors in the list, if there are any. The function `origin` gives
-    /// each error its origin. A long list is shortened.
+    /// Returns `Err` with the errors in the list, if there are any. The function `origin` returns
+    /// where the value of an error comes from, such as a file. Of a long list only the first
+    /// [`MOST_LISTED`] errors remain, and a last error states the number of the others.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -194,7 +197,8 @@ pub enum NumberError {
     /// The scene has no numerical value at this path and cannot have one.
     #[error("the scene has no such number")]
     Missing,
-    /// The new value contradicts another value of the scene. The text names both fields.
+    /// The new value contradicts another value of the scene. The string is a text for users that
+    /// names both fields.
     #[error("{0}")]
     Contradiction(String),
 }

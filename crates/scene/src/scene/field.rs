@@ -155,7 +155,7 @@ impl Field {
         Field { unit, ..self }
     }
 
-    /// Returns the allowed values in words, with the unit, such as `from 1 to 1e13 Pa`.
+    /// Returns the allowed values of this field in words, with the unit: `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {
             "" | "1" => self.range.to_string(),
@@ -163,9 +163,9 @@ impl Field {
         }
     }
 
-    /// Formats the value of this field with its unit, such as `100 µm, 200 nm`. `written` is the
-    /// value in RON, a number or a pair of wavelengths. `format` formats each number with its unit.
-    /// Returns `None` for any other value.
+    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is the
+    /// value in RON: a number or a pair of wavelengths. `format` formats each number with its unit.
+    /// Returns `None` if `written` is neither a number nor a pair of wavelengths.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         match self.range {
             Range::Real(..) => Some(format(written.parse().ok()?, self.unit)),
@@ -179,8 +179,8 @@ impl Field {
         }
     }
 
-    /// Adds the unit of the shown value to a typed number without a unit. For example, `50` becomes
-    /// `50 mJ/m²` if the shown value is `4.356 mJ/m²`.
+    /// Returns the typed number `typed` with a unit. If `typed` has no unit, the unit of the shown
+    /// value `shown` is added: `50` becomes `50 mJ/m²` if the shown value is `4.356 mJ/m²`.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         if let Range::Real(..) = self.range {
             return in_unit(typed, unit_of(shown));
@@ -214,7 +214,7 @@ impl Field {
         }
     }
 
-    /// Returns the last part of the path: `hurst` for `roughness.hurst`.
+    /// Returns the last part of the path of this field: `hurst` for `roughness.hurst`.
     pub fn last(&self) -> &'static str {
         self.path
             .rsplit_once('.')
@@ -234,7 +234,8 @@ pub(super) const FILE_NAME: Range = Range::Text {
     lines: false,
 };
 
-/// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce).
+/// Description of the target value of a loading stage [`ToForce`](asperity_contact::Move::ToForce):
+/// the force in N at which the stage ends.
 pub const LEG_FORCE: Field = row(
     "loading",
     Place::NOWHERE.of("ToForce"),
@@ -245,8 +246,9 @@ pub const LEG_FORCE: Field = row(
     "target: the stage ends where the force first reaches this value; compression is positive",
 );
 
-/// Description of the indentation that ends a loading stage
-/// [`ToIndentation`](asperity_contact::Move::ToIndentation).
+/// Description of the target value of a loading stage
+/// [`ToIndentation`](asperity_contact::Move::ToIndentation): the indentation in m at which the
+/// stage ends.
 pub const LEG_INDENTATION: Field = row(
     "loading",
     Place::NOWHERE.of("ToIndentation"),
@@ -260,8 +262,9 @@ pub const LEG_INDENTATION: Field = row(
 pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// Description of the displacement that ends a loading stage
-/// [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
+/// Description of the target value of a loading stage
+/// [`ToDisplacement`](asperity_contact::Move::ToDisplacement): the displacement of the instrument
+/// in m at which the stage ends.
 pub const LEG_DISPLACEMENT: Field = row(
     "loading",
     Place::NOWHERE.of("ToDisplacement"),

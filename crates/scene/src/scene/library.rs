@@ -93,8 +93,8 @@ pub enum Source {
     Working,
 }
 
-/// Item of the list that [`scenes`] returns. It is a scene, or a file whose name ends in `.ron` but
-/// which is no valid scene.
+/// Item of the list that [`scenes`] returns. The item is a scene, or a file whose name ends in
+/// `.ron` but that has no valid scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the scene. The name of a file in the working folder ends in `.ron`. Other names have
@@ -110,15 +110,16 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes, which need not exist. It is `asperity/presets` in
-/// `$XDG_CONFIG_HOME` or in `~/.config`. On Windows it is in the folder for roaming application
-/// data. Returns `None` if the user has no home folder.
+/// Returns the folder of the user's own scenes, which need not exist. The folder is
+/// `asperity/presets` in `$XDG_CONFIG_HOME` or in `~/.config`. On Windows `asperity/presets` is in
+/// the folder for roaming application data. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     Some(strategy.config_dir().join("asperity").join("presets"))
 }
 
-/// Returns the path of the file with the scene `name` in the user's own folder, if the file exists.
+/// Returns the path of the file with the scene `name` in the user's own folder `own`; `None` if
+/// this file does not exist.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
     let is_name =

@@ -25,9 +25,9 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
-    /// True if the heights of the file are those of an equivalent line and are the profile,
-    /// unchanged; false if random profiles get the measured spectrum. A measured profile is a cut
-    /// through the surface, not an equivalent line.
+    /// True if the heights of the file are used, unchanged, as the profile, because they already
+    /// are the heights of an equivalent line. False if random profiles get the spectrum of the
+    /// measured surface. A measured profile is a cut through the surface, not an equivalent line.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub as_line: bool,
@@ -67,7 +67,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Name of the surface or measurement to read from a file with several of them.
+    /// Name of the surface or measurement to read from a file that contains several surfaces or
+    /// measurements.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,

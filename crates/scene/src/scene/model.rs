@@ -72,13 +72,14 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E in Pa.
+    /// Young's modulus E in Pa; `None` if the effective modulus is stated instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio ν.
+    /// Poisson's ratio ν; `None` if the effective modulus is stated instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
-    /// Effective modulus E* in Pa, stated instead of E and ν.
+    /// Effective modulus E* in Pa; `None` if Young's modulus and Poisson's ratio are stated
+    /// instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
@@ -154,8 +155,9 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness from a file: either random profiles with the spectrum of a measured surface, or
-    /// the heights of the file as an equivalent line.
+    /// Roughness from a file. Either the file has a measured surface, and random profiles get the
+    /// spectrum of this surface. Or the file has heights that are used, unchanged, as the heights
+    /// of the profile.
     Measured(Measured),
 }
 
@@ -197,7 +199,7 @@ impl Scene {
     }
 
     /// Returns the indices of the springs under the body. If the body is a punch narrower than the
-    /// profile, these are the springs under its flat end. Otherwise they are all springs.
+    /// profile, these are the springs under its flat end. Otherwise all springs are under the body.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form
@@ -205,8 +207,8 @@ impl Scene {
             .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene. Returns `None`
-    /// for any other roughness.
+    /// Returns the spectrum of the self-affine roughness of this scene, for a profile of the length
+    /// of the scene. Returns `None` for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine {
             hurst,
@@ -235,7 +237,8 @@ impl Scene {
         })
     }
 
-    /// Returns the measured surface, if the scene has one.
+    /// Returns the description of the measured surface of the scene; `None` if its roughness is not
+    /// measured.
     pub fn measured(&self) -> Option<&Measured> {
         if let Some(Roughness::Measured(measured)) = &self.roughness {
             Some(measured)
@@ -244,8 +247,8 @@ impl Scene {
         }
     }
 
-    /// Returns true if the heights of the measured file are used, unchanged, as the equivalent
-    /// line.
+    /// Returns true if the scene uses the heights of the measured file, unchanged, as the heights
+    /// of its profile. Returns false if random profiles get the spectrum of the measured surface.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
@@ -268,9 +271,10 @@ impl Scene {
         files
     }
 
-    /// Returns the paths of the measured files in `folder`, for each of the two bodies. The first
-    /// element has all files of the rough body. The second element has the file of the opposite
-    /// body; it is missing if the scene has no such file.
+    /// Returns the paths of the measured files, whose names are relative to `folder`. The first
+    /// element of the list has the paths of all files of the rough body. The second element has the
+    /// path of the file of the opposite body. There is no second element if the scene names no such
+    /// file.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces
@@ -329,8 +333,8 @@ pub struct Numerics {
     /// Solver for the equilibrium of the springs: the exact solver, or the stepwise method of Popov
     /// and Filippov (2012).
     pub solver: Solver,
-    /// Where an edge of a contact patch may lie: anywhere between two springs, or only so that the
-    /// patch consists of whole springs.
+    /// Where an edge of a contact patch may lie: anywhere between two springs, or only where the
+    /// patch then consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,
@@ -397,9 +401,9 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns where the edges of contact patches lie if a scene file does not state it. With the
-    /// exact solver they lie anywhere between springs ([`Edges::SubCell`]). With the stepwise
-    /// solver, patches consist of whole springs ([`Edges::Grid`]).
+    /// Returns the default of [`Numerics::edges`], which states where the edges of contact patches
+    /// lie. With the exact solver they lie anywhere between springs ([`Edges::SubCell`]). With the
+    /// stepwise solver, patches consist of whole springs ([`Edges::Grid`]).
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => read_default(EDGES),

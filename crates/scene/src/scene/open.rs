@@ -78,8 +78,8 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true if a name means a file: it is the path of an existing file, or [`is_path`] is true
-/// for it.
+/// Returns true if `name` means the file of a scene and not a built-in scene: it ends in `.ron`,
+/// contains a path separator or is the path of an existing file.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
@@ -90,8 +90,8 @@ pub fn is_path(name: &str) -> bool {
 }
 
 /// Opens the scene that an argument of the command line names. The argument `-` means standard
-/// input. Any other argument is opened as by [`open`]. A pipe or a device is read to its end, so
-/// the function may wait for another program.
+/// input. Any other argument is the name of a scene or the path of its file, as for [`open`]. A
+/// pipe or a device is read to its end, so that the function may wait for another program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].

@@ -28,9 +28,10 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these choices. Each choice is written in RON, with example values.
+    /// A choice among alternatives, such as the forms of a body. The list has each alternative in
+    /// RON, with example values, such as `Cone(angle: 0.1)`.
     Choice(&'static [&'static str]),
-    /// A list of `least` to `most` elements. Each element is of a kind that `of` has.
+    /// A list of `least` to `most` elements. The kind of an element is one of the kinds in `of`.
     List {
         /// Allowed kinds of elements. Each kind is written in RON, with example values.
         of: &'static [&'static str],
@@ -39,7 +40,8 @@ pub enum Range {
         /// Largest allowed number of elements.
         most: usize,
     },
-    /// The field is a group of further fields, each with its own range.
+    /// A group of further fields, such as the elastic constants. Each of these fields has its own
+    /// range.
     Group,
 }
 
@@ -59,8 +61,8 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if this range allows the real number or the wavelength `value`. Returns false
-    /// for other kinds of ranges. NaN and infinity are never allowed.
+    /// Returns true if `value` is between the bounds of this range of real numbers or wavelengths.
+    /// Returns false for any other kind of range, and for NaN and infinity.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -69,14 +71,15 @@ impl Range {
         }
     }
 
-    /// Returns true if this range allows the integer `value`, or allows it in a pair of integers.
-    /// Returns false for other kinds of ranges.
+    /// Returns true if `value` is between the bounds of this range of integers or of pairs of
+    /// integers. Returns false for any other kind of range.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// Returns the lower and the upper bound of a range of numbers, even if a bound itself is
-    /// excluded. Returns `None` for other ranges.
+    /// Returns the lower and the upper bound of a range of numbers. A bound is returned even if the
+    /// range excludes the bound itself. Returns `None` for a range without numbers or without two
+    /// bounds.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => {

@@ -28,7 +28,7 @@ pub(super) enum Value<'s> {
 }
 
 impl Value<'_> {
-    /// Returns the name of the selected choice.
+    /// Returns the name of the selected choice; `None` if the value is not a choice.
     pub(super) fn choice(&self) -> Option<&'static str> {
         match self {
             Value::Choice(name) => Some(name),
@@ -38,7 +38,7 @@ impl Value<'_> {
 
     /// Returns the numerical value at the path `inside` within this value. The empty path means
     /// this value itself, `0` and `1` mean the two values of a pair, and `2.0` means the target
-    /// value of the third loading stage.
+    /// value of the third loading stage. Returns `None` if there is no number at this path.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
@@ -74,8 +74,8 @@ pub(super) trait Slot {
         false
     }
 
-    /// Returns a slot with this numerical value. Returns `None` if the slot cannot be empty, or if
-    /// its value is not a number.
+    /// Returns a slot with this numerical value, to fill an optional slot that is empty. Returns
+    /// `None` for a kind of slot that is never empty, or whose value is not a number.
     fn of_number(_number: f64) -> Option<Self>
     where
         Self: Sized,
@@ -275,7 +275,8 @@ impl Slot for Numerics {
 /// `place!` makes both functions from one expression.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// Choice to which the field belongs, such as `Cone` for an angle.
+    /// Choice to which the field belongs, such as `Cone` for an angle; `None` for a field that
+    /// every scene has.
     pub(super) choice: Option<&'static str>,
     pub(super) slot: fn(&Scene) -> Option<&dyn Slot>,
     pub(super) slot_mut: fn(&mut Scene) -> Option<&mut dyn Slot>,

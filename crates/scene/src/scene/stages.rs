@@ -9,7 +9,7 @@ use std::mem::discriminant;
 /// Largest number of stages of a loading.
 pub(super) const MOST_STAGES: usize = 100_000;
 
-/// A kind of loading stage. It states what ends the stage, such as a force or first touch.
+/// A kind of loading stage. The kind states what ends the stage, such as a force or first touch.
 #[derive(Debug)]
 pub struct StageKind {
     example: &'static str,

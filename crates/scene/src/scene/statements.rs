@@ -21,13 +21,13 @@ pub(super) fn describes(path: &str) -> bool {
 /// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// Field that has the value.
+    /// Field of the scene to which `value` belongs.
     pub field: &'static Field,
     /// Value of the field with its unit and all its digits.
     pub value: String,
 }
 
-/// Lists the values on which the solution of a scene depends. These are all numbers, and the
+/// Lists the values on which the solution of a scene depends. The list has each number, and those
 /// choices and names that differ from their defaults.
 ///
 /// ```

@@ -15,8 +15,8 @@ const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
     /// Returns this document without an optional part of its scene. If the roughness is removed, a
-    /// work of adhesion replaces κ or e_el/γ, because these parameters need a roughness. If the
-    /// unloading is removed, one loading stage remains.
+    /// work of adhesion replaces a parameter that compares adhesion with the roughness (κ or
+    /// e_el/γ). If the unloading is removed, one loading stage remains.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without this part.

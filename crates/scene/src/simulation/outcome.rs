@@ -20,7 +20,8 @@ pub struct Outcome {
     /// largest gap.
     pub line: LineFacts,
     /// Parameters that govern the contact: effective modulus, work of adhesion, rms height and rms
-    /// gradient of the roughness, κ and e_el/γ.
+    /// gradient of the roughness, and the two parameters κ and e_el/γ that compare the roughness
+    /// with the adhesion.
     pub governing: Governing,
     /// Ideal adhesion force F_a,max in N of a flat face whose length is the length of the profile,
     /// eq. (14) of Popov and Filippov (2012); `None` without adhesion.

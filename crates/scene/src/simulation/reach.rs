@@ -27,11 +27,11 @@ use thiserror::Error;
 pub struct Reach {
     /// Force in N and indentation in m at which the last spring touches.
     pub full_contact: (f64, f64),
-    /// Force of the deepest state in N.
+    /// Largest force in N up to which a loading is computed.
     pub force: f64,
-    /// Indentation of the deepest state in m.
+    /// Largest indentation in m up to which a loading is computed.
     pub indentation: f64,
-    /// Displacement of the instrument in m in the deepest state.
+    /// Largest displacement of the instrument in m up to which a loading is computed.
     pub displacement: f64,
 }
 
@@ -51,7 +51,8 @@ impl Reach {
         }
     }
 
-    /// Returns an error message if a loading stage ends beyond the deepest state; otherwise `None`.
+    /// Returns an error message if the loading stage `stage` ends deeper than loadings are
+    /// computed; otherwise `None`.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
@@ -83,11 +84,12 @@ impl Reach {
     format_quantity(*allowed, unit)
 )]
 pub struct BeyondFullContact {
-    /// Force, indentation or displacement that should end the stage, in `unit`.
+    /// Target value of the stage, in `unit`: the force, indentation or displacement that should end
+    /// the stage.
     pub found: f64,
     /// Force, indentation or displacement at full contact, in `unit`.
     pub full_contact: f64,
-    /// Largest allowed value, in `unit`, rounded down to four digits.
+    /// Largest allowed target value, in `unit`, rounded down to four digits.
     pub allowed: f64,
     /// SI unit of the three values, N or m.
     pub unit: &'static str,

@@ -17,14 +17,16 @@ use asperity_contact::{ContactError, Move, Reversal};
 /// this factor times the number of turning points.
 const MOST_BELOW: usize = 4;
 
-/// Function that receives each unloading and the index of its turning point.
+/// Function that receives each computed unloading, with the index of the loading stage after which
+/// the unloading begins.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Computes unloadings to separation from several turning points, at which a loading ends. Each
-    /// stage in `ends` loads the separated bodies up to one turning point. The stages must be in
-    /// ascending order of the indentation. `see` receives the index of each stage in `ends` and its
-    /// unloading. The unloading has forces at the ascending indentations `points` in m.
+    /// Computes unloadings to separation from several turning points, the indentations at which a
+    /// loading ends. Each stage in `ends` loads the separated bodies up to one turning point. The
+    /// stages must be in ascending order of the indentation. `see` receives the index in `ends` of
+    /// each stage, and the unloading after this stage. The forces of an unloading are computed at
+    /// the indentations `points` in m, which must be ascending.
     ///
     /// # Errors
     /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if

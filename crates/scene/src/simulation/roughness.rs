@@ -48,13 +48,15 @@ pub(super) struct Rough {
     /// the profile.
     pub heights: Vec<f64>,
     /// Rms height, gradient and curvature of the self-affine profile, scaled to an rms height of 1
-    /// m on a length of 1 m.
+    /// m on a length of 1 m; `None` for any other roughness.
     pub unit: Option<Amplitude>,
-    /// Rms height, gradient and curvature of a measured surface.
+    /// Rms height, gradient and curvature of a measured surface; `None` for any other roughness.
     pub measured: Option<Amplitude>,
-    /// First and last mode of a random profile, as numbers of waves on its length.
+    /// First and last mode of a random profile, as numbers of waves on its length; `None` for a
+    /// profile that is not random.
     pub modes: Option<ModeRange>,
-    /// Facts about a measured surface and the profile made from it.
+    /// Facts about a measured surface and the profile made from it; `None` without a measured
+    /// surface.
     pub facts: Option<MeasuredFacts>,
 }
 
@@ -73,10 +75,11 @@ pub(super) struct KeptSpectrum {
 pub(super) struct RoughnessMaker {
     /// Folder to which the names of files in scenes are relative.
     pub folder: PathBuf,
-    /// A measured surface in memory. It is used instead of the files that scenes name.
+    /// A measured surface in memory, which is used instead of the files that scenes name. `None` if
+    /// these files are read.
     pub measured: Option<Arc<MeasuredRoughness>>,
-    /// Spectrum of the measured files that were read last. It needs little memory and does not
-    /// depend on the seed.
+    /// Spectrum of the measured files that were read last; `None` if no files have been read. It
+    /// needs little memory and does not depend on the seed.
     pub equivalent: Option<KeptSpectrum>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.

@@ -59,7 +59,8 @@ pub struct Simulation {
     roughness: Option<Rough>,
     line: Option<KeptLine>,
     histogram: Option<Histogram>,
-    /// The last profile in the type that a contact needs, with its contact tree.
+    /// The last profile as a [`Profile`], from which a contact can be made. It has its contact
+    /// tree.
     profile: Option<Profile>,
     /// Profile of the form without roughness, for the adhesion force of the smooth body; `None`
     /// until it is needed.
@@ -125,8 +126,8 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation in a form for a single scene. It needs less memory, but computes
-    /// each further profile more slowly.
+    /// Returns this simulation with a setting for a single scene. The simulation then needs less
+    /// memory, but computes each further profile more slowly.
     pub fn for_one_scene(self) -> Self {
         Simulation {
             single: true,
@@ -243,7 +244,7 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Returns the profile of a scene in the type that a [`Contact`] needs.
+    /// Returns the profile of a scene as a [`Profile`], from which a [`Contact`] can be made.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].

@@ -79,7 +79,8 @@ pub enum Stage {
     /// Construction of the contact tree, from which the exact solver finds where patches form,
     /// merge, split and detach.
     Tree,
-    /// Rule of Hess, which limits how far the springs of a contact patch may be stretched.
+    /// Application of the rule of Hess, which limits how far the springs of a contact patch may be
+    /// stretched.
     RuleOfHess,
     /// Search for the indentations at which patches form and merge during loading.
     LoadingPass,
@@ -88,8 +89,8 @@ pub enum Stage {
     /// Steps of the stepwise solver. In each step the body moves; then springs attach and detach
     /// until the contact does not change.
     Relaxation,
-    /// Two loadings without a preload: one ends at first touch and one at zero force. They give
-    /// F_a(d=0), F_a(F=0) and the regimes.
+    /// Two loadings without a preload: one ends at first touch and one at zero force. The loadings
+    /// give two adhesion forces, F_a(d=0) and F_a(F=0), and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
     Fragments,
@@ -114,19 +115,20 @@ impl Stage {
 /// Part of the computation of a scene in a [`Workload`], with its costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
-    /// Part of the computation.
+    /// The part of the computation, such as the contact tree.
     pub stage: Stage,
-    /// True if the scene needs this part.
+    /// True if the scene needs this part of the computation.
     pub runs: bool,
-    /// Reason as text: the name of the field that requires this part, or why the part is skipped.
+    /// Name of the field that requires this part of the computation, or the reason in words why the
+    /// part is skipped.
     pub because: &'static str,
-    /// Number of times that this part passes over the profile or over the contact tree. `None` if
-    /// this number depends on the loading stages.
+    /// Number of times that this part of the computation passes over the profile or over the
+    /// contact tree. `None` if this number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Upper bound of the number of springs that all passes together visit; `None` if the number of
-    /// passes is unknown.
+    /// Upper bound of the number of springs that this part of the computation visits in all its
+    /// passes. `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
-    /// Memory in bytes of the arrays that this part adds.
+    /// Memory in bytes of the arrays that this part of the computation adds.
     pub bytes: u64,
 }
 
@@ -146,8 +148,8 @@ pub struct PlannedStage {
 pub struct Workload {
     /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate largest memory of a computation in bytes, without the program itself, measured
-    /// files and lists of contact patches.
+    /// Approximate largest memory of the computation in bytes. The memory of the program itself, of
+    /// measured files and of lists of contact patches is not included.
     pub peak_bytes: u64,
     /// Approximate largest resident memory, in bytes, of the command `asperity run`, including the
     /// program itself.

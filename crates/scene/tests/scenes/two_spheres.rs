@@ -35,7 +35,8 @@ fn force_at(outcome: &Outcome, leg: usize, indentation: f64) -> f64 {
     nearest.force
 }
 
-/// At each indentation the forces of both spheres add, in every stage of a loading with minor loops.
+/// At each indentation the forces of both spheres add, in every stage of a loading with minor
+/// loops.
 #[test]
 fn the_forces_of_both_spheres_add() {
     let behind = 2e-7;

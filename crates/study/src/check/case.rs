@@ -14,10 +14,11 @@ pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 /// What a case computes (a scene, or random bodies), with the function that measures the error.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
-    /// Scene, given as the text of a scene file.
+    /// Scene, given as the text of a scene file, and the function that measures the error.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
-    /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The
-    /// error of the case is the largest error of all bodies.
+    /// Function that measures the error on a random body. It is called for several bodies:
+    /// self-affine profiles, noise, and profiles with few different heights. The error of the case
+    /// is the largest of the returned errors.
     Bodies(fn(&Body) -> Measured),
 }
 
@@ -30,10 +31,10 @@ pub struct Case {
     /// hold for every body, or `hard-cases` for extreme input, such as nearly equal gaps or very
     /// large loads.
     pub family: &'static str,
-    /// Statement that must hold for the result of the case, as a sentence.
+    /// Statement that must be true for the result of the case, as a sentence.
     pub holds: &'static str,
-    /// How the correct result of the case is known: `closed form`, `independent computation` or
-    /// `self-consistency`.
+    /// Way in which the correct result of the case is known: `closed form`, `independent
+    /// computation` or `self-consistency`.
     pub evidence: &'static str,
     /// Name of the quantity whose error is measured, such as the pull-off force. The error must not
     /// exceed the bound of a [`Check`](crate::checks::Check).
@@ -63,7 +64,7 @@ impl Case {
     }
 }
 
-/// Returns the bounds of the error of a case for both rules for the edges of patches of contact.
+/// Returns the bounds of the error of a case, one for each rule for the edges of contact patches.
 /// `grid` is the bound for edges at springs, and `sub_cell` is the bound for edges between springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
@@ -127,8 +128,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a random body with one of several kinds of profiles. The same seed gives the same
-    /// body on every machine.
+    /// Creates a random body. `seed` determines the kind of its profile and its heights. The same
+    /// seed gives the same body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
@@ -175,19 +176,19 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch of the springs, in m, at the edge of a patch that is as long as
-    /// the whole profile, by eq. (10).
+    /// Returns the largest stretch of the springs in m, by eq. (10) of Popov and Filippov (2012). A
+    /// spring has this stretch at the edge of a contact patch that is as long as the whole profile.
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }
 
-    /// Returns a force in N of the same order as the forces on the body.
+    /// Returns a force in N that is of the same order of magnitude as the forces on the body.
     pub fn force_unit(&self) -> f64 {
         self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// Returns irregular indentations in m between just before separation and full contact. They
-    /// serve as turning points of a loading.
+    /// Returns `COUNT` random indentations in m, between just before separation and full contact. A
+    /// loading turns at each of them.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
         let low = -0.9 * self.stretch();
         let high = 1.1 * self.depth() + 1e-3 * self.stretch();
@@ -195,8 +196,9 @@ impl Body {
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Moves the separated body to one indentation after the other, and to separation at the end if
-    /// `separates` is true. `samples` is the number of points in the curve of each move.
+    /// Computes a loading that begins with the body in separation and goes to each indentation of
+    /// `turns` in m, in this order. If `separates` is true, the loading ends in separation.
+    /// `samples` is the number of points of the force curve in each move.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns

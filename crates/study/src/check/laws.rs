@@ -127,9 +127,10 @@ fn energy(body: &Body) -> Measured {
     Ok((released(cycle.stages()) - done).abs() / scale)
 }
 
-/// Scales a body by powers of two and compares the loadings. Each element of `powers` has three
-/// exponents: for lengths along the profile, for heights and for stresses. The results must change
-/// by powers of two only, without any change of the bits of a mantissa.
+/// Measures whether a body and its scaled copies have the same loading, apart from the scale.
+/// Lengths along the profile, heights and stresses of a copy are multiplied by powers of two, whose
+/// exponents are the three numbers in an element of `powers`. The results must then change by
+/// powers of two only, so that no bit of a mantissa changes.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;

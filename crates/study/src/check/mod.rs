@@ -22,13 +22,13 @@ use std::time::Instant;
 /// [`Check::bound`].
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
-    /// Case on which the program is tested.
+    /// Case that the check computes.
     pub case: Case,
     /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two
     /// springs.
     pub edges: Edges,
-    /// Largest error of the result, in the quantity [`Case::error_of`], with which the check
-    /// passes.
+    /// Largest error with which the check passes. It is an error of the quantity
+    /// [`Case::error_of`].
     pub bound: f64,
 }
 
@@ -85,7 +85,7 @@ impl Case {
 /// Result of a [`Check`]: the measured error of the case and the computing time.
 #[derive(Debug)]
 pub struct Verdict {
-    /// Check whose case was computed.
+    /// Check to which this result belongs.
     pub check: Check,
     /// Measured error of the result, in the quantity [`Case::error_of`], or the reason why the
     /// error could not be measured.

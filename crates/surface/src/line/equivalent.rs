@@ -41,8 +41,8 @@ const ROUNDING: f64 = 1.0e-9;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
-    /// Spectrum of each measured [face](crate::lines::Face). A face is a surface that touches
-    /// another one in the contact.
+    /// Spectrum of each measured [face](crate::lines::Face). A face is one of the two surfaces that
+    /// touch each other in the contact.
     pub faces: Vec<IsotropicSpectrum>,
 }
 
@@ -55,8 +55,9 @@ impl From<&Analysis> for EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face), the surfaces
-    /// that touch each other.
+    /// Creates the equivalent line from measured files, by an analysis of the surfaces in these
+    /// files. `faces` has the files of one or two [faces](crate::lines::Face), which are the
+    /// surfaces that touch each other.
     ///
     /// # Errors
     /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or
@@ -82,9 +83,9 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&amplitude, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns a line whose spectrum differs from this one by a random error of the fit, for each
-    /// face. The error is drawn from the distribution of the errors of the fit and multiplied by
-    /// `share`. `number` is the seed: equal numbers give equal errors.
+    /// Returns a line whose spectrum is changed at random, as much as the errors of the fit allow.
+    /// For each face, an error of the spectrum is drawn from the distribution of the errors of the
+    /// fit and multiplied by `share`. `number` is the seed: equal numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let mut faces = Vec::new();
         for (index, spectrum) in (0_u64..).zip(&self.faces) {
@@ -95,19 +96,21 @@ impl EquivalentLine {
         EquivalentLine { faces }
     }
 
-    /// Computes the moments of the line, such as the rms height, with their standard errors.
+    /// Computes the moments of this equivalent line, such as the rms height, with their standard
+    /// errors.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
 
-    /// Returns the power spectral density (PSD) in m³ of the line at a wave number in rad/m.
+    /// Returns the power spectral density (PSD) in m³ of this equivalent line at a wave number in
+    /// rad/m.
     pub fn power(&self, wave_number: f64) -> f64 {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
-    /// wave number at which all faces have a spectrum. The last is the largest wave number of any
-    /// face.
+    /// Returns the first and the last wave number of this equivalent line in rad/m. The first is
+    /// the smallest wave number at which all faces, the surfaces that touch each other, have a
+    /// spectrum. The last is the largest wave number of any face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
         let mut last = 0.0_f64;
@@ -120,8 +123,8 @@ impl EquivalentLine {
     }
 
     /// Returns the first and the last mode of a line of the length L = `length` in m on `points`
-    /// springs. Mode k is the wave with k periods on the length, of the wave number q = 2πk/L. The
-    /// modes are the waves of the spectrum that are no longer than the line and that the springs
+    /// springs. Mode k is the wave with k periods on the length and the wave number q = 2πk/L. The
+    /// modes are those waves of the spectrum that are no longer than the line and that the springs
     /// resolve. Returns an error if there is no such wave.
     pub fn modes(&self, length: f64, points: usize) -> Result<ModeRange, SurfaceError> {
         let [low, high] = self.range();
@@ -146,8 +149,8 @@ impl EquivalentLine {
         })
     }
 
-    /// Returns the same line without its short waves, whose wave numbers exceed `wave_number` in
-    /// rad/m.
+    /// Returns the same line without its short waves. These are the waves whose wave numbers exceed
+    /// `wave_number` in rad/m.
     pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
         EquivalentLine {
             faces: self
@@ -158,17 +161,17 @@ impl EquivalentLine {
         }
     }
 
-    /// Returns the amplitude A_k in m of the wave with k = `mode` periods on a line of the length L
-    /// = `length` in m. A_k² = 4 C(q_k)/L, where C is [`EquivalentLine::power`] and q_k = 2πk/L is
-    /// the wave number.
+    /// Returns the amplitude A_k in m of mode k = `mode` on a line of the length L = `length` in m.
+    /// Mode k is the wave with k periods on this length. A_k² = 4 C(q_k)/L, where C is the result
+    /// of [`EquivalentLine::power`] and q_k = 2πk/L is the wave number.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the mean square height in m² that one wave adds to a square surface with the
-    /// measured spectra. `side` is the side of the square in m. `waves` is the number of periods on
-    /// this side, which need not be a whole number. Returns 0 if the wave lies outside the measured
-    /// spectra.
+    /// Returns the mean square height in m² that one wave contributes to a square surface with the
+    /// measured spectra. `side` is the side of the square in m. `waves` is the number of periods of
+    /// the wave on this side, and need not be a whole number. Returns 0 if the wave lies outside
+    /// the measured spectra.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -194,9 +197,9 @@ impl EquivalentLine {
         4.0 * power / length
     }
 
-    /// Computes the rms height, gradient and curvature of a line that has only the modes `modes`.
-    /// `length` is the length of the line in m. A mode is a wave with a whole number of periods on
-    /// this length.
+    /// Computes the rms height, the rms gradient and the rms curvature of a line of the length
+    /// `length` in m that has only the modes `modes`. A mode is a wave with a whole number of
+    /// periods on this length.
     pub fn amplitude_of_modes(&self, length: f64, modes: ModeRange) -> Amplitude {
         let square = |mode: u64| ModeSquare {
             mode,
@@ -211,10 +214,10 @@ impl EquivalentLine {
 /// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The profile in the file is an equivalent line already. It is used unchanged as the rigid
-    /// profile.
+    /// Profile in the file that is used unchanged as the rigid profile, because the profile is
+    /// already an equivalent line.
     Profile(MeasuredProfile),
-    /// The rigid profile is an equivalent line of the measured surfaces.
+    /// Equivalent line of the measured surfaces, which is used as the rigid profile.
     Equivalent(EquivalentLine),
 }
 

@@ -17,7 +17,7 @@ use strum::IntoStaticStr;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
-    /// Paraboloid of depth r²/2R, the sphere of Hertz and JKR.
+    /// Paraboloid of depth r²/2R, by which Hertz and JKR approximate a sphere.
     Paraboloid {
         /// Radius of curvature R in m.
         radius: f64,
@@ -56,8 +56,8 @@ pub enum Form {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Two spheres side by side on one probe, each above one half of the length of the profile.
-    /// Their contacts do not influence each other; their forces add up.
+    /// Two spheres side by side on one probe, each above one half of the length of the profile. The
+    /// contacts of the two spheres do not influence each other, and their forces add up.
     TwoSpheres {
         /// Radius of curvature R of the first sphere in m. Its apex is the apex of the form.
         radius: f64,
@@ -74,7 +74,7 @@ pub enum Form {
         /// Unit of the radii and depths if the file states none; empty for m.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
-        /// Rows of the table, after [`Form::load`] has read them.
+        /// Rows of the table; empty until [`Form::load`] has read the file.
         #[serde(skip)]
         rows: Rows,
     },
@@ -109,8 +109,8 @@ impl Form {
         Err(in_file(refused(Place::File, found, allowed)))
     }
 
-    /// Returns the table of a [`Form::Table`] after [`Form::load`] has read it. Returns `None`
-    /// before, and for other forms.
+    /// Returns the table of a [`Form::Table`]. Returns `None` if [`Form::load`] has not read the
+    /// table yet, and for all other forms.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self {
             rows.0.get()
@@ -119,18 +119,19 @@ impl Form {
         }
     }
 
-    /// Returns the index of the spring on the axis of a body of revolution: ⌊N/2⌋ for N = `points`
-    /// springs. There are two exceptions: the axis of a punch is in the middle of the length, and
-    /// [`Form::TwoSpheres`] has an axis for each sphere.
+    /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of a body of
+    /// revolution. For two forms ⌊N/2⌋ is not the axis: the axis of a punch is in the middle of the
+    /// length, which may lie between two springs, and [`Form::TwoSpheres`] has an axis for each
+    /// sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
         // If the axis were between two springs, no spring would be under the tip. The errors of the
         // contact would then be proportional to the spring spacing Δx.
         points / 2
     }
 
-    /// Returns the distance, in spring spacings, from the middle of the length to the axis of the
-    /// form. The distance is ½ for an even number of springs, and 0 for an odd number and for a
-    /// punch.
+    /// Returns the distance from the middle of the length to the axis of the form, in units of the
+    /// spring spacing. The distance is ½ for an even number of springs. It is 0 for an odd number
+    /// of springs and for a punch.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() {
             0.5
@@ -140,9 +141,9 @@ impl Form {
     }
 
     /// Returns the range of indices of the springs under the form, for `points` springs on the
-    /// length `length` in m. Under a punch these are the springs below its flat end; under every
-    /// other form they are all springs. The width of a punch is its diameter, rounded to a whole
-    /// number of spring spacings. The range is empty if the diameter is below half a spacing.
+    /// length `length` in m. For a punch, these are the springs below its flat end; for every other
+    /// form, these are all springs. The width of a punch is its diameter, rounded to a whole number
+    /// of spring spacings. The range is empty if the diameter is below half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -174,8 +175,8 @@ impl Form {
         }
     }
 
-    /// Returns a mutable reference to the radius of a form in m. It is the radius of a sphere, of
-    /// the first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
+    /// Returns a mutable reference to the radius of a form in m: the radius of a sphere, of the
+    /// first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
@@ -197,9 +198,9 @@ impl Form {
         }
     }
 
-    /// Returns the curvature at the summit in 1/m. For two spheres it is the larger curvature.
-    /// Returns `None` for a cone and a power law. Also returns `None` for a table that has not been
-    /// read, or whose curvature at the tip is not finite.
+    /// Returns the curvature of the form at its summit in 1/m. For two spheres, returns the larger
+    /// curvature. Returns `None` for a cone and a power law. Also returns `None` for a table that
+    /// has not been read, or whose curvature at the tip is not finite.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
@@ -219,9 +220,9 @@ impl Form {
         }
     }
 
-    /// Returns how far the equivalent profile lies below its apex at one spring, in m. `spring` is
-    /// the index of the spring from the left end of the profile, `points` the number of springs,
-    /// and `spacing` their distance in m.
+    /// Returns the depth in m of the equivalent profile below its apex, at the position of one
+    /// spring. `spring` is the index of this spring from the left end of the profile, `points` is
+    /// the number of all springs, and `spacing` is the distance between springs in m.
     ///
     /// ```
     /// use asperity_surface::Form;
@@ -257,8 +258,8 @@ impl Form {
         }
     }
 
-    /// Returns the largest depth in m of the equivalent profile on a length in m. The waves of a
-    /// [`Form::WavySphere`] are left out.
+    /// Returns the largest depth in m of the equivalent profile below its apex, on a profile of the
+    /// length `length` in m. The waves of a [`Form::WavySphere`] are left out.
     pub fn depth_within(&self, length: f64) -> f64 {
         match *self {
             Form::TwoSpheres {
@@ -279,10 +280,11 @@ impl Form {
     }
 
     /// Returns the depth g(x) in m of the equivalent profile below its apex, at a distance x from
-    /// the axis in m. It is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`].
+    /// the axis in m. The formula is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
+    /// [`Form::depth`].
     ///
-    /// For a punch the depth is 0. For two spheres it is the depth of the first sphere alone;
-    /// [`Form::depth_of_spring`] takes both spheres into account.
+    /// For a punch the depth is 0. For two spheres the result is the depth of the first sphere
+    /// alone; [`Form::depth_of_spring`] takes both spheres into account.
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -437,8 +439,8 @@ impl Form {
     }
 }
 
-/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
-/// has the equivalent profile κₙ |x|ⁿ.
+/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for the exponent n = `exponent`. With this
+/// factor, a body of the depth rⁿ has the equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // The logarithms of Γ are subtracted, because both values of Γ may be too large for a number.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();

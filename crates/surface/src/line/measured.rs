@@ -13,23 +13,24 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound, in bytes for each point, of the memory for the Fourier transform and its arrays. An
-/// odd number of points is transformed at twice its length; the bound holds for it too.
+/// Upper bound, in bytes for each point, of the memory for the Fourier transform and its arrays.
+/// The bound also holds for an odd number of points, which is transformed at twice its length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// Use of the profile in the file as the rigid profile itself, after removal of a polynomial.
+    /// Polynomial that is removed from a measured profile if this profile itself is used as the
+    /// rigid profile.
     ///
-    /// * If a polynomial is given, the profile is already an equivalent line. The rigid profile is
-    ///   this profile without the polynomial.
-    /// * `None` means that the profile is a cut through a surface. The rigid profile is then an
-    ///   equivalent line of this surface: a random profile with the measured spectrum.
+    /// * If a polynomial is given, the profile in the file is already an equivalent line. The rigid
+    ///   profile is this profile without the polynomial.
+    /// * `None` means that the profile in the file is a cut through a surface. The rigid profile is
+    ///   then an equivalent line of this surface: a random profile with the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
-    /// Options of the analysis of the spectrum.
+    /// Options for the analysis of the measured surfaces, from which the spectrum follows.
     pub spectrum: AnalysisOptions,
 }
 
@@ -37,7 +38,7 @@ pub struct MeasuredOptions {
 /// positions.
 ///
 /// The profile covers the distance from its first to its last point. If the points are equally
-/// spaced, sampled heights may lie up to half a spacing beyond each end.
+/// spaced, the profile also covers half a spacing beyond each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
@@ -48,9 +49,9 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Parses the content of a file with a profile. The file may also have a map, of which the
-    /// options choose a row or a column. Returns an error if a polynomial has to be removed and the
-    /// points are not equally spaced.
+    /// Parses the content of a file with a profile. The file may also have a map; the options then
+    /// choose a row or a column of this map. Returns an error if a polynomial has to be removed and
+    /// the points are not equally spaced.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -142,8 +143,9 @@ impl MeasuredProfile {
     }
 
     /// Computes heights of the profile in m at N = `points` equally spaced positions on the length
-    /// L = `length` in m, by linear interpolation. The positions are x = (i + ½ − `shift`)L/N from
-    /// the beginning of the profile. A constant may be subtracted from all heights.
+    /// L = `length` in m, by linear interpolation. Position i is x = (i + ½ − `shift`)L/N, measured
+    /// from the beginning of the profile. The same constant may be subtracted from all heights, to
+    /// reduce rounding errors.
     ///
     /// # Errors
     /// Returns an error if the profile is shorter than `length`.
@@ -306,12 +308,12 @@ fn join_ends(heights: &mut [f64]) {
     }
 }
 
-/// Paths and contents of the measured files of one face, one of the two surfaces that touch each
-/// other.
+/// The measured files of one face, each with its path and its content. A face is one of the two
+/// surfaces that touch each other.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the measured files of several faces into memory. `faces` has the paths of the files of
-/// each [`Face`].
+/// each [`Face`], which is one of the two surfaces that touch each other.
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     faces.iter().map(|face| read_face(face)).collect()
 }
@@ -326,8 +328,8 @@ fn read_face(paths: &[PathBuf]) -> Result<Face, SurfaceError> {
 }
 
 impl MeasuredOptions {
-    /// Parses the files of one face, and analyses the surfaces in them as samples of the same
-    /// roughness.
+    /// Analyses the surfaces in the files of one face, which is one of the two surfaces that touch
+    /// each other. All these surfaces are taken as samples of the same roughness.
     ///
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.

@@ -39,7 +39,8 @@ const COSINE: [f64; 6] = [
     -1.135_965_883_378_375_8e-11,
 ];
 
-/// Computes the coefficients whose inverse Fourier transform is the profile on a grid.
+/// Random modes of a self-affine profile on a grid. Their Fourier coefficients have the profile as
+/// inverse Fourier transform.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modes {
     spectrum: SelfAffine,
@@ -57,8 +58,8 @@ pub(super) struct Modes {
 
 impl Modes {
     /// Creates the modes of a random profile with the rms height 1, for a spectrum and a seed. Mode
-    /// k is the wave with k periods on the profile. The grid has `points` points, and its first
-    /// point lies `start` cells after the beginning of the profile.
+    /// k is the wave with k periods on the profile. The grid has `points` points. Its first point
+    /// is at the distance of `start` grid spacings from the beginning of the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
@@ -75,8 +76,9 @@ impl Modes {
         }
     }
 
-    /// Computes the Fourier coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …. φ
-    /// is the phase of the mode at the first point of the grid, and A_k its amplitude.
+    /// Computes the Fourier coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, and
+    /// stores them in `coefficients`. A_k is the amplitude of the mode, and φ is its phase at the
+    /// first point of the grid.
     pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
         let mut generator = phase_words(self.seed, first);
         let mut words = [0; BLOCK];
@@ -212,18 +214,18 @@ const COUNTS: [f64; BLOCK] = {
 /// with the same seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, …. They are uniform
-/// in [0, 2π). Mode k is the wave with k periods on the profile.
+/// Returns the random phases φ_k in rad, between 0 and 2π, of the modes k = `first`, `first` + 1,
+/// …. Mode k is the wave with k periods on the profile.
 ///
-/// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every
-/// platform.
+/// The phase of a mode depends only on the seed and on k. The phase is the same, bit for bit, on
+/// every platform.
 pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     let mut generator = phase_words(seed, first);
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns a random generator for a seed. Its next 64-bit words belong to the modes `first`,
-/// `first` + 1, ….
+/// Returns a random generator for a seed. The next 64-bit words of the generator determine the
+/// phases of the modes `first`, `first` + 1, …, one word for each mode.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());

@@ -5,22 +5,22 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 use std::sync::Arc;
 
-/// A rigid profile above springs at the positions x = (i + ½)Δx.
+/// A rigid profile above a row of springs at the positions x = (i + ½)Δx, i = 0, 1, ….
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Gaps c_i = max z − z_i in m between the highest point of the body and its surface above
-    /// spring i, for the springs under the body. Each gap is at least 0.
+    /// Gaps c_i = max z − z_i in m, one for each spring i under the body. z_i is the height of the
+    /// profile above spring i, and max z is its highest point. Each gap is at least 0.
     pub gaps: Arc<Vec<f64>>,
-    /// Index of the leftmost spring under the body, counted from the left end of the foundation.
-    /// The index is above zero only for a punch.
+    /// Index of the leftmost spring under the body, counted from the left end of the foundation
+    /// (the row of all springs). The index is above zero only for a punch.
     pub first: usize,
-    /// Number of springs N of the whole foundation, the row of springs.
+    /// Number N of all springs of the foundation, including those beside the body.
     pub points: usize,
     /// Length L of the whole foundation in m.
     pub length: f64,
     /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height in m of the highest point of the profile above the apex of the form without
+    /// Height in m of the highest point of the profile, measured from the apex of the form without
     /// roughness.
     pub summit: f64,
     /// Largest gap in m.
@@ -62,8 +62,9 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the same profile as [`Line::new`] without further memory. `gaps` has the heights of
-    /// the roughness and afterwards, in the same memory, the gaps of the profile.
+    /// Creates the same profile as [`Line::new`], but in the memory of the vector `gaps`. At first
+    /// this vector has the heights of the roughness in units of `scale` (m), one for each spring.
+    /// Afterwards it has the gaps of the profile.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -109,7 +110,8 @@ impl Line {
         })
     }
 
-    /// Returns the heights z in m of the points under the body.
+    /// Returns the heights z in m of the profile at the springs under the body. Heights are
+    /// measured from the apex of the form without roughness.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }
@@ -126,12 +128,14 @@ impl Line {
             .unwrap_or(height)
     }
 
-    /// Returns the position x in m of the spring number `index` under the body, from 0.
+    /// Returns the position x in m of a spring under the body. `index` is 0 for the leftmost spring
+    /// under the body.
     pub fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
-    /// Returns the height in m of the lowest point of the profile.
+    /// Returns the height in m of the lowest point of the profile, measured from the apex of the
+    /// form without roughness.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
@@ -204,8 +208,9 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts `heights` (m) in `bins` equal bins between `low` and `high` (m). Both ends are
-    /// included. Heights outside this range, or not finite, are left out.
+    /// Counts `heights` (m) in `bins` equal bins between `low` and `high` (m). A height equal to
+    /// `low` or `high` is counted. Heights outside this range, and heights that are not finite, are
+    /// left out.
     ///
     /// ```
     /// let histogram =
@@ -340,7 +345,8 @@ mod tests {
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
         assert_eq!(result, Err(not_finite(1)));
-        // The first spring under the punch is the second spring of the foundation.
+        // The punch covers only the springs 1 to 4 of the six. The gap at spring 4 is not finite,
+        // so the error must state its index among all springs, which is 4.
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let result = Line::new(
             1.0,

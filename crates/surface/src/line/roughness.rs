@@ -46,9 +46,10 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Computes the random profile of [`SelfAffine::heights`], displaced along the springs by
-    /// `shift` spring spacings. The displaced profile has at spring i the height of that profile at
-    /// x = (i + ½ − `shift`)L/N. The heights are stored in the memory of `memory`.
+    /// Computes a random profile like [`SelfAffine::heights`], but displaced along the springs by
+    /// `shift` spring spacings. The height at spring i is the height that the profile without
+    /// displacement has at x = (i + ½ − `shift`)L/N, for the length L and N = `points` springs. The
+    /// result reuses the memory of `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -75,10 +76,10 @@ impl Synthesizer {
         })
     }
 
-    /// Computes the sum of cosine waves with k periods over the length L, for all k in `modes`. The
-    /// amplitude of a wave is `amplitude`(k) in m, and `seed` determines its phase. The last mode
-    /// must be at most `points`/2. The heights are at x = (i + ½ − `shift`)L/N, as for
-    /// [`Self::synthesize`].
+    /// Computes the heights in m of a sum of cosine waves, one wave with k periods over the length
+    /// L for each k in `modes`. The amplitude of a wave is `amplitude`(k) in m, and `seed`
+    /// determines its phase. The last mode must be at most N/2, where N is `points`. The height at
+    /// spring i is that at x = (i + ½ − `shift`)L/N.
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -149,10 +150,10 @@ impl Synthesizer {
 impl SelfAffine {
     /// Computes the heights of a random profile with this spectrum, by eqs. (8) and (9) of Popov
     /// and Filippov (2012). The heights are in units of the rms height, at x = (i + ½)L/N on N =
-    /// `points` springs. `points` has to be at least twice the last mode.
+    /// `points` springs along the length L. `points` has to be at least twice the last mode.
     ///
     /// The rms height is that of the continuous profile, which is a sum of cosine waves. The rms of
-    /// the N heights differs from it only if the last mode is exactly N/2.
+    /// the N heights differs from this rms height only if the last mode is exactly N/2.
     ///
     /// ```
     /// let spectrum = asperity_surface::SelfAffine {

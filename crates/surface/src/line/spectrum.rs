@@ -16,8 +16,9 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode: number of periods of the shortest wave over the length; at least `first`.
     pub last: u64,
-    /// Number of periods of the roll-off wavelength over the length L. It need not be a whole
-    /// number. For any value up to `first`, such as 0, the spectrum has no roll-off.
+    /// Roll-off mode: the number of periods of the roll-off wavelength over the length L, which
+    /// need not be a whole number. For any value up to `first`, such as 0, the spectrum has no
+    /// roll-off.
     pub roll_off_mode: f64,
 }
 
@@ -35,16 +36,17 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the exponent −H − 1/2 of the amplitudes.
+    /// Returns the exponent −H − 1/2 with which the amplitude of a mode falls with its number of
+    /// periods. H is the Hurst exponent.
     #[inline]
     pub(super) fn amplitude_exponent(&self) -> f64 {
         -self.hurst - 0.5
     }
 
-    /// Returns the mean square height that one wave adds to a surface with this spectrum. The unit
-    /// is A₁², where A₁ is the amplitude that mode 1 would have without a roll-off. `waves` is the
-    /// number of periods over the length and need not be a whole number. Returns 0 if `waves` is
-    /// more than ½ below `first` or more than ½ above `last`.
+    /// Returns the mean square height that one wave contributes to a surface with this spectrum.
+    /// The unit is A₁², where A₁ is the amplitude that mode 1 would have without a roll-off.
+    /// `waves` is the number of periods of the wave over the length, and need not be a whole
+    /// number. Returns 0 if `waves` is more than ½ below `first` or more than ½ above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -68,7 +70,7 @@ impl SelfAffine {
 
     /// Returns the ratio ⟨∇z⟩/h in 1/m of the rms gradient to the rms height, for a profile of the
     /// length L = `length` in m. The ratio is √(Σ A_k² q_k² / Σ A_k²), where A_k is the amplitude
-    /// of mode k and q_k its wave number.
+    /// of mode k and q_k = 2πk/L is its wave number.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
@@ -106,10 +108,10 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m of a continuous spectrum: as if the profile had waves at all
-    /// wave numbers from the first to the last mode. Without a roll-off, the square of the ratio is
-    /// ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, eqs. (5)–(7) and (12) of Popov and
-    /// Filippov (2012).
+    /// Returns the ratio ⟨∇z⟩/h in 1/m of the rms gradient to the rms height, for a continuous
+    /// spectrum. Such a spectrum has waves at all wave numbers from the first to the last mode.
+    /// Without a roll-off, the square of the ratio is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these
+    /// wave numbers, eqs. (5)–(7) and (12) of Popov and Filippov (2012).
     ///
     /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
@@ -184,14 +186,14 @@ pub struct Amplitude {
     pub rms_gradient: f64,
     /// Root mean square curvature in 1/m.
     pub rms_curvature: f64,
-    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m, where A_k are the amplitudes and q_k the wave
-    /// numbers of the waves of the profile. It is 0 for a flat profile.
+    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m; 0 for a flat profile. A_k are the amplitudes
+    /// and q_k the wave numbers of the waves of the profile.
     pub mean_wave_number: f64,
 }
 
 impl Amplitude {
-    /// Returns the roughness amplitude that the profile has after all its heights are multiplied by
-    /// a factor.
+    /// Returns the roughness amplitude of the same profile after a multiplication of all its
+    /// heights by `factor`.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -202,7 +204,7 @@ impl Amplitude {
     }
 
     /// Returns the roughness amplitude that the profile has after a stretch along x by the factor
-    /// `times`. The heights do not change.
+    /// `times`. The stretch does not change the heights.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -236,8 +238,8 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy per area in J/m² that flattens the roughness. It is e_el = (E*/8)
-    /// Σ q_k A_k² (Persson and Tosatti, 2001), where E* is the effective modulus in Pa, and A_k and
+    /// Returns the elastic energy per area e_el in J/m² that flattens the roughness. By Persson and
+    /// Tosatti (2001), e_el = (E*/8) Σ q_k A_k², where E* is the effective modulus in Pa. A_k and
     /// q_k are the amplitudes and the wave numbers of the waves of the profile.
     ///
     /// ```

@@ -101,8 +101,8 @@ impl Cubic {
     }
 }
 
-/// Rows of the table of a [`Form::Table`](crate::Form::Table). There are no rows until the file is
-/// read.
+/// Rows of the table of a [`Form::Table`](crate::Form::Table). There are no rows until the file of
+/// the table is read.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -118,8 +118,8 @@ impl PartialEq for Rows {
 }
 
 impl FormTable {
-    /// Reads a table with two columns, radius and depth. Their unit is the unit that the file
-    /// states. If the file states none, it is `unit`, or m if `unit` is `None`.
+    /// Reads a table with two columns, radius and depth. The numbers are in the unit that the file
+    /// states. If the file states no unit, they are in `unit`, or in m if `unit` is `None`.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,
@@ -190,7 +190,7 @@ impl FormTable {
         before + cubic.depth(width) + beyond * cubic.slope(width)
     }
 
-    /// Returns the curvature at the summit in 1/m; `None` if the tip is pointed.
+    /// Returns the curvature of the body at its summit in 1/m; `None` if the tip is pointed.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
         let Cubic {
             a: slope,
@@ -249,14 +249,14 @@ impl FormTable {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
 
-    /// Returns the depth g in m of the equivalent profile at a distance from the axis in m.
+    /// Returns the depth g in m of the equivalent profile at the distance x in m from the axis.
     pub(super) fn mdr_profile(&self, x: f64) -> f64 {
         let gap = self.radii[1..self.cubics.len()].partition_point(|&r| r <= x);
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns `count` depths in m of the equivalent profile below its apex. They are at the
-    /// distances 0, `spacing`, 2 `spacing`, … (m) from the axis.
+    /// Returns `count` depths in m of the equivalent profile below its apex, at the distances 0,
+    /// `spacing`, 2 `spacing`, … (m) from the axis.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.cubics.len() {
@@ -278,9 +278,9 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Finds the smallest distance from the axis in m at which the equivalent profile begins to
-    /// fall, which means that its depth decreases outwards. The search ends at the distance
-    /// `radius` in m. Returns `None` if the depth does not decrease up to this distance.
+    /// Finds the smallest distance in m from the axis at which the depth of the equivalent profile
+    /// begins to decrease outwards. The search ends at the distance `radius` in m. Returns `None`
+    /// if the depth does not decrease up to this distance.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;

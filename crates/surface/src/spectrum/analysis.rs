@@ -35,16 +35,16 @@ pub struct Analysis {
     pub spectra: Vec<(Along, Vec<Bin>)>,
     /// Isotropic spectrum fitted to the measured power spectra of all surfaces together.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge
-    /// or finds no Hurst exponent between 0 and 1.
+    /// Self-affine spectrum fitted to the measured power spectra of all surfaces together. `None`
+    /// if the fit does not converge or finds no Hurst exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
     /// Rms height, gradient and other moments of the [equivalent line](crate::EquivalentLine) of
     /// the surfaces.
     pub line: LineMoments,
-    /// Shortest wavelength in m that a tip of the radius R resolves reliably. It is the smallest
-    /// length over which no measured curvature is below −1/(2R). If there is no such length, the
-    /// value is half the length of a row. `None` if no tip radius is given, or if the tip resolves
-    /// all waves.
+    /// Shortest wavelength in m that a tip of the radius R resolves reliably: the smallest length
+    /// over which no measured curvature is below −1/(2R). If there is no such length, the value is
+    /// half the length of a row. `None` if no tip radius is given, or if the tip resolves all
+    /// waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -55,45 +55,46 @@ pub struct Analysis {
     /// Whether this analysis assumes that the surfaces have shorter waves than the points resolve
     /// ([`AnalysisOptions::end`]).
     pub end: End,
-    /// True if the fitted spectrum ends at a longer wave than the shortest resolved one, because
-    /// shorter waves have no significant power.
+    /// True if the fitted spectrum ends at a longer wave than the shortest resolved wave. The
+    /// reason is that shorter waves have no significant power.
     pub ends_inside: bool,
-    /// True if the analysis leaves out the waves parallel to one axis of a map. They are left out
-    /// if the rows or columns are offset against each other, or were levelled one by one.
+    /// True if the analysis leaves out short waves parallel to one axis of a map, because whole
+    /// rows or columns are offset against each other.
     pub offsets: bool,
-    /// Largest difference, over all maps, of the waves parallel to an axis from the waves in
-    /// neighbouring directions. The difference is that of their squared gradients, divided by the
-    /// squared gradient of the map. It is 0 if it may be chance.
+    /// Largest difference, over all maps, between two squared gradients: that of the waves parallel
+    /// to an axis, and that which the waves in neighbouring directions lead to expect. The
+    /// difference is given as a share of the squared gradient of the map. It is 0 if it is
+    /// negligible, or if chance or offsets of whole rows or columns explain it.
     pub apart: f64,
-    /// Distance in m by which the odd rows of a map are displaced along the even rows. Such a
-    /// displacement occurs in a file that alternates between trace and retrace. `None` if no map
-    /// has a displacement.
+    /// Distance in m by which the odd rows of a map are displaced against the even rows, in the
+    /// direction of the rows. Such a displacement occurs in a file that alternates between trace
+    /// and retrace. `None` if no map has a displacement.
     pub displaced: Option<f64>,
     /// True if the curvature of each surface was removed before the analysis, as
     /// [`AnalysisOptions::detrend`] can request.
     pub is_levelled: bool,
-    /// Trends of the heights that were not removed, the simplest one first, with the share of the
-    /// mean squared height of the points that their removal takes off.
+    /// Trends of the heights that were not removed, such as a tilt, the simplest one first. Each
+    /// trend has the share by which its removal would reduce the mean squared height of the points.
     pub trends: Vec<TrendOfScan>,
     /// Ratio of the rms step between opposite ends of a periodic surface to the largest rms step
-    /// between neighbouring rows or columns of points inside. For several surfaces and both axes of
-    /// a map it is the largest ratio. It is 0 if no surface is periodic.
+    /// between neighbouring rows or columns of points. The largest ratio of all surfaces and of
+    /// both axes of a map is given; 0 if no surface is periodic.
     pub step_of_ends: f64,
-    /// Ratio of the largest to the smallest rms gradient among parts of a surface: the four
-    /// quarters of a map, or the two halves of a profile. For several surfaces it is the largest of
-    /// their ratios. It is 1 if the parts differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. The parts
+    /// are the four quarters of a map or the two halves of a profile. The largest ratio of all
+    /// surfaces is given; 1 if chance explains the differences between the parts.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height among several surfaces, or of the rms
-    /// gradients if that ratio is larger. Surfaces with different numbers or distances of points
-    /// have different waves. Their measured values are therefore first divided by the values that
-    /// the fitted spectrum has over the waves of the surface. The ratio is 1 for a single surface,
-    /// and if the surfaces differ by no more than chance explains.
+    /// Ratio of the largest to the smallest rms height among several surfaces, or the same ratio of
+    /// the rms gradients if it is larger. Surfaces with different numbers or distances of points
+    /// have different waves. The rms values of such surfaces are therefore first divided by the
+    /// values that the fitted spectrum has over the waves of the surface. The ratio is 1 for a
+    /// single surface, and if chance explains the differences.
     pub ratio_of_surfaces: f64,
 }
 
 impl Analysis {
-    /// Returns the share of long waves in the mean square height of the equivalent line. Long waves
-    /// are longer than a quarter of the longest row ([`Analysis::length`]).
+    /// Returns the share of long waves in the mean square height of the equivalent line. A wave is
+    /// long if it is longer than a quarter of the longest row ([`Analysis::length`]).
     pub fn long_wave_share(&self) -> f64 {
         let [all_waves, _, _] = self.isotropic.integrals();
         let quarter = 4.0 * TAU / self.length;

@@ -1,5 +1,5 @@
-//! Waves of a map that run parallel to one of its axes. If whole rows or columns are offset against
-//! each other, only these waves change.
+//! Waves of a map that run parallel to one axis of the map. Only these waves change if whole rows
+//! or columns are offset against each other.
 
 use super::periodogram::Wave;
 use std::ops::RangeInclusive;
@@ -37,14 +37,14 @@ const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
 /// squared gradient of the map. A larger difference is attributed to the surface itself.
 const LARGEST_OFFSETS: f64 = 0.25;
 
-/// Place of a wave in the plane of wave numbers, with respect to one axis.
+/// Place of a wave in the plane of its two wave numbers, relative to one axis of this plane.
 #[derive(Clone, Copy)]
 pub(super) struct AxisPlace {
-    /// Number of periods of the wave across the axis, which is its distance from the axis in the
-    /// plane of wave numbers.
+    /// Number of periods of the wave over the map, perpendicular to the axis. This number is the
+    /// distance of the wave from the axis in the plane of wave numbers.
     pub across: f64,
-    /// Number of periods of the wave along the axis, divided by the number of points along the
-    /// axis.
+    /// Number of periods of the wave over the map, parallel to the axis, divided by the number of
+    /// points in this direction.
     pub along: f64,
 }
 
@@ -113,7 +113,7 @@ impl AxisPower {
     }
 }
 
-/// Waves of a map, divided into those parallel to an axis and all others.
+/// Waves of a map, divided into the waves parallel to an axis and all other waves.
 pub(super) struct WavesByAxis {
     /// Largest distance from an axis, counted in waves, at which a wave still counts as parallel to
     /// it.
@@ -125,16 +125,19 @@ pub(super) struct WavesByAxis {
 /// The waves of a map without those that offsets of rows or columns have changed.
 pub(super) struct TrueWaves {
     pub waves: Vec<Wave>,
-    /// True if waves parallel to an axis are left out, because rows or columns are offset.
+    /// True if short waves parallel to an axis are left out, because whole rows or columns are
+    /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and their neighbouring
-    /// waves, as a share of the squared gradient of the map.
+    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
+    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
+    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 
 impl WavesByAxis {
-    /// Creates an empty collection of waves. The waves that are not parallel to an axis are stored
-    /// in the vector `memory`.
+    /// Creates an empty collection of waves. `reach` is the largest number of periods across an
+    /// axis with which a wave counts as parallel to this axis. The vector `memory` will store all
+    /// waves except short waves parallel to an axis.
     pub fn new(reach: f64, memory: Vec<Wave>) -> Self {
         WavesByAxis {
             reach,
@@ -143,7 +146,8 @@ impl WavesByAxis {
         }
     }
 
-    /// Adds a wave. `places` are its places with respect to the two axes.
+    /// Adds a wave to the collection. `places` states where the wave lies relative to each of the
+    /// two axes.
     pub fn add(&mut self, wave: Wave, places: [AxisPlace; 2]) {
         for (axis, place) in self.axes.iter_mut().zip(places) {
             axis.compare(place, self.reach, &wave);
@@ -157,9 +161,10 @@ impl WavesByAxis {
         self.others.push(wave);
     }
 
-    /// Returns the waves without the short waves parallel to an axis, if offsets of rows or columns
-    /// have changed these waves. This is assumed if they differ from their neighbours, but not too
-    /// much.
+    /// Returns the waves of the map, without short waves that offsets of rows or columns have
+    /// changed. Short waves parallel to an axis are left out if they differ from the waves in
+    /// neighbouring directions. A very large difference is attributed to the surface itself, and
+    /// the waves are then not left out.
     pub fn without_offsets(self) -> TrueWaves {
         let gradient = self.squared_gradient();
         let mut waves = self.others;

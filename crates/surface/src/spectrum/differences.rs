@@ -1,5 +1,5 @@
 //! Differences between the parts of a surface, and between several measurements of the same
-//! roughness. Only that part of a difference is used which chance does not explain.
+//! roughness. Only the part of a difference that chance does not explain is used.
 
 use super::levelled::LevelledSurface;
 use super::parts::{Spread, chance_factor, student_factor, variance_of_mean};
@@ -13,28 +13,31 @@ struct Group {
     spreads: Vec<Spread>,
 }
 
-/// Differences between the parts of each surface, and between surfaces with equal points.
+/// Collects how much the heights and gradients differ between the parts of a surface, and between
+/// surfaces with equal numbers and distances of points.
 #[derive(Default)]
 pub(super) struct Differences {
     groups: Vec<Group>,
 }
 
-/// Errors and ratios that are computed from the differences between parts and between surfaces.
+/// Errors of the spectrum, and ratios of rms values. They follow from how much the heights and
+/// gradients differ between the parts of a surface, and between surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unevenness {
-    /// Relative errors, due to these differences, of the integrals ∫ q^p C2D dq over the spectrum,
-    /// for p = 1, 2, 3.
+    /// Relative errors of the integrals ∫ q^p C2D dq over the spectrum C2D, for p = 1, 2, 3. These
+    /// errors follow from how much the integrals differ between parts and between surfaces.
     pub errors: [f64; 3],
-    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. For several
-    /// surfaces it is the largest of their ratios. It is 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface. The largest
+    /// ratio of all surfaces is given; 1 if chance explains the differences between the parts.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height among surfaces with equal points, or of the
-    /// rms gradients if that ratio is larger. It is 1 if chance explains the differences.
+    /// Ratio of the largest to the smallest rms height among surfaces with equal numbers and
+    /// distances of points, or the same ratio of the rms gradients if it is larger; 1 if chance
+    /// explains the differences between the surfaces.
     pub ratio_of_surfaces: f64,
 }
 
 impl Differences {
-    /// Adds a surface. `spread` are the differences between its parts.
+    /// Adds a surface. `spread` states how much the parts of this surface differ.
     pub fn add(&mut self, surface: &LevelledSurface, spread: Spread) {
         let points = [surface.columns, surface.rows];
         let spacing = surface.distances[0];
@@ -51,8 +54,9 @@ impl Differences {
         }
     }
 
-    /// Returns the errors and the ratios that follow from all differences. Each error is the
-    /// largest one among groups of surfaces with equal numbers and distances of points.
+    /// Returns the errors and the ratios that follow from the parts and the surfaces added so far.
+    /// Surfaces with equal numbers and distances of points form a group, and every error is the
+    /// largest one among these groups.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],

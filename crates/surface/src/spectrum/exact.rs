@@ -1,11 +1,14 @@
-//! Moments of the spectrum of periodic surfaces, which are those of the measured powers.
+//! Correction of the fitted spectrum of periodic surfaces, with which its moments equal those of
+//! the measured powers.
 //!
-//! All waves of a periodic surface are known, so its equivalent line has its rms height, gradient
-//! and elastic energy. A spectrum of largest likelihood does not have them: the likelihood compares
-//! ratios of powers, so that a band with little power counts as much as one with most of it. Where
-//! the powers rise or end within the distance of two nodes, a spectrum that is smooth between nodes
-//! cannot follow, and has too much power beside the step. Its values are therefore changed by the
-//! least amount, in units of their standard errors, with which it has the measured moments.
+//! All waves of a periodic surface are known, so the rms height, the gradient and the elastic
+//! energy of its equivalent line follow from the measured powers. A spectrum of largest likelihood
+//! has other values: the likelihood compares ratios of powers, so that a band with little power
+//! counts as much as a band with most of the power. The fitted spectrum is smooth between its
+//! nodes, the wave numbers at which it is given. Where the powers rise or end within the distance
+//! of two nodes, the fitted spectrum cannot follow, and has too much power beside the step. The
+//! values at the nodes are therefore changed so that the moments become exact. The change is the
+//! least one possible, in units of the standard errors.
 
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
@@ -38,9 +41,11 @@ struct ModelMoments {
     gradients: [Vec<f64>; 3],
 }
 
-/// Changes a spectrum so that it has the moments of the observed powers of periodic surfaces, and
-/// returns the differences of the moments that remain. `scans` is the number of surfaces whose
-/// waves are observed one by one.
+/// Changes a spectrum so that three moments equal those of the observed powers of periodic
+/// surfaces: the mean square height, the elastic energy and the mean square gradient, up to
+/// constant factors. Returns the magnitudes of the differences that remain between the moments of
+/// the spectrum and the observed moments; 0 for a moment that is equal. `scans` is the number of
+/// surfaces whose waves are observed one by one.
 pub(super) fn match_moments(
     model: &Model<'_>,
     spectrum: &mut IsotropicSpectrum,

@@ -1,6 +1,6 @@
-//! Fits of spectra to the measured powers of all surfaces together. The module also computes how
-//! the results change if other heights are interpolated, and if the surface has waves that the
-//! points do not resolve.
+//! Fits of spectra to the measured powers of all surfaces together. The module also computes two
+//! changes of the results: with other heights at interpolated points, and with shorter waves than
+//! the points resolve.
 
 use super::isotropic::IsotropicSpectrum;
 use super::isotropic_fit::fit_isotropic;
@@ -24,13 +24,13 @@ const BEFORE_END: f64 = 4.0;
 /// estimate the influence of missing short waves.
 const CONTINUED: f64 = 4.0;
 
-/// Fits of spectra to observations over one range of wave numbers.
+/// Fits of several spectra to the same observations, over one range of wave numbers.
 #[derive(Clone, Copy)]
 pub(super) struct SpectrumFits {
     range: WaveRange,
     end: End,
-    /// True if the spectrum ends at a longer wave than the points resolve, because shorter waves
-    /// have no significant power.
+    /// True if the fitted spectrum ends at a longer wave than the shortest resolved one, because
+    /// shorter waves have no significant power.
     pub ends_inside: bool,
     /// Number of the observed scans if they are periodic ([`Powers::periodic_scans`]).
     periodic_scans: Option<f64>,
@@ -39,15 +39,18 @@ pub(super) struct SpectrumFits {
 /// Largest changes of the results if the same surfaces are read with other interpolated heights.
 #[derive(Default)]
 pub(super) struct ReadingChanges {
-    /// Relative changes of the integrals ∫ q^p C2D dq over the spectrum, for p = 1, 2, 3.
+    /// Magnitudes of the relative changes of the integrals ∫ q^p C2D dq over the spectrum C2D, for
+    /// p = 1, 2, 3. The integrals give the mean square height, the elastic energy and the mean
+    /// square gradient.
     pub integrals: [f64; 3],
-    /// Change of the Hurst exponent.
+    /// Magnitude of the change of the Hurst exponent.
     pub hurst: f64,
 }
 
 impl SpectrumFits {
-    /// Finds the range of the waves with significant power. `end` may let the spectrum continue to
-    /// a wave number. Returns an error if the points already resolve this wave number.
+    /// Prepares the fits: finds the range of wave numbers with significant power. `has_gaps` is
+    /// true if heights are interpolated. `end` states whether the spectrum continues beyond this
+    /// range. Returns an error if it continues to a wave number that the points already resolve.
     pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
         let range = powers.range(|waves| last_significant(waves, has_gaps));
         let resolved = powers.range(|waves| waves.len());
@@ -96,9 +99,9 @@ impl SpectrumFits {
         fit_for_ends(&before_end, self.range, self.end, self.ends_inside)
     }
 
-    /// Repeats the fits with other heights at the points that were interpolated or resampled.
-    /// Returns the largest changes of the results, which show how uncertain the interpolation makes
-    /// them.
+    /// Repeats the fits with other heights at the interpolated points, or with other heights of a
+    /// resampled profile. Returns the largest changes of the results. These changes show how
+    /// uncertain the results are because of the interpolation.
     pub fn changes_between_readings(
         &self,
         surfaces: &[Topography],
@@ -124,8 +127,10 @@ impl SpectrumFits {
         Ok(largest)
     }
 
-    /// Returns the largest relative changes of the integrals ∫ q^p C2D dq, p = 1, 2, 3, if the
-    /// surface has shorter waves than the points resolve.
+    /// Returns the relative changes of the integrals ∫ q^p C2D dq over the spectrum C2D, p = 1, 2,
+    /// 3, if the surface has shorter waves than the points resolve. Of the change of the resolved
+    /// waves and the change of all waves, the larger one is returned. All changes are infinite if a
+    /// fit with shorter waves fails.
     pub fn missing_waves(
         &self,
         observations: &[Observation],

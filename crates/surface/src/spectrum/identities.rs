@@ -1,22 +1,23 @@
-//! Comparison of the moments of a spectrum with the statistics of the points from which the
-//! spectrum was computed. For exact data the moments and the statistics are equal.
+//! Comparison of the moments of a fitted spectrum with the statistics of the measured points. For
+//! exact data the moments and the statistics are equal.
 
 use super::isotropic::IsotropicSpectrum;
 use super::moments::{Moment, line_moments};
 use super::statistics::PointStatistics;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-/// Differences between the squared moments of the equivalent line and those of the measured points,
-/// divided by the squared moments of the line.
+/// How much the squared rms height and the squared rms gradient of the equivalent line differ from
+/// those of the measured points, divided by those of the line.
 pub(super) struct Departures {
     pub squared_height: f64,
     pub squared_gradient: f64,
 }
 
 /// Compares the moments of the equivalent line with the measured points. The rms gradient of the
-/// line is compared with the slopes between points, and its rms height with `height` in m, if this
-/// is known. The comparison finds, for example, a spike that the window function hides from the
-/// spectrum. Differences within three standard errors count as zero.
+/// line is compared with the slopes between points. The rms height of the line is compared with
+/// `height` in m, if this height is known. Such a comparison finds, for example, a spike that the
+/// window function hides from the spectrum. A difference between a moment and its measured value
+/// within three standard errors counts as zero.
 pub(super) fn departures(
     isotropic: &IsotropicSpectrum,
     height: Option<f64>,

@@ -12,13 +12,13 @@ const REACH: usize = 16;
 /// that without displacement. If the ratio is larger, the displacement is not certain.
 const LEFT: f64 = 0.75;
 
-/// Returns the number of points by which the odd rows are displaced against the even rows; `None`
-/// unless this is certain.
+/// Returns the number of points by which the odd rows of a map are displaced against the even rows.
+/// Returns `None` unless the displacement is certain.
 ///
-/// On most surfaces, neighbouring rows are most alike without a displacement, or with the same
-/// displacement from each row to the next. The same displacement from row to row comes from a
-/// drift, or from a surface with a lay (direction of machining marks) oblique to the rows. A
-/// displacement whose sign alternates from row to row comes from two scans.
+/// A displacement whose sign alternates from row to row comes from two scans. Other displacements
+/// do not count: most surfaces have none, or the same displacement from each row to the next. The
+/// same displacement in all rows comes from a drift, or from a surface with a lay (direction of
+/// machining marks) oblique to the rows.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
     // `of_odd` is the displacement of odd rows against the even rows before them, and `of_even`
     // that of even rows against the odd rows before them.

@@ -18,9 +18,10 @@ const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 /// Number of pieces per unit of u into which the quadrature of [`cut`] divides its range.
 const CUT_PIECES: f64 = 8.0;
 
-/// Computes the power spectral density of a cut in m³: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The
-/// integral is computed with the substitution t = k sinh u. The spectrum C2D ends at the wave
-/// number `end` in rad/m.
+/// Computes the power spectral density in m³ of a cut, a profile measured across a surface with the
+/// two-dimensional spectral density C2D: C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt. The integral is
+/// computed with the substitution t = k sinh u. The spectrum C2D ends at the wave number `end` in
+/// rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -33,8 +34,8 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     points.map(term).sum::<f64>() * wave_number / PI
 }
 
-/// An [`IsotropicSpectrum`] at a node, which is one of the wave numbers at which the spectrum is
-/// given.
+/// Values of an [`IsotropicSpectrum`] at one node. A node is one of the wave numbers at which the
+/// spectrum is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Node {
@@ -42,33 +43,36 @@ pub struct Node {
     pub wave_number: f64,
     /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
-    /// Standard error of ln C2D(q). It is about the relative standard error of C2D(q).
+    /// Standard error of ln C2D(q), about the relative standard error of the spectral density
+    /// C2D(q).
     pub relative_error: f64,
-    /// Power spectral density of the equivalent line at q in m³.
+    /// Power spectral density of the equivalent line in m³ at the wave number q.
     pub line: f64,
 }
 
-/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at
-/// several wave numbers, the [nodes](Node). Between them ln C2D is linear in ln q.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. The density is given
+/// at several wave numbers q, the [nodes](Node). Between the nodes, ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
-    /// ln C2D at the nodes.
+    /// ln C2D at the nodes, the wave numbers at which the spectral density C2D is given.
     pub(super) values: Vec<f64>,
     /// Cholesky factor of the information matrix, the inverse covariance matrix, of `values`.
     pub(super) information: Cholesky,
-    /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
+    /// Relative standard errors of the integrals ∫ q^power C2D dq over the spectrum C2D, for power
+    /// = 1, 2, 3, that result from the method of estimation.
     pub(super) method: [f64; 3],
-    /// Relative changes of the integrals ∫ q^power C2D dq, for power = 1, 2, 3, if the surface has
-    /// shorter waves than the points resolve.
+    /// Relative changes of the integrals ∫ q^power C2D dq over the spectrum C2D, for power = 1, 2,
+    /// 3, if the surface has shorter waves than the points resolve.
     pub(super) missing: [f64; 3],
-    /// Ratio of the largest to the smallest rms height or rms gradient among several kinds of
-    /// surfaces, such as profiles and maps, to which the spectrum is fitted together; 1 if chance
-    /// explains the differences.
+    /// Ratio of the largest to the smallest rms height, or rms gradient, among several kinds of
+    /// surfaces. The kinds, such as profiles and maps, are fitted together by this spectrum. The
+    /// ratio is 1 if chance explains the differences between the kinds.
     pub(super) ratio_of_kinds: f64,
 }
 
-/// Integral over a spectrum, and derivatives of this integral with respect to ln C2D at the nodes.
+/// Value of an integral over a spectrum, and the derivatives of this value with respect to ln C2D
+/// at the nodes, the wave numbers at which the spectral density C2D is given.
 pub(super) struct Integral {
     pub value: f64,
     pub gradient: Vec<f64>,
@@ -76,8 +80,8 @@ pub(super) struct Integral {
 
 impl IsotropicSpectrum {
     /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. The
-    /// density is constant below the first wave number at which the spectrum is given (its first
-    /// node). It is zero above the last wave number of the spectrum.
+    /// density is constant below the first node, the smallest wave number at which the spectrum is
+    /// given. The density is zero above the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -86,8 +90,8 @@ impl IsotropicSpectrum {
         }
     }
 
-    /// Returns the power spectral density of the equivalent line in m³ at a wave number q in rad/m.
-    /// It is q C2D(q)/2.
+    /// Returns the power spectral density q C2D(q)/2 of the equivalent line in m³, at a wave number
+    /// q in rad/m.
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
@@ -99,25 +103,27 @@ impl IsotropicSpectrum {
     }
 
     /// Returns the largest wave number in rad/m at which the spectrum is given, its last node. It
-    /// is that of the shortest wave that the measured points resolve.
+    /// belongs to the shortest measured waves with significant power.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
 
-    /// Returns the first and the last wave number of the spectrum in rad/m.
+    /// Returns the first and the last wave number of the spectrum in rad/m. The last one may exceed
+    /// the last node, if the spectrum continues beyond the measured waves.
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
-    /// Returns the same spectrum without the waves beyond a wave number in rad/m.
+    /// Returns the same spectrum without the waves whose wave numbers exceed `wave_number` in
+    /// rad/m.
     pub(crate) fn up_to(&self, wave_number: f64) -> IsotropicSpectrum {
         let mut shorter = self.clone();
         shorter.nodes.end = self.nodes.end.min(wave_number);
         shorter
     }
 
-    /// Returns the spectrum and its error at each wave number at which the spectrum is given, in
-    /// ascending order.
+    /// Returns the values of the spectrum at its nodes, the wave numbers at which it is given, in
+    /// ascending order of the wave number.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);
@@ -130,9 +136,9 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Returns the spectrum with a random error of the fit: ln C2D at the nodes is changed by
-    /// `share` times a step from the normal distribution of the errors. `number` selects the step:
-    /// equal numbers give equal steps.
+    /// Returns the spectrum with a random error of the fit. The error of ln C2D, where C2D is the
+    /// spectral density, is drawn from the normal distribution of the errors of the fit and
+    /// multiplied by `share`. `number` is the seed: equal numbers give equal errors.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
@@ -151,7 +157,8 @@ impl IsotropicSpectrum {
         self.nodes.place(ln_q).interpolate(&self.values).exp()
     }
 
-    /// Computes ∫ q^power C2D dq over the waves with wave numbers from `from` (in rad/m) on.
+    /// Computes ∫ q^power C2D dq over the waves with wave numbers from `from` (in rad/m) on. C2D is
+    /// the spectral density at the wave number q.
     pub(super) fn integral(&self, power: i32, from: f64) -> Integral {
         let mut value = 0.0;
         let mut gradient = vec![0.0; self.values.len()];
@@ -167,24 +174,25 @@ impl IsotropicSpectrum {
         Integral { value, gradient }
     }
 
-    /// Computes ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line. Up to
-    /// constant factors these integrals are the mean square height, the elastic energy and the mean
-    /// square gradient of the line.
+    /// Computes the integrals ∫ q^power C2D dq over the spectrum C2D, power = 1, 2, 3, for the
+    /// waves of the equivalent line. Up to constant factors, the three integrals are the mean
+    /// square height, the elastic energy and the mean square gradient of the line.
     pub(super) fn integrals(&self) -> [f64; 3] {
         let from = 0.5 * self.nodes.wave_number(0);
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences of three integrals ([`Self::integrals`]) between `other`
-    /// and this spectrum.
+    /// Returns the relative differences between `other` and this spectrum in the three integrals ∫
+    /// q^power C2D dq over the spectrum C2D, power = 1, 2, 3.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();
         [0, 1, 2].map(|index| others[index] / own[index] - 1.0)
     }
 
-    /// Adds further errors of the method to the relative errors of the integrals. The squares of
-    /// the errors are added, because the errors are independent.
+    /// Adds further errors of the method of estimation to the relative errors of the three
+    /// integrals ∫ q^power C2D dq over the spectrum C2D, power = 1, 2, 3. The squares of the errors
+    /// are added, because the errors are independent.
     pub(super) fn add_method_errors(&mut self, errors: [f64; 3]) {
         for (method, error) in self.method.iter_mut().zip(errors) {
             *method = method.hypot(error);
@@ -224,7 +232,8 @@ mod tests {
     use super::super::nodes::{End, WaveRange};
     use super::*;
 
-    /// Returns a spectrum without errors that has the values of `c2d` at the nodes.
+    /// Returns a spectrum without errors whose spectral density at the nodes, in m⁴, is given by
+    /// `c2d`.
     pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
         let values = (0..nodes.count)
             .map(|index| c2d(nodes.wave_number(index)).ln())

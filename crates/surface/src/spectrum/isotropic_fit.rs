@@ -1,4 +1,5 @@
-//! The isotropic spectrum of largest penalised likelihood.
+//! The isotropic spectrum of largest penalised likelihood. The spectrum is given at several wave
+//! numbers, the nodes.
 //!
 //! The fit finds the values x_i = ln C2D at the nodes that minimise Σ w (P/m + ln m) + λ Σ (x_{i−1}
 //! − 2x_i + x_{i+1})². The first sum runs over the observations: P is the observed mean power of w
@@ -33,9 +34,11 @@ const LEAST_DEVIATIONS: f64 = 3.0;
 /// this law near each observation.
 const INITIAL_EXPONENT: f64 = 3.0;
 
-/// Finds the isotropic spectrum. Returns `None` if the information matrix is not positive definite,
-/// which happens for powers that are zero or not finite. `periodic_scans` is the number of observed
-/// scans if the spectrum must have their moments ([`match_moments`]).
+/// Finds the isotropic spectrum of largest penalised likelihood. If `periodic_scans` is given, the
+/// moments of the spectrum, such as its mean square height, are then made equal to those of the
+/// observed powers ([`match_moments`]). `periodic_scans` is the number of periodic surfaces whose
+/// waves are observed one by one. Returns `None` if the information matrix is not positive
+/// definite, which happens for powers that are zero or not finite.
 pub(super) fn fit_isotropic(
     model: &Model<'_>,
     periodic_scans: Option<f64>,

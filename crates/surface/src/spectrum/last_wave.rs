@@ -16,11 +16,12 @@ const CHANCE: f64 = 0.25;
 /// number of waves before the end.
 const DROP: f64 = 0.03;
 
-/// Finds where the power of a spectrum ends, and returns the number of waves before this end. Waves
-/// beyond the end have a negligible share of the squared gradient, and far less power than the
-/// waves before. If there is no such end, returns the number of all waves. If `has_floor` is true,
-/// the mean power of the last waves is first subtracted, because errors of single interpolated
-/// points add the same power to all waves.
+/// Finds where the significant power of a spectrum ends, and returns the number of waves before
+/// this end. Waves beyond the end have a negligible share of the squared gradient, and far less
+/// power than the waves before it. If there is no such end, returns the number of all waves.
+///
+/// If `has_floor` is true, the mean power of the last waves is first subtracted from all powers.
+/// Errors of single interpolated points add such a constant power to all waves.
 pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
     let floor = if has_floor { noise_floor(waves) } else { 0.0 };
     let excess_over_floor =

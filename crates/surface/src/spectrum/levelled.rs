@@ -24,7 +24,7 @@ pub(super) struct LevelledSurface {
     /// True for each point that was measured, and false for each interpolated point. Empty if all
     /// points were measured.
     pub measured: Vec<bool>,
-    /// Distances of the points along and between the rows in m.
+    /// Distances in m between neighbouring points of a row, and between neighbouring rows.
     pub distances: [f64; 2],
     /// True if the surface is not periodic, so that the analysis uses a window function.
     pub windowed: bool,
@@ -35,9 +35,10 @@ pub(super) struct LevelledSurface {
 }
 
 impl LevelledSurface {
-    /// Copies the heights of a surface and removes a polynomial. `index` is the index of the
-    /// surface, for errors. If `quarters` is above zero, the copied heights are changed by about as
-    /// much as interpolation may have changed them ([`Topography::copied_heights`]).
+    /// Copies the heights of a surface and removes a polynomial from the copy. `index` is the
+    /// number of the surface in error messages. `quarters` is 0 for the heights as they are. With
+    /// 1, 2 or 3, the copied heights are changed in one of three ways, by about as much as
+    /// interpolation may have changed them ([`Topography::copied_heights`]).
     pub fn new(
         index: usize,
         surface: &Topography,
@@ -72,8 +73,8 @@ impl LevelledSurface {
         is_measured.then(|| self.heights[index])
     }
 
-    /// Returns an error if the remaining heights are not larger than the rounding errors of the
-    /// original heights.
+    /// Returns an error if the heights after removal of the polynomial are not larger than the
+    /// rounding errors of the original heights.
     pub fn check_rough(&self, original: &Topography) -> Result<(), SurfaceError> {
         let left = largest_height(&self.heights);
         if left > ROUNDING * largest_height(&original.heights) && left > LEAST_HEIGHT {

@@ -10,18 +10,20 @@ const NODES_PER_DECADE: f64 = 6.0;
 /// Spacing in ln q of the grid of wave numbers to which [`Model::condensed`] moves terms.
 const GRID: f64 = 0.02;
 
-/// Model of the observed powers: their expected means are sums of terms, which depend on the
-/// spectrum.
+/// Model of the observed powers. The expected value of each observed power is a sum of terms that
+/// depend on the spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
-    /// Terms of the expected mean of each observation. The mean is the sum of the terms.
+    /// For each observation, a list of terms. Their sum is the expected value of the observed
+    /// power.
     pub terms: Vec<Vec<Term>>,
     pub nodes: Nodes,
 }
 
 impl<'a> Model<'a> {
-    /// Creates a model for observations in a range of wave numbers. The model gives a spectrum by
-    /// its values at wave numbers in this range, the nodes.
+    /// Creates a model for observations in a range of wave numbers. The spectrum of the model is
+    /// given at wave numbers in this range, the nodes. `end` states whether the spectrum continues
+    /// beyond the range.
     pub fn new(observations: &'a [Observation], range: WaveRange, end: End) -> Self {
         let nodes = Nodes::new(range, NODES_PER_DECADE, end);
         let terms = observations
@@ -35,9 +37,9 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the same model with fewer terms. The weight of each term is divided between the two
-    /// nearest wave numbers of a fine grid. For a power law q^(−4), this changes the expected mean
-    /// by less than 0.1 %.
+    /// Returns a model with fewer terms and nearly the same expected values of the powers. The
+    /// weight of each term is divided between the two nearest wave numbers of a fine grid. For a
+    /// power law q^(−4), the expected values change by less than 0.1 %.
     pub fn condensed(&self) -> Model<'a> {
         let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
         Model {
@@ -75,8 +77,9 @@ impl<'a> Model<'a> {
         condensed
     }
 
-    /// Computes the negative logarithm of the likelihood: the sum of w (P/m + ln m) over the
-    /// observations. P is the observed mean power of w waves, and m is its expected mean.
+    /// Returns the negative logarithm of the likelihood of the observations. It is the sum of w
+    /// (P/m + ln m) over the observations: P is the mean power of w waves that was observed, and m
+    /// from `means` is its expected value.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()
@@ -85,8 +88,9 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the expected mean of each observed power. `values` is ln C2D at the nodes, the wave
-    /// numbers at which the spectrum is given.
+    /// Returns the expected value of each observed power, which the spectrum `values` predicts.
+    /// `values` is ln C2D at the nodes, the wave numbers at which the spectral density C2D is
+    /// given.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

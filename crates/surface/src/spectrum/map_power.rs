@@ -14,26 +14,28 @@ const BYTES: u64 = 48;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {
     pub windowed: bool,
-    /// Wave numbers in rad/m of the waves with one period over the map, along and between the rows.
+    /// Smallest wave numbers in rad/m, along the rows and perpendicular to the rows. They belong to
+    /// the waves with one period over the map.
     pub steps: [f64; 2],
-    /// Wave numbers 2π/Δ in rad/m, where Δ is the distance between points, along and between the
-    /// rows.
+    /// Wave numbers 2π/Δ in rad/m, along the rows and perpendicular to the rows. Δ is the distance
+    /// between points in this direction.
     pub sampling: [f64; 2],
-    /// The waves with their powers C2D, sorted by wave number, up to the smaller of the two Nyquist
-    /// wave numbers. They cover only one half of the plane of wave numbers, because the other half
-    /// has the same powers.
+    /// The waves with their power spectral densities C2D in m⁴, sorted by wave number, up to the
+    /// smaller of the two Nyquist wave numbers. They cover only one half of the plane of wave
+    /// numbers, because the other half has the same powers.
     pub waves: Vec<Wave>,
-    /// True if the waves parallel to one axis are left out, because rows or columns are offset
-    /// against each other or because each row was levelled.
+    /// True if short waves parallel to one axis are left out, because whole rows or columns are
+    /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between the remaining waves parallel to an axis and the waves in
-    /// neighbouring directions, as a share of the squared gradient of the map.
+    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
+    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
+    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 
 impl MapPower {
-    /// Computes the power spectrum of a map. If each row was levelled, the waves across the rows
-    /// are left out, because levelling changes these waves.
+    /// Computes the power spectrum of a map. If each row was levelled, the waves perpendicular to
+    /// the rows are left out, because levelling changes these waves.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);
@@ -57,7 +59,8 @@ pub(super) fn waves_of_map(map: &LevelledSurface) -> Result<Vec<Wave>, SurfaceEr
     Ok(waves_by_axis(map, steps(map))?.all())
 }
 
-/// Returns the wave numbers of wave 1 along and between the rows in rad/m.
+/// Returns the smallest wave numbers in rad/m, along the rows and perpendicular to the rows. They
+/// belong to the waves with one period over the map.
 fn steps(map: &LevelledSurface) -> [f64; 2] {
     let [along, between] = map.distances;
     [

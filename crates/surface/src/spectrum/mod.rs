@@ -7,10 +7,10 @@
 //!
 //! C_cut(k) = (1/π) ∫₀^∞ C2D(√(k² + t²)) dt, C_line(q) = q C2D(q)/2.
 //!
-//! The line therefore has the same rms height as the cut, √2 times its rms gradient and π/2 times
-//! its elastic energy. A direct inversion of one periodogram would amplify its noise. The fit
-//! therefore maximises the likelihood of the periodograms over all spectra that are positive and
-//! smooth.
+//! The line therefore has the same rms height as the cut, √2 times the rms gradient of the cut, and
+//! π/2 times its elastic energy. A direct computation of C2D from one periodogram would amplify the
+//! noise of the periodogram. The fit therefore maximises the likelihood of the periodograms over
+//! all spectra that are positive and smooth.
 //!
 //! The wave number is q = 2π/wavelength in rad/m. The spectral densities C1D in m³ and C2D in m⁴
 //! give the rms height h by h² = (1/π) ∫₀^∞ C1D dq = (1/2π) ∫₀^∞ q C2D dq. The steps are described

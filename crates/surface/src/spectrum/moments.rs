@@ -20,19 +20,16 @@ pub struct ValueWithError {
 pub struct Moment {
     /// Value of the moment.
     pub value: f64,
-    /// Standard error of the value, from `statistical` and `method` together.
+    /// Standard error of the value: the root of the sum of the squares of `statistical` and
+    /// `method`.
     pub error: f64,
-    /// Largest change of the value if the surface has shorter waves than the points resolve. These
-    /// waves are assumed to follow a power law down to a quarter of the shortest resolved
-    /// wavelength. The change is zero if the value already includes such waves
-    /// ([`End::Continues`](super::nodes::End::Continues)). It is also zero if the spectrum ends
-    /// within the resolved waves, so that no shorter waves are expected.
+    /// Standard error of the value that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Standard error that results from the method of estimation.
+    /// Standard error of the value that results from the method of estimation.
     pub method: f64,
     /// Largest change of the value if the surface has shorter waves than the points resolve. These
-    /// waves are assumed to follow a power law down to a quarter of the shortest resolved
-    /// wavelength. The change is zero if the value already includes such waves
+    /// shorter waves are assumed to follow a power law down to a quarter of the shortest resolved
+    /// wavelength. The change is zero if the value already includes shorter waves
     /// ([`End::Continues`](super::nodes::End::Continues)). It is also zero if the spectrum ends
     /// within the resolved waves, so that no shorter waves are expected.
     pub missing_short_waves: f64,
@@ -62,7 +59,7 @@ impl Moment {
         Moment::new(factor * self.value, relative)
     }
 
-    /// Returns the square root of the moment, with the errors of the root.
+    /// Returns the square root of the moment, with the errors of this root.
     pub fn root(self) -> Self {
         let missing_short_waves = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
         let relative = RelativeErrors {
@@ -92,14 +89,14 @@ pub struct LineMoments {
     pub rms_gradient: Moment,
     /// Product of the rms height h and the rms gradient ⟨∇z⟩ in m.
     pub height_gradient: Moment,
-    /// Ratio e_el/E* in m. e_el is the elastic energy per area that flattens the roughness, and E*
-    /// the effective modulus.
+    /// Ratio e_el/E* in m. e_el is the elastic energy per area in J/m² that flattens the roughness,
+    /// and E* is the effective modulus in Pa.
     pub energy_per_modulus: Moment,
 }
 
-/// Computes the moments of the equivalent line of several faces, the surfaces that touch each
-/// other. The spectrum of the line is the sum of the spectra of the faces, whose errors are
-/// independent.
+/// Computes the moments of the equivalent line of one or two faces, which are the surfaces that
+/// touch each other. The spectrum of the line is the sum of the spectra of the faces. The errors of
+/// the faces are independent.
 ///
 /// The waves of the line begin at half of the first wave number that is known for all faces,
 /// because the wave with one period over a length represents all waves from ½ to 1½ periods.

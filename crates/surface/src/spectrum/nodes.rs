@@ -1,5 +1,5 @@
-//! Nodes of a spectrum, which are wave numbers q between which ln C2D is linear in ln q. The module
-//! also has the terms of sums over such a spectrum.
+//! Nodes of a spectrum: the wave numbers q at which the spectrum C2D is given. Between nodes, ln
+//! C2D is linear in ln q. The module also has the terms of sums over such a spectrum.
 
 use super::quadrature::{GaussPoint, gauss};
 
@@ -21,45 +21,47 @@ pub(super) struct WaveRange {
     pub last: f64,
 }
 
-/// Nodes that are equally spaced in ln q.
+/// Nodes that are equally spaced in ln q. A node is a wave number q at which a spectrum is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nodes {
-    /// ln q of the first node.
+    /// Natural logarithm of the first wave number in rad/m.
     pub first: f64,
-    /// Distance between nodes in ln q.
+    /// Difference of ln q between neighbouring nodes.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum in rad/m. If the spectrum continues beyond the resolved
-    /// waves, it is larger than the wave number of the last node.
+    /// Largest wave number of the spectrum in rad/m. It is larger than the wave number of the last
+    /// node if the spectrum continues beyond the resolved waves.
     pub end: f64,
 }
 
-/// Place of a wave number between two neighbouring nodes.
+/// Place of a wave number relative to two neighbouring nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
-    /// Index of the node (a wave number at which the spectrum is given) at or below the wave
-    /// number.
+    /// Index of the node at or below the wave number. A node is a wave number at which the spectrum
+    /// is given.
     pub index: usize,
-    /// Distance from this node in ln q, divided by the distance between two nodes.
+    /// Distance in ln q from this node to the wave number, divided by the distance between two
+    /// nodes.
     pub share: f64,
 }
 
 impl NodePlace {
-    /// Interpolates linearly between the values at the two nodes.
+    /// Interpolates linearly between the values at the two neighbouring nodes. `values` has a value
+    /// for each node.
     pub fn interpolate(&self, values: &[f64]) -> f64 {
         (1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]
     }
 
-    /// Divides a derivative of a quantity between the two neighbouring nodes. `derivative` is the
-    /// derivative with respect to ln C2D at this place. The two parts are added to `gradient`,
-    /// which has the derivatives with respect to ln C2D at the nodes.
+    /// Converts a derivative with respect to ln C2D at this place to derivatives with respect to ln
+    /// C2D at the two neighbouring nodes. C2D is the two-dimensional spectral density. The two
+    /// derivatives are added to `gradient`, which has one element for each node.
     pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
         gradient[self.index] += (1.0 - self.share) * derivative;
         gradient[self.index + 1] += self.share * derivative;
     }
 }
 
-/// Interval of the wave number in rad/m in which a spectrum is a power law.
+/// Interval of wave numbers in rad/m in which a spectrum is a power law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     pub low: f64,
@@ -67,16 +69,17 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Returns the points of the quadrature, whose variable is ln q.
+    /// Returns the points of a Gauss quadrature over this interval. The variable of integration is
+    /// ln q.
     pub fn logarithms(&self) -> impl Iterator<Item = GaussPoint> {
         gauss(self.low.ln(), self.high.ln())
     }
 }
 
 impl Nodes {
-    /// Creates nodes, the wave numbers at which a spectrum is given. They cover `range` with
-    /// `per_decade` nodes per decade. `end` states whether the spectrum continues beyond this
-    /// range.
+    /// Creates nodes, the wave numbers at which a spectrum is given. The nodes cover `range`, with
+    /// at least `per_decade` nodes per decade. `end` states whether the spectrum continues beyond
+    /// `range`.
     pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
         let ratio = range.last / range.first;
         let pieces = (per_decade * ratio.log10()).ceil().max(2.0);
@@ -97,9 +100,9 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Returns where ln q lies between the nodes. Below the first node, the place is that of the
-    /// first node, so that the spectrum is constant there. Beyond the last node, the spectrum is
-    /// extrapolated.
+    /// Returns where the logarithm `ln_q` of a wave number q lies between the nodes. Below the
+    /// first node, the place is that of the first node, so that the spectrum is constant there.
+    /// Beyond the last node, the spectrum is extrapolated.
     pub fn place(&self, ln_q: f64) -> NodePlace {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
@@ -132,8 +135,8 @@ impl Nodes {
         pieces
     }
 
-    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, where q is a wave number in
-    /// rad/m.
+    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, where C2D is the
+    /// two-dimensional spectral density and q a wave number in rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         Term {
@@ -144,7 +147,7 @@ impl Nodes {
     }
 }
 
-/// A term of a sum over a spectrum: a weight times C2D at the wave number q.
+/// A term of a sum over a spectrum: a weight times the spectral density C2D at the wave number q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub weight: f64,
@@ -154,7 +157,7 @@ pub(super) struct Term {
 
 impl Term {
     /// Returns the value of the term. `values` is ln C2D at the nodes, the wave numbers at which
-    /// the spectrum is given.
+    /// the spectral density C2D is given.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * self.place.interpolate(values).exp()
     }

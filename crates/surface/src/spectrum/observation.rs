@@ -16,7 +16,7 @@ const BANDS_PER_DECADE: f64 = 60.0;
 
 /// Number of neighbouring waves that have as much information as one independent wave if a Hann
 /// window is used. The powers of two waves have the correlation coefficient (2/3)² if their numbers
-/// of periods differ by 1, and (1/6)² if these differ by 2.
+/// of periods differ by 1, and (1/6)² if their numbers of periods differ by 2.
 pub(super) const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
 /// A wave whose power contributes to the observed power of another wave.
@@ -57,36 +57,40 @@ const MOST_ALIASES: u32 = 4;
 /// powers.
 const LEAST_DISPERSED: f64 = 8.0;
 
-/// Mean power of the waves in a band of wave numbers.
+/// Observed mean power of the waves in a band of wave numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
     pub wave_number: f64,
     /// Mean power spectral density of the band: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Weight of the band in moments of the equivalent line. The band contributes the mean power
-    /// times this weight times a power of q to a moment ([`Observation::moments`]).
+    /// Weight of the band in the moments of the equivalent line. The contribution of the band to a
+    /// moment is its mean power times this weight times a power of its wave number
+    /// ([`Observation::moments`]).
     pub range: f64,
-    /// Mean of the power times q⁰, q¹ and q² over the waves of the band.
+    /// Means of P, q P and q² P over the waves of the band, where P is the power of a wave and q
+    /// its wave number in rad/m.
     pub weighted_powers: [f64; 3],
     pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of the observed power. `step` and `steps` are the wave numbers of the waves with one
-/// period, and `sampling` is 2π over the distance between points, all in rad/m. Two waves whose
-/// wave numbers differ by `sampling` look the same at the points: they are aliases.
+/// Kind of the observed power. `step` and `steps` are the wave numbers of waves with one period
+/// over the surface. `sampling` is 2π over the distance between points. All are in rad/m. Two waves
+/// whose wave numbers differ by `sampling` look the same at the points: they are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Power C1D of a cut through the surface, which is a profile.
+    /// One-dimensional power spectral density C1D of a cut through the surface, which is a profile.
     Cut { step: f64, sampling: f64 },
-    /// Power C2D of a map. The two wave numbers are those along and between the rows.
+    /// Two-dimensional power spectral density C2D of a map. The first of the two wave numbers is
+    /// that along the rows, the second that perpendicular to the rows.
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
-/// Returns the observations of the spectrum of profiles, up to the wave number `last` in rad/m. The
-/// first observation is the wave with one period over the profile. If a window is used, it is the
-/// wave with two periods, because removal of a polynomial reduces the power of the longest wave.
+/// Returns the observed mean powers of profiles in bands of wave numbers up to `last` in rad/m. The
+/// first band is the wave with one period over the profile. If a window is used, the first band is
+/// the wave with two periods, because removal of a polynomial reduces the power of the longest
+/// wave.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut {
         step: power.step,
@@ -128,9 +132,9 @@ fn first_of_next_band(first: usize) -> usize {
     ((first as f64 * ratio) as usize).max(first + 1)
 }
 
-/// Returns the smallest wave number of a map that is used, in rad/m. If a window is used, the waves
-/// with about one period over the map are left out, because removal of a polynomial reduces their
-/// power.
+/// Returns the smallest wave number in rad/m of the waves of a map that are used. If a window is
+/// used, the waves with about one period over the map are left out, because removal of a polynomial
+/// reduces their power.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed {
         2.0 * power.steps[0].max(power.steps[1])
@@ -168,7 +172,7 @@ fn band_number(wave: &Wave) -> f64 {
     (BANDS_PER_DECADE * wave.wave_number.log10()).floor()
 }
 
-/// Returns the observations of the spectrum of a map up to a wave number in rad/m.
+/// Returns the observed mean powers of a map in bands of wave numbers up to `last` in rad/m.
 pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     let least = least_of_map(map) * (1.0 - 1e-9);
     let first = map.waves.partition_point(|wave| wave.wave_number < least);
@@ -230,16 +234,18 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this band to three moments of the equivalent line, if the band
-    /// has the mean power `power`. The moments are ∫ q^(p+1) C2D dq/2π for p = 0, 1, 2. The moments
-    /// of a cut are 1, 2/π and 1/2 times these moments.
+    /// Computes the contribution of this band to three moments of the equivalent line, under the
+    /// assumption that all waves of the band have the power `power`. The moments are ∫ q^(p+1) C2D
+    /// dq/2π for p = 0, 1, 2, where C2D is the spectral density at the wave number q. The moments
+    /// of a cut are 1, 2/π and 1/2 times the moments of the line.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         self.of_weighted_powers([1.0, q, q * q].map(|factor| factor * power))
     }
 
-    /// Computes the contribution of the waves of this band to the same moments, each wave with its
-    /// own power and wave number.
+    /// Computes the measured contribution of this band to the moments ∫ q^(p+1) C2D dq/2π for p =
+    /// 0, 1, 2, where C2D is the spectral density at the wave number q. Each wave of the band
+    /// contributes with its own power and wave number.
     pub fn measured_moments(&self) -> [f64; 3] {
         self.of_weighted_powers(self.weighted_powers)
     }
@@ -253,10 +259,10 @@ impl Observation {
         moments.map(|moment| moment * self.range)
     }
 
-    /// Returns the terms whose sum is the expected mean power of this band. Each term is the
-    /// product of a factor and of the spectrum at one of the wave numbers `nodes`. The terms
-    /// include aliases: waves that look like the waves of this band because the points do not
-    /// resolve them.
+    /// Returns the terms whose sum is the mean power of this band that a spectrum predicts. Each
+    /// term is a weight times the spectrum at one wave number, interpolated between the wave
+    /// numbers `nodes`. The terms include aliases. These are waves that look like the waves of this
+    /// band, because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

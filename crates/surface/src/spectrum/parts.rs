@@ -55,20 +55,23 @@ pub(super) struct Blocks {
     shares: Vec<f64>,
 }
 
-/// Relative differences of the moments between the parts of a surface.
+/// How much three moments of the heights differ between the parts of a surface, as relative
+/// numbers. Up to constant factors, the moments are the mean square height, the elastic energy and
+/// the mean square gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
-    /// Mean of each moment over the blocks of the surface.
+    /// Mean over the parts of the surface of three moments: mean square height, elastic energy and
+    /// mean square gradient, up to constant factors.
     pub means: [f64; 3],
-    /// Relative variances of the means that chance explains, if the surface is uniform and its
-    /// heights are normally distributed.
+    /// Relative variances of the three moments in `means` that chance explains. Chance means here:
+    /// the surface is uniform, and its heights are normally distributed.
     pub chance: [f64; 3],
-    /// Relative variances of the means beyond those in `chance`; zero if chance explains the
-    /// differences between the parts.
+    /// Relative variances of the three moments in `means` that chance does not explain; zero if
+    /// chance explains all differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
-    /// surface. A surface without four quarters is divided into halves. The ratio is 1 if chance
-    /// explains the differences.
+    /// surface, or among its halves if there are no quarters. The ratio is 1 if chance explains the
+    /// differences between them.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,
@@ -89,8 +92,8 @@ struct MomentSpread {
 }
 
 impl Spread {
-    /// Returns the spread of a surface with a single part, or whose parts differ by no more than
-    /// chance explains.
+    /// Returns the value for a surface that has only one part, or whose parts have moments (such as
+    /// the mean square height) that differ by no more than chance explains.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,
@@ -148,8 +151,9 @@ impl Blocks {
         })
     }
 
-    /// Returns how much each moment differs between the blocks. If chance explains the differences
-    /// of every moment, all [`Spread::excess`] are zero.
+    /// Returns how much the mean square height, the elastic energy and the mean square gradient
+    /// differ between the blocks. If chance explains the differences of all moments, every
+    /// [`Spread::excess`] is zero.
     pub fn spread(&self) -> Spread {
         let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
         let mut spread = Spread {
@@ -237,8 +241,9 @@ impl Blocks {
         most / least
     }
 
-    /// Returns factors for the powers of the whole surface, with which all blocks count equally.
-    /// The factors are 1 if chance explains `spread`.
+    /// Returns factors for the powers of the whole surface. With these factors, all blocks count
+    /// equally in spite of the window function. The factors are 1 if chance explains the
+    /// differences `spread` between the blocks.
     pub fn weights(&self, spread: &Spread) -> EqualWeights {
         if spread.is_chance {
             EqualWeights::none()
@@ -390,31 +395,32 @@ fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
         .map(|(first, second)| 0.5 * (first + second))
 }
 
-/// Returns the relative variance of the mean of several parts, which is estimated from the
-/// differences between the parts.
+/// Returns the relative variance of the mean of several parts, estimated from the differences
+/// between the values `parts`.
 pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     let count = parts.len() as f64;
     let squares: f64 = parts.iter().map(|part| (part / mean - 1.0).powi(2)).sum();
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the largest ratio of two variances of a mean that counts as chance: the estimated
-/// variance divided by the expected one. The estimate is made from the differences between `parts`
-/// parts.
+/// Returns the largest ratio of two variances that counts as chance. Both are variances of the mean
+/// of a moment over `parts` parts of a surface: the first is estimated from the differences between
+/// the parts, the second is that on a uniform surface.
 ///
-/// The estimate exceeds this ratio by chance once in a thousand times: the ratio is a quantile of
-/// the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance of one part
-/// that chance explains. A part is distributed like a sum of 1/`variance` exponentially distributed
-/// numbers. If these are few, the distribution is skewed and the estimate scatters more.
+/// On a uniform surface, the ratio exceeds the result once in a thousand times. The result is a
+/// quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is the relative variance
+/// of one part on a uniform surface. A part is distributed like a sum of 1/`variance` exponentially
+/// distributed numbers. If these numbers are few, the distribution is skewed, and the estimated
+/// variance scatters more.
 pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     let parts = parts as f64;
     let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;
     (1.0 - ninth + NO_CHANCE * ninth.sqrt()).powi(3)
 }
 
-/// Returns the factor by which the standard error of a mean of `parts` parts is multiplied, so that
-/// about two thirds of all cases lie within it. It is a quantile of Student's distribution, and
-/// nearly 1 if there are many parts.
+/// Returns a factor for the standard error of a mean of `parts` parts. With this factor, the true
+/// value lies within one standard error of the mean in about two thirds of all cases. The factor is
+/// a quantile of Student's distribution, and nearly 1 if there are many parts.
 pub(super) fn student_factor(parts: usize) -> f64 {
     let freedom = parts as f64 - 1.0;
     1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)

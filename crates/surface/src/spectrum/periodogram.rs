@@ -44,13 +44,13 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// Returns the power times the wave number to the power `exponent`.
+    /// Returns the power of the wave times q^`exponent`, where q is the wave number.
     pub fn weighted_power(&self, exponent: i32) -> f64 {
         self.power * self.wave_number.powi(exponent)
     }
 
-    /// Returns what the wave contributes to the squared gradient of the surface, up to a constant
-    /// factor.
+    /// Returns the contribution of the wave to the squared gradient of the surface, up to a
+    /// constant factor.
     pub fn squared_gradient(&self) -> f64 {
         self.wave_number * self.wave_number * self.power
     }
@@ -95,8 +95,8 @@ impl ProfilePower {
         }
     }
 
-    /// Adds the power spectra of the rows of one surface. The powers are first multiplied by the
-    /// factors `weights`.
+    /// Adds the power spectra of the rows of one surface. Each power is first multiplied by its
+    /// factor from `weights`.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -185,8 +185,8 @@ pub(super) fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Averages powers in 10 bins per decade of the wave number. Each element of `waves` is one wave,
-/// or the mean of several waves with the same wave number.
+/// Averages powers in bins of the wave number, 10 bins per decade. Each element of `waves` is one
+/// wave, or the mean of several waves with the same wave number.
 pub(super) fn bins(waves: impl IntoIterator<Item = Bin>) -> Vec<Bin> {
     // Sums over the waves in each bin, by the number of the bin on the logarithmic axis.
     let mut sums: BTreeMap<i64, Bin> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Results that are computed from the points of the surfaces without their spectra.
+//! Results that are computed from the points of the surfaces, without a spectrum.
 
 use super::identities::departures;
 use super::interlaced;
@@ -6,18 +6,18 @@ use super::isotropic::IsotropicSpectrum;
 use super::levelled::LevelledSurface;
 use super::statistics::{Sums, reliability_cutoff};
 
-/// Relative difference up to which the lengths of two scans, or the distances between their points,
-/// count as equal.
+/// Relative difference up to which two lengths of surfaces, or two distances between points, count
+/// as equal.
 pub(super) const SAME: f64 = 1e-6;
 
 #[derive(Default)]
 pub(super) struct PointResults {
     pub sums: Sums,
-    /// Sums over the longest scans. Only these scans have the long waves that determine the rms
-    /// height of the equivalent line.
+    /// Sums over the longest surfaces. Only these surfaces have the long waves that determine the
+    /// rms height of the equivalent line.
     pub longest: LargestSums,
-    /// Sums over the scans with the smallest distance between points. Only these scans have the
-    /// short waves that determine the rms gradient of the equivalent line.
+    /// Sums over the surfaces with the smallest distance between points. Only these surfaces have
+    /// the short waves that determine the rms gradient of the equivalent line.
     pub finest: LargestSums,
     /// Rms height of each surface in m.
     pub rms_heights: Vec<f64>,
@@ -53,8 +53,9 @@ impl PointResults {
         }
     }
 
-    /// Compares the rms gradient of the spectrum with that of the points, and adds the difference
-    /// to the errors of the spectrum. If `has_height` is true, does the same for the rms height.
+    /// Compares the rms gradient of the spectrum with the rms gradient of the points, and adds the
+    /// difference between the two to the errors of the spectrum. If `has_height` is true, also
+    /// compares the rms heights in this way.
     pub fn check_identities(&self, isotropic: &mut IsotropicSpectrum, has_height: bool) {
         let height = self.longest.sums.statistics().rms_height;
         let height = has_height.then_some(height);
@@ -66,7 +67,7 @@ impl PointResults {
     }
 }
 
-/// Sums over those surfaces whose size, such as the length of a scan, is largest. Sizes with a
+/// Sums over those surfaces that have the largest size, such as the largest length. Sizes with a
 /// relative difference of at most [`SAME`] count as equal.
 #[derive(Default)]
 pub(super) struct LargestSums {

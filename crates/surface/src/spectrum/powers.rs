@@ -1,5 +1,5 @@
-//! Power spectra of all surfaces together. They give the observations for the fits, and averaged
-//! spectra for figures.
+//! Power spectra of all surfaces together. From these spectra follow the observations for the fits,
+//! and averaged spectra for figures.
 
 use super::levelled::LevelledSurface;
 use super::map_power::MapPower;
@@ -37,9 +37,9 @@ struct Strip {
 }
 
 impl Powers {
-    /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are first
-    /// changed by about as much as interpolation may have changed them
-    /// ([`Topography::copied_heights`]).
+    /// Computes the power spectra of surfaces. `quarters` is 0 for the heights as they are. With 1,
+    /// 2 or 3, the heights are first changed in one of three ways, by about as much as
+    /// interpolation may have changed them ([`Topography::copied_heights`]).
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -54,8 +54,9 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface. The powers are first multiplied by the factors
-    /// `weights`, unless the surface is periodic: without a window all its parts count equally.
+    /// Adds the power spectra of a surface. Before that, a power is multiplied by its factor from
+    /// `weights`, unless the surface is periodic: without a window function, all parts of the
+    /// surface count equally anyway.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,
@@ -112,10 +113,10 @@ impl Powers {
         observations
     }
 
-    /// Returns the range of wave numbers of the waves that are used. It begins at the longest wave
-    /// of the longest surface. It ends at the last used wave of the surface with the smallest
-    /// distance between points; for profiles, half a wave later. `count` returns how many waves of
-    /// a spectrum are used.
+    /// Returns the range of wave numbers of the waves that are used. `count` returns how many waves
+    /// of a spectrum are used, beginning with the longest wave. The range begins at the longest
+    /// wave of all surfaces, and ends at the shortest used wave of all surfaces. For a profile, the
+    /// range ends half a wave later: at n + ½ periods if n waves are used.
     pub fn range(&self, count: impl Fn(&[Wave]) -> usize) -> WaveRange {
         let mut first = f64::INFINITY;
         let mut last = 0.0_f64;
@@ -136,10 +137,10 @@ impl Powers {
         WaveRange { first, last }
     }
 
-    /// Returns the number of scans whose waves are observed one by one, if all waves of the
-    /// surfaces are known. This is so if the surfaces are periodic, have the same waves, and none
-    /// of their waves were left out. The powers of profiles with the same waves are averaged, and
-    /// count as one scan.
+    /// Returns the number of scans whose waves are observed one by one. A scan is a map, or all
+    /// profiles together, because the powers of profiles are averaged. Returns `None` if not all
+    /// waves of the surfaces are known: if a surface is not periodic, if waves were left out
+    /// because of offsets, or if the surfaces have different waves.
     pub fn periodic_scans(&self) -> Option<f64> {
         match (self.profiles.as_slice(), self.maps.as_slice()) {
             ([profiles], []) => (!profiles.windowed).then_some(1.0),
@@ -155,8 +156,10 @@ impl Powers {
         }
     }
 
-    /// Returns the largest difference, over all maps, of waves parallel to an axis from their
-    /// neighbours ([`MapPower::apart`]).
+    /// Returns the largest difference, over all maps, between two squared gradients: that of the
+    /// waves parallel to an axis, and that which the waves in neighbouring directions lead to
+    /// expect. The difference is a share of the squared gradient of the map. It is 0 if it is
+    /// negligible or may be chance ([`MapPower::apart`]).
     pub fn apart(&self) -> f64 {
         self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
     }

@@ -24,7 +24,7 @@ pub(super) struct GaussPoint {
     pub weight: f64,
 }
 
-/// Returns the points of the quadrature from `low` to `high`.
+/// Returns the points and the weights of the quadrature for an integral from `low` to `high`.
 pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = GaussPoint> {
     let middle = 0.5 * (low + high);
     let half = 0.5 * (high - low);

@@ -17,7 +17,7 @@ pub(super) trait Objective {
 
     fn linearise(&self, parameters: &Self::Parameters) -> Linearised;
 
-    /// Returns the parameters after `share` times the step.
+    /// Returns the parameters after a change by `share` times the step `step`.
     fn moved(&self, parameters: &Self::Parameters, step: &[f64], share: f64) -> Self::Parameters;
 }
 
@@ -51,9 +51,9 @@ pub(super) struct Minimum<P> {
     pub value: f64,
 }
 
-/// Minimises an objective, beginning with the parameters `start`. Each step solves the linearised
-/// equations, and is halved until the objective decreases. Returns `None` if an information matrix
-/// is not positive definite.
+/// Minimises an objective by a search that begins with the parameters `start`. Each step solves the
+/// linearised equations, and is halved until the objective decreases. Returns `None` if an
+/// information matrix is not positive definite.
 pub(super) fn descend<O: Objective>(
     objective: &O,
     start: O::Parameters,

@@ -1,9 +1,9 @@
-//! Self-affine fits for several assumptions on the waves that the points do not resolve.
+//! Self-affine fits with several assumptions about the waves that the points do not resolve.
 //!
-//! Waves that the points do not resolve change the measured spectrum: their powers are added to the
-//! powers of longer waves (aliases), and each power of a profile contains a part of shorter waves
-//! of the surface. What is assumed about these waves changes the Hurst exponent by up to 0.2. The
-//! fit therefore uses the assumption with the largest likelihood, and the change between likely
+//! Such waves change the measured spectrum in two ways. Their powers are added to the powers of
+//! longer waves (aliases), and each power of a profile contains a part of shorter waves of the
+//! surface. The assumption about the unresolved waves changes the Hurst exponent by up to 0.2. The
+//! fit therefore uses the assumption with the largest likelihood. The change between likely
 //! assumptions is part of the error.
 
 use super::isotropic_fit::fit_isotropic;
@@ -39,8 +39,9 @@ struct Candidate {
     law: PowerLaw,
 }
 
-/// Fits a self-affine spectrum to observations over a range of wave numbers, with the assumption of
-/// largest likelihood. Returns `None` if no fit converges or if no exponent between 0 and 1 fits.
+/// Fits a self-affine spectrum to observations over a range of wave numbers. Of several assumptions
+/// about the waves that the points do not resolve, the one with the largest likelihood is used.
+/// Returns `None` if no fit converges or if no Hurst exponent between 0 and 1 fits.
 pub(super) fn fit_for_ends(
     observations: &[Observation],
     range: WaveRange,

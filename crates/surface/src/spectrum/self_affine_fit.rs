@@ -49,9 +49,9 @@ pub struct SelfAffineFit {
 }
 
 impl SelfAffineFit {
-    /// Returns the power spectral density in m³ of a cut at a wave number. A cut is a profile
-    /// measured across the surface. `range` has the first and the last wave number of the surface.
-    /// All wave numbers are in rad/m.
+    /// Returns the power spectral density in m³ of a cut at a wave number in rad/m. A cut is a
+    /// profile measured across the surface. `range` has the first and the last wave number of the
+    /// surface in rad/m.
     pub fn cut(&self, wave_number: f64, range: [f64; 2]) -> f64 {
         let [first, last] = range;
         let corner = match self.roll_off {
@@ -71,7 +71,7 @@ pub(super) struct PowerLaw {
     parameters: Parameters,
     /// Number of parameters that were fitted.
     free: usize,
-    /// Negative logarithm of the likelihood of the observations with these parameters.
+    /// Negative logarithm of the likelihood of the observations for this spectrum.
     pub misfit: f64,
     /// Hurst exponent of a spectrum with a roll-off.
     hurst_with_roll_off: f64,
@@ -105,10 +105,9 @@ impl PowerLaw {
         self.parameters.hurst
     }
 
-    /// Returns the factor, at least 1, by which the standard errors are multiplied because the
-    /// surface may not be self-affine. The factor follows from two misfits to the observations of
-    /// the model: that of this spectrum, and that of `isotropic`, the fit with nodes to the same
-    /// observations.
+    /// Returns a factor of at least 1 for the standard errors, which takes into account that the
+    /// surface may not be self-affine. The factor follows from the comparison of two fits to the
+    /// same observations: this spectrum and `isotropic`, which may have any smooth shape.
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
         // For a self-affine surface, twice the difference of the misfits equals in the mean the
         // number of additional parameters of the isotropic spectrum.
@@ -118,8 +117,8 @@ impl PowerLaw {
         (excess / further as f64).max(1.0).sqrt()
     }
 
-    /// Returns the fit with its standard errors, multiplied by `scale`. Returns `None` if the Hurst
-    /// exponent is not between 0 and 1, or if the observations do not determine the errors.
+    /// Returns the fit with its standard errors, each multiplied by `scale`. Returns `None` if the
+    /// Hurst exponent is not between 0 and 1, or if the observations do not determine the errors.
     pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
         let parameters = self.parameters;
         let model = model.condensed();

@@ -8,21 +8,22 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of measured points of all surfaces together. Points with interpolated heights count
-    /// neither here nor in the other statistics.
+    /// Number of measured points of all surfaces together. Points with interpolated heights are
+    /// left out of this number and of the other statistics.
     pub points: usize,
-    /// Root mean square height about the mean in m, without a filter. It is Pq for profiles and Sq
-    /// for maps.
+    /// Root mean square height in m about the mean height, without a filter. In the notation of ISO
+    /// it is Pq for profiles and Sq for maps.
     pub rms_height: f64,
-    /// Root mean square slope of the surfaces along their rows, PΔq.
+    /// Root mean square slope of the surfaces along their rows, PΔq in the notation of ISO.
     pub rms_slope: f64,
-    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if
-    /// any surface is a profile.
+    /// Root mean square gradient of maps, from the slopes along the rows and perpendicular to the
+    /// rows, Sdq in the notation of ISO. `None` if any surface is a profile.
     pub rms_gradient: Option<f64>,
-    /// Skewness: the mean cube of the height over the cube of the rms height.
+    /// Skewness of the heights: the cube of the height, as a mean over the points, divided by the
+    /// cube of the rms height.
     pub skewness: f64,
-    /// Kurtosis: the mean fourth power of the height over the fourth power of the rms height. It is
-    /// 3 for normally distributed heights.
+    /// Kurtosis of the heights: the fourth power of the height, as a mean over the points, divided
+    /// by the fourth power of the rms height. It is 3 for normally distributed heights.
     pub kurtosis: f64,
 }
 
@@ -119,12 +120,13 @@ impl Sums {
 /// of the tip (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
-/// Finds the reliability cut-off in m: shorter waves may be artefacts of the tip. It is the
-/// smallest length 2sΔx (s whole) over which the curvature of all rows is at least −1/(2R) for a
-/// tip radius R in m. The curvature at x is (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)².
+/// Finds the reliability cut-off, a wavelength in m: shorter waves may be artefacts of the tip. The
+/// cut-off is the smallest length 2sΔx (s whole) over which the curvature of all rows is at least
+/// −1/(2R) for a tip of the radius R in m. Δx is the distance between points. The curvature at x is
+/// (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)².
 ///
-/// Returns `None` if the condition is already fulfilled at s = 1. If no s fulfils the condition, no
-/// wave is reliable, and half the length of a row is returned.
+/// Returns `None` if the curvatures fulfil this condition already for s = 1. If no s fulfils the
+/// condition, no wave is reliable, and the function returns half the length of a row.
 pub(crate) fn reliability_cutoff(
     heights: &[f64],
     columns: usize,

@@ -12,8 +12,9 @@ const TRENDS: [(Trend, Detrend); 2] = [
     (Trend::Curvature, Detrend::Curvature),
 ];
 
-/// Sums over the points of all surfaces of squared heights about the mean, as they are and after
-/// removal of each trend.
+/// Sums of squared heights about the mean height, over the points of all surfaces. One sum is that
+/// of the heights as they are; the others are those after removal of a trend, a tilt or a
+/// curvature.
 #[derive(Default)]
 pub(super) struct TrendSums {
     squares: f64,
@@ -40,7 +41,8 @@ impl TrendSums {
         Ok(())
     }
 
-    /// Returns the share of the mean squared height that the removal of each trend takes off.
+    /// Returns two trends of the heights, tilt and curvature, with the share by which the removal
+    /// of the trend reduces the mean squared height.
     pub fn shares(&self) -> Vec<TrendOfScan> {
         let trends = TRENDS.into_iter().zip(self.without);
         let shares = trends.map(|((trend, _), without)| TrendOfScan {
@@ -56,8 +58,8 @@ fn sum_of_squares(heights: &[f64]) -> f64 {
 }
 
 /// Returns the ratio of the rms step between opposite ends of a surface to the largest rms step
-/// between two neighbouring rows or columns of points, along that axis on which it is larger. On a
-/// periodic surface the ends are neighbours like all others.
+/// between two neighbouring rows or columns of points. The ratio is computed along both axes, and
+/// the larger one is returned. On a periodic surface the ends are neighbours like all others.
 pub(super) fn step_of_ends(heights: &[f64], columns: usize) -> f64 {
     let rows = heights.len() / columns;
     let mut between_columns = vec![0.0; columns];

@@ -1,16 +1,16 @@
-//! Factors by which measured powers are multiplied so that all parts of a surface have the same
-//! weight.
+//! Factors for measured powers, with which all parts of a surface have the same weight.
 
-/// Factors by which the powers of a surface are multiplied, one for each octave of wave numbers.
+/// Factors by which the powers of a surface are multiplied, one factor for each octave of the wave
+/// number (a range up to twice its first wave number).
 pub(super) struct EqualWeights {
     /// Wave number in rad/m at which the first octave begins.
     pub first: f64,
-    /// Logarithm of the factor of each octave.
+    /// Natural logarithm of the factor of each octave.
     pub logarithms: Vec<f64>,
 }
 
 impl EqualWeights {
-    /// Returns factors that change no power.
+    /// Returns factors of 1, which change no power.
     pub fn none() -> Self {
         EqualWeights {
             first: 1.0,
@@ -18,8 +18,8 @@ impl EqualWeights {
         }
     }
 
-    /// Returns the factor for a wave with this wave number in rad/m. It is interpolated between the
-    /// middles of the octaves.
+    /// Returns the factor for a wave with this wave number in rad/m. The factor is interpolated
+    /// between the middles of the octaves.
     pub fn factor(&self, wave_number: f64) -> f64 {
         let Some(last) = self.logarithms.len().checked_sub(1) else {
             return 1.0;

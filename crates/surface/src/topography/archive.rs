@@ -1,4 +1,4 @@
-//! ZIP archives in memory. The total size of their files after decompression is limited.
+//! ZIP archives in memory. The total size of the decompressed files of an archive is limited.
 
 use super::bytes::most_expanded;
 use crate::error::{Place, SurfaceError, refused};
@@ -64,9 +64,10 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Finds the index file of the archive, and returns its name. `names` are the names that an
-    /// index file may have. If several files have such a name, the index file is the one in the
-    /// fewest folders. All names of files are relative to its folder afterwards.
+    /// Finds the index file of the archive, and returns its name; `None` if there is no index file.
+    /// `names` are the names that an index file may have. If several files have such a name, the
+    /// file in the fewest folders is the index file. In later calls, names of files are relative to
+    /// the folder of the index file.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();
@@ -108,16 +109,17 @@ impl<'a> Archive<'a> {
         self.places.keys().map(String::as_str)
     }
 
-    /// Returns the content of a file whose size no header states. Returns an error if the content
-    /// has more than `most` bytes.
+    /// Returns the decompressed content of a file whose size no header states. The content counts
+    /// towards the limit of the archive for all such files. Returns an error if the content has
+    /// more bytes than `most` or than this limit allows.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;
         self.most -= content.len();
         Ok(content)
     }
 
-    /// Returns the content of a file of which a header states the size. Returns an error if the
-    /// content has more than `most` bytes, the stated size.
+    /// Returns the decompressed content of a file whose size a header states. `most` is this size
+    /// in bytes. Returns an error if the content has more bytes.
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let path = plain_name(&format!("{}/{name}", self.folder));
         let Some(place) = self.places.get(&path) else {

@@ -8,7 +8,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
 impl Topography {
-    /// Creates a profile from heights in m of points at equal distances of `spacing` in m.
+    /// Creates a profile from the heights in m of points at equal distances. `spacing` is this
+    /// distance in m.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two points, if a height is not finite, or if the

@@ -32,9 +32,9 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns the size in bytes of compressed points after decompression. `points` is the number of
-/// points that a header states, and each point has `size` bytes. Returns an error if the size is
-/// above the limits.
+/// Returns the size in bytes that compressed points have after decompression. `points` is the
+/// number of points that a header states, and `size` is the number of bytes of a point. Returns an
+/// error if the result is above the limits.
 pub(super) fn unpacked_size(
     points: usize,
     size: usize,
@@ -63,7 +63,8 @@ macro_rules! numbers {
         }
 
         impl Number {
-            /// Returns the type with this name in NumPy, such as `f8`.
+            /// Returns the type of numbers that has this name in NumPy, such as `f8`; `None` if
+            /// there is no such type.
             pub fn named(name: &str) -> Option<Number> {
                 match name {
                     $($code => Some(Number::$name),)*
@@ -160,8 +161,8 @@ impl<'a> Bytes<'a> {
         Ok(taken)
     }
 
-    /// Returns a reader of the next `count` bytes, and skips these bytes. Places in this part are
-    /// still counted from the beginning of the file.
+    /// Returns a reader of the next `count` bytes, and skips these bytes in this reader. The places
+    /// of bytes in the new reader are also counted from the beginning of the file.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let offset = self.offset;
         self.take(count)?;
@@ -185,7 +186,8 @@ impl<'a> Bytes<'a> {
         Ok(array)
     }
 
-    /// Reads the next number as a size, an offset or a code. Returns 0 if the number is negative.
+    /// Reads the next number, which is a size, an offset or a code. Returns 0 if the number is
+    /// negative.
     pub fn size(&mut self, kind: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(kind)? as usize)
     }

@@ -11,13 +11,14 @@ const MOST_LISTED: usize = 8;
 /// are needed because other channels with a unit of length contain deflections or amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
-/// Returns true for the name of a channel of heights in a file of a scanning probe microscope.
+/// Returns true if `name` is the name of a channel of heights, as scanning probe microscopes write
+/// it.
 pub(super) fn names_heights(name: &str) -> bool {
     let name = name.to_lowercase();
     HEIGHTS.iter().any(|word| name.contains(word))
 }
 
-/// The channel that the options request.
+/// The channel of a file that the options request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.
@@ -27,9 +28,9 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns which channel the options request: the one with a number, the one with a name or, if
-    /// the options state neither, the only channel of heights. Returns an error if the options have
-    /// both a number and a name.
+    /// Returns which channel the options request. It is the channel with a number, the channel with
+    /// a name or, if the options state neither, the only channel of heights. Returns an error if
+    /// the options state both a number and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),
@@ -50,12 +51,13 @@ pub(super) struct Label {
     pub number: u32,
     /// Name of the channel in the file; empty if the channel has no name.
     pub name: String,
-    /// Direction of the scan, such as `retrace`, if the name does not contain it.
+    /// Direction of the scan, such as `retrace`. `None` if the direction is unknown or part of the
+    /// name.
     pub direction: Option<String>,
     /// Unit of the values. `None` means that the unit is unknown; an empty text means that the file
     /// states that the values have no unit.
     pub unit: Option<String>,
-    /// Number of the line with the first numbers of the channel, in a text file.
+    /// Number of the line with the first numbers of the channel; `None` if the file is not a text.
     pub line: Option<usize>,
     /// True for a channel of heights. Such a channel is read if the options name no channel.
     pub has_heights: bool,
@@ -96,8 +98,9 @@ impl Label {
     }
 }
 
-/// Returns the index of the wanted channel. If several channels have the wanted name, the only
-/// channel of heights among them is chosen. `kind` is the word for a channel in error messages.
+/// Returns the index of the wanted channel in `labels`. If several channels have the wanted name,
+/// the only channel of heights among these channels is chosen. `kind` is the word for a channel in
+/// error messages.
 pub(super) fn chosen(
     labels: &[Label],
     kind: &str,

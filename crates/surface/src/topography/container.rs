@@ -1,5 +1,5 @@
-//! Containers of contact.engineering. A container is an archive with an index file in JSON or YAML,
-//! which lists surfaces and their measurements.
+//! Containers of the web site contact.engineering. A container is an archive with an index file in
+//! JSON or YAML, which lists surfaces and the measurements of each surface.
 
 use super::options::ReadOptions;
 use super::reading::Reading;
@@ -84,9 +84,9 @@ enum Mode {
     Curvature,
 }
 
-/// Returns all measurements of the surface called `name`, or the single measurement called `name`.
-/// If no name is given, the container must have only one surface, and all its measurements are
-/// returned.
+/// Returns measurements that the index file lists: all measurements of the surface called `name`,
+/// or the single measurement called `name`. If no name is given, the container must have only one
+/// surface, and all measurements of this surface are returned.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -155,8 +155,8 @@ fn chosen(
 }
 
 impl Measurement {
-    /// Returns the name of the NetCDF file with the scaled heights or, if there is none, the name
-    /// of the original file of the measurement.
+    /// Returns the name of the data file of the measurement in the archive. It is the NetCDF file
+    /// with the scaled heights or, if there is none, the original file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {
@@ -169,7 +169,8 @@ impl Measurement {
         Place::Part(format!("topography {}", self.name))
     }
 
-    /// Returns a message about the radius of the tip that the index file states.
+    /// Returns a message for the user about the tip radius that the index file states; `None` if it
+    /// states none.
     pub fn tip_radius(&self) -> Option<Note> {
         let parameters = self.instrument.as_ref()?.parameters.as_ref()?;
         let radius = parameters.tip_radius.as_ref()?;
@@ -195,8 +196,8 @@ impl Measurement {
         }
     }
 
-    /// Returns the options for reading the file of the measurement: `options`, completed by what
-    /// the index file states.
+    /// Returns the options for reading the file of the measurement: the options of the user,
+    /// completed by what the index file states.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, self.place())?;
@@ -220,9 +221,9 @@ impl Measurement {
         })
     }
 
-    /// Returns the contents of the file of the measurement, completed by the index file. Added are
-    /// the distances between points and the scale of the heights, if the file of the measurement
-    /// omits them.
+    /// Completes the contents of the file of the measurement by what the index file states. The
+    /// distances between points and the scale of the heights are added if the file of the
+    /// measurement does not state them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()

@@ -4,7 +4,8 @@ use super::surface::{Cropped, Layout, Topography};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
-/// A row or a column of a map that is read as a profile. Rows and columns are counted from 1.
+/// A row or a column of a map that is read as a profile. Rows and columns of the file are counted
+/// from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// The row with this number.
@@ -81,7 +82,7 @@ fn remaining_index(
 }
 
 impl Topography {
-    /// Returns a row or a column of a map as a profile.
+    /// Returns a row or a column of this map as a profile.
     pub(super) fn cut(self, cut: Cut) -> Result<Self, SurfaceError> {
         let spacing = match &self.layout {
             Layout::Even(spacing) if self.rows() > 1 => *spacing,

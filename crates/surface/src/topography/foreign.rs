@@ -132,7 +132,8 @@ const KNOWN_CONTENTS: [KnownContent; 7] = [
     containing(is_nms, "NMS of NanoFocus", GWYDDION),
 ];
 
-/// Returns an error that names the format if the content has a known format that cannot be read.
+/// Returns an error if the content of a file has a known format that cannot be read. The error
+/// names this format.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     for known in &KNOWN_STARTS {
         if bytes.starts_with(known.start) {
@@ -235,7 +236,7 @@ fn unread(format: &Foreign) -> SurfaceError {
     }
 }
 
-/// Returns the error for an archive that contains files with these names but no index file.
+/// Returns the error for an archive that contains files with the names `names` but no index file.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     indices: [&str; 3],

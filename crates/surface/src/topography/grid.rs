@@ -160,8 +160,8 @@ fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
 pub(super) struct Map {
     pub heights: Vec<f64>,
     pub columns: usize,
-    /// Distances between points along the rows, and distances between the rows; `None` if they are
-    /// not known.
+    /// Distances between points along the rows, and distance between the rows, in the unit of the
+    /// positions; `None` if the distances are not known.
     pub distances: Option<[f64; 2]>,
 }
 

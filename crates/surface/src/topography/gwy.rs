@@ -11,9 +11,9 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the wanted channel. If neither a number nor a name is wanted,
-/// reads the only channel in a unit of length or, if there is none, the only channel without a
-/// unit.
+/// Reads the data field `/N/data` of one channel of a GWY file. If `wanted` is neither a number nor
+/// a name, reads the only channel whose unit is a length or, if there is none, the only channel
+/// without a unit.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut channels = channels(bytes)?;
     let has_length = channels.iter().any(Channel::is_length);

@@ -17,8 +17,8 @@ const MOST_LAYERS: usize = 256;
 /// Names of the columns of a wave that is a force curve and not a surface.
 const OF_CURVES: [&str; 2] = ["Defl", "ZSnsr"];
 
-/// Reads the wanted layer of a wave. Layers are numbered from 0. If neither a number nor a name is
-/// wanted, reads the only layer of heights.
+/// Reads one layer of a binary wave. Layers are numbered from 0. If `wanted` is neither a number
+/// nor a name, reads the only layer of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [x, y, layers, higher] = &wave.dimensions;

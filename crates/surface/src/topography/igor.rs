@@ -1,6 +1,6 @@
 //! Binary waves, the array files of the program Igor Pro. A file has a header, an array of numbers
-//! in up to four dimensions, a note, and names of the elements of each dimension. Numbers that are
-//! neighbours in the file are neighbours in the first dimension of the array.
+//! in up to four dimensions, a text (note), and names of the elements along each dimension. Numbers
+//! that are neighbours in the file are neighbours along the first dimension of the array.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
@@ -86,11 +86,11 @@ const UNIT_LENGTH: usize = 4;
 pub struct WaveDimension {
     /// Number of elements of the array along this dimension; 0 if the array has fewer dimensions.
     pub count: usize,
-    /// Distance between neighbouring elements.
+    /// Distance between neighbouring elements, in the unit [`Self::unit`].
     pub step: f64,
-    /// Unit of [`Self::step`]; empty if the file states no unit.
+    /// Unit of the distance [`Self::step`]; empty if the file states no unit.
     pub unit: String,
-    /// Names of the elements; empty if the elements have no names.
+    /// Names of the elements along this dimension; empty if the elements have no names.
     pub labels: Vec<String>,
 }
 
@@ -98,12 +98,12 @@ pub struct WaveDimension {
 /// numbers of the array remain encoded as bytes until they are requested.
 #[derive(Debug)]
 pub struct IgorWave<'a> {
-    /// Dimensions of the array. Numbers that are neighbours in the file are neighbours in the first
-    /// dimension.
+    /// Dimensions of the array. Numbers that are neighbours in the file are neighbours along the
+    /// first dimension.
     pub dimensions: [WaveDimension; DIMENSIONS],
     /// Unit of the numbers in the array; empty if the file states no unit.
     pub unit: String,
-    /// Note: text that programs attach to the array, with lines `key: value`.
+    /// Text that programs attach to the array, with lines `key: value`.
     pub note: String,
     kind: Number,
     numbers: Bytes<'a>,
@@ -156,13 +156,14 @@ impl Layout {
     }
 }
 
-/// Returns true if a file is a binary wave of Igor: it begins with the headers of a wave, and their
-/// check sum is right.
+/// Returns true if a file is a binary wave, the array file of the program Igor: it begins with the
+/// headers of a wave, and the check sum of the headers is right.
 pub fn is_igor_wave(bytes: &[u8]) -> bool {
     Layout::of(bytes).is_some_and(|layout| layout.check_sum(bytes) == 0)
 }
 
-/// Returns an error if a file seems to be a wave of version 5 but its check sum is wrong.
+/// Returns an error if a file seems to be a binary wave of version 5, but the check sum of its
+/// headers is wrong.
 pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
     match Layout::of(bytes) {
         Some(layout) if !layout.is_old() && layout.check_sum(bytes) != 0 => {
@@ -280,7 +281,7 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns `count` numbers of the array, beginning with the index `first`.
+    /// Returns `count` numbers of the array, beginning with the number at the index `first`.
     ///
     /// # Errors
     /// Returns [`SurfaceError`] if the array has too few numbers.
@@ -290,8 +291,8 @@ impl<'a> IgorWave<'a> {
         numbers.numbers(count, self.kind)
     }
 
-    /// Returns the value that the note gives for a key. If several lines of the note have the key,
-    /// the first one counts.
+    /// Returns the value of a key in the note of the array. If several lines of the note have the
+    /// key, the first line counts. Returns `None` if no line has the key.
     pub fn entry(&self, key: &str) -> Option<&str> {
         self.note.split(['\r', '\n']).find_map(|line| {
             let (name, value) = line.split_once(':')?;
@@ -299,8 +300,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
-    /// Returns the number that the note gives for a key. Returns `None` if the note does not have
-    /// the key, or if the value is not a finite number.
+    /// Returns the value of a key in the note of the array as a number. Returns `None` if the note
+    /// does not have the key, or if the value is not a finite number.
     pub fn number(&self, key: &str) -> Option<f64> {
         let number: f64 = self.entry(key)?.parse().ok()?;
         number.is_finite().then_some(number)

@@ -1,4 +1,4 @@
-//! Images of JPK. They are TIFF files with tags for the grid, for the channels, and for the
+//! Images of JPK, which are TIFF files. The tags of a file describe the grid, the channels, and the
 //! calibrations of the channels, which the format calls slots. The first row in the file is the
 //! lowest row of the map, unless the grid is reflected.
 
@@ -42,8 +42,8 @@ mod tag {
 /// Largest photometric code of an image without colours. An image with colours is only a thumbnail.
 const GREY: f64 = 1.0;
 
-/// Returns true if the directories are those of a file of JPK, in which the first directory states
-/// the size of the grid.
+/// Returns true if the directories of a TIFF file are those of an image of JPK. In such an image,
+/// the first directory states the size of the grid.
 pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
     let has = |directory: &Directory<'_>, tag: u16| matches!(directory.number(tag), Ok(Some(_)));
     directories
@@ -51,8 +51,8 @@ pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
         .is_some_and(|first| has(first, grid::WIDTH) && has(first, grid::HEIGHT))
 }
 
-/// Reads the wanted channel. Channels are numbered from 0, without the thumbnail. A channel
-/// contains heights if its unit is a length and its name says that it contains heights.
+/// Reads one channel of an image of JPK. Channels are numbered from 0, without the thumbnail. A
+/// channel contains heights if its unit is a length and its name says that it contains heights.
 pub(super) fn read(
     directories: &[Directory<'_>],
     wanted: Wanted<'_>,

@@ -18,7 +18,7 @@ const LARGE: f64 = 0.1;
 
 /// Returns a warning if the heights are rounded to few different values (levels); otherwise `None`.
 /// The heights are in m, in rows of `columns` points. Rounding to multiples of a step s adds an
-/// error with the mean square s²/12 to each height, and therefore s²/6 to the mean square
+/// error with the mean square s²/12 to each height. It therefore adds s²/6 to the mean square
 /// difference of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     let levels = few_levels(heights)?;

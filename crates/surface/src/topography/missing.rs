@@ -22,8 +22,9 @@ fn missing_places(heights: &[f64]) -> Result<Vec<usize>, OutOfMemory> {
     gathered(count(heights), places)
 }
 
-/// Returns the range of columns and the range of rows from the first to the last one with a
-/// measured point. The ranges are empty if no point is measured.
+/// Returns the range of columns and the range of rows that contain all measured points. Each range
+/// begins and ends with a column or row that has a measured point. The ranges are empty if no point
+/// is measured.
 pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
     let mut across = 0..0;
     let mut down = 0..0;

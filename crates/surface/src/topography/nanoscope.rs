@@ -13,7 +13,8 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
-/// First bytes of a file of a scan in liquid at a controlled electrode potential.
+/// First bytes of a Nanoscope file that was measured in a liquid at a controlled electrode
+/// potential.
 pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
 
 /// Last words of the header.
@@ -32,8 +33,8 @@ const PER_MAGNIFICATION: f64 = 1.0e-7;
 /// difference is larger, a message states both distances.
 const DIFFERENT: f64 = 0.01;
 
-/// Reads the wanted channel. Channels are numbered from 0. If neither a number nor a name is
-/// wanted, reads the only channel of heights.
+/// Reads one channel of a Nanoscope file. Channels are numbered from 0. If `wanted` is neither a
+/// number nor a name, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();

@@ -9,7 +9,7 @@ use super::transpose::transposed;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 
-/// First bytes of a file. The number of the version follows after them.
+/// First bytes of a NetCDF file. The next byte is the number of the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
 /// Number in front of the list of dimensions in the header.

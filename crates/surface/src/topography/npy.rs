@@ -17,7 +17,8 @@ const FORMAT: &str = "NumPy array";
 /// Place of the header in error messages: its offset in bytes in a file of version 1.
 const HEADER: Place = Place::Byte(10);
 
-/// Reads a profile or a map from an array, see the documentation of this module.
+/// Reads a profile or a map from a NumPy array. The documentation of this module states which
+/// arrays are profiles and which are maps.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let (header, mut data) = Header::read(bytes)?;
     if header.is_profile() {

@@ -103,7 +103,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Surfa
     parse_all(&content(path)?, options)
 }
 
-/// Returns the bytes of a regular file of at most 1 GiB.
+/// Reads a regular file of at most 1 GiB, and returns its bytes without change.
 pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
@@ -130,8 +130,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
     Err(refused(Place::File, found, "one").with(Remedy::SurfaceName))
 }
 
-/// Reads a surface from the content of a file. If the file is a container with several measurements
-/// of the surface, all of them are read.
+/// Parses the content of a file and returns its surface. If the file is an archive with several
+/// measurements of one surface, all measurements are returned.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     if bytes.starts_with(ZIP) {
         return parse_archive(bytes, options);
@@ -236,7 +236,7 @@ fn check_unnamed(options: &ReadOptions) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed).with(Remedy::NoSurfaceName))
 }
 
-/// Returns the bytes of a file, decompressed if the file is compressed by gzip.
+/// Returns the bytes of a file. If the file is compressed by gzip, the bytes are decompressed.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -7,20 +7,21 @@ use super::unit::Unit;
 /// read, and corrections of the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Unit of positions and heights if the file states no unit.
+    /// Unit of the positions and heights, for a file that states no unit.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states no unit for them. With `None`, [`Self::unit`] is
-    /// used.
+    /// Unit of the heights, for a file that states no unit of heights. With `None`, [`Self::unit`]
+    /// is used.
     pub height_unit: Option<Unit>,
-    /// Unit of positions and heights that is assumed if neither the file nor [`Self::unit`] states
-    /// one.
+    /// Unit of the positions and heights that is assumed if neither the file nor [`Self::unit`]
+    /// states a unit. With `None`, no unit is assumed.
     pub convention: Option<Unit>,
-    /// Distance between neighbouring points in m if the file states no distance.
+    /// Distance between neighbouring points in m, for a file that states no distance.
     pub spacing: Option<f64>,
     /// True if missing heights are interpolated from their neighbours. Otherwise a missing height
     /// is an error.
     pub interpolate: bool,
-    /// Number, from 0, of the channel to read from a file with several channels.
+    /// Number, from 0, of the channel to read from a file with several channels; `None` to choose
+    /// no channel by its number.
     pub channel: Option<u32>,
     /// Row or column of a map that is read as a profile. With `None` the whole map is read.
     pub cut: Option<Cut>,
@@ -33,6 +34,7 @@ pub struct ReadOptions {
     /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated
     /// from their neighbours.
     pub robust: bool,
-    /// Name of the surface or of the measurement to read from an archive with several measurements.
+    /// Name of the surface or of the measurement to read from an archive with several measurements;
+    /// `None` to choose none by its name.
     pub surface_name: Option<String>,
 }

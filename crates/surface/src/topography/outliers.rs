@@ -1,5 +1,5 @@
-//! Corrections of heights by medians. Outliers, which are heights far from the heights around them,
-//! are removed; examples are spikes of an instrument and grains of dust. Rows are levelled.
+//! Corrections of heights by medians: removal of outliers and levelling of rows. Outliers are
+//! heights far from the heights around them, such as spikes of an instrument and grains of dust.
 
 use asperity_data::{OutOfMemory, gathered, median};
 

@@ -1,4 +1,4 @@
-//! Images of Park Systems. They are TIFF files with tags of this maker, which hold a header and the
+//! Images of Park Systems, which are TIFF files. Tags of this maker contain a header and the
 //! heights, the lowest row first.
 
 use super::bytes::{Bytes, Number};
@@ -43,7 +43,7 @@ const NAME_LETTERS: usize = 32;
 /// Number of letters, of two bytes each, of the unit.
 const UNIT_LETTERS: usize = 8;
 
-/// Returns true if the directories are those of a file of Park Systems.
+/// Returns true if the directories of a TIFF file are those of an image of Park Systems.
 pub(super) fn is_park(directories: &[Directory<'_>]) -> bool {
     directories
         .first()

@@ -33,7 +33,8 @@ impl Digits {
         significant: 15,
     };
 
-    /// Creates the digits for numbers with at most this many decimals and significant digits.
+    /// Creates a value for numbers with at most this many decimals and this many significant
+    /// digits.
     #[cfg(test)]
     pub fn at_most(decimals: i32, significant: i32) -> Digits {
         Digits {
@@ -42,8 +43,8 @@ impl Digits {
         }
     }
 
-    /// Takes account of a further printed number, which may have more digits than the numbers
-    /// before.
+    /// Takes account of one more printed number, which may have more digits than the earlier
+    /// numbers.
     pub fn take(&mut self, cell: &str) {
         let mut decimals = 0;
         let mut significant = 0;
@@ -73,8 +74,9 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Returns the largest error of a number because of its printed digits. It is half a unit of
-    /// the last digit, plus some rounding errors of floating-point numbers.
+    /// Returns the largest error of the number `value` that results from its printing with these
+    /// digits. The error is half a unit of the last digit, plus some rounding errors of
+    /// floating-point numbers.
     pub fn half(self, value: f64) -> f64 {
         let digits_before_mark = if value == 0.0 {
             i32::MIN / 2
@@ -158,8 +160,9 @@ impl Bounds {
     }
 }
 
-/// Returns an even grid that agrees with the positions of all points to within half a printed
-/// digit; `None` if there is no such grid. The points are in the order of their numbers.
+/// Returns an even grid that agrees with the positions of all points to within half a unit of the
+/// last printed digit. Returns `None` if there is no such grid. The points must be in the order of
+/// their numbers.
 pub(super) fn printed_grid(points: &[GridPoint], digits: Digits) -> Option<Grid> {
     let [first, .., last] = points else {
         return None;

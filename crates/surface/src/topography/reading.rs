@@ -4,13 +4,14 @@ use super::stated_units::StatedUnits;
 use crate::error::Place;
 use asperity_data::Note;
 
-/// Heights and positions of a file in the units of the file, with what else the file states.
+/// Contents of a file in the units of the file: heights, positions, and other statements of the
+/// file about the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub format: &'static str,
     /// Heights row by row. The height of a missing point is NaN or infinite.
     pub heights: Vec<f64>,
-    /// Number of points in a row; for a profile, the number of all points.
+    /// Number of points in a row. All points of a profile are one row.
     pub columns: usize,
     /// Ascending positions of the points of a profile; `None` if the points are evenly spaced.
     pub positions: Option<Vec<f64>>,
@@ -19,7 +20,7 @@ pub(super) struct Reading {
     pub spacing: Option<[f64; 2]>,
     pub units: StatedUnits,
     /// Place in the file of the first missing point, such as a line. `None` if the reader knows
-    /// only the number of the point.
+    /// only the number of this point.
     pub first_missing: Option<Place>,
     /// True if the file states that the surface is periodic at its borders.
     pub periodic: bool,

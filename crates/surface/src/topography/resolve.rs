@@ -1,5 +1,5 @@
-//! Conversion of the contents of a file to a surface in m. It determines units and distances
-//! between points, treats missing points, and selects the part of the map that is read.
+//! Conversion of the contents of a file to a surface in m. The conversion determines units and
+//! distances between points, treats missing points, and selects the part of the map that is read.
 
 use super::cut::Cut;
 use super::options::ReadOptions;
@@ -12,7 +12,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{Note, Remedy};
 use std::ops::Range;
 
-/// Largest number of points of a surface, which take 2 GiB of memory as heights.
+/// Largest number of points of a surface. The heights of this number of points take 2 GiB of
+/// memory.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
 impl Reading {

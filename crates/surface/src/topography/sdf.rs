@@ -62,8 +62,8 @@ enum Version {
     Iso2,
 }
 
-/// Largest number of letters of the institute in the name of a version, such as `NIST` in
-/// `aNIST-1.0`.
+/// Largest number of letters in the name of the institute with which the name of a version begins,
+/// such as `NIST` in `aNIST-1.0`, where `a` means a text file.
 const LONGEST_NAME: usize = 8;
 
 /// Returns true if `bytes` begin like SDF: with `a` for text or `b` for binary, and the name of a

@@ -5,12 +5,14 @@ use super::options::ReadOptions;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 
-/// Units that a file states. A unit that the file does not state is `None`.
+/// Units that a file states for positions and heights. A unit that the file does not state is
+/// `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StatedUnits {
-    /// Unit of the positions along the rows of a map, or of the positions of a profile.
+    /// Unit of the positions along the rows of a map, or of the positions of a profile; `None` if
+    /// the file states none.
     pub along: Option<Unit>,
-    /// Unit of the positions across the rows of a map.
+    /// Unit of the positions across the rows of a map; `None` if the file states none.
     pub between: Option<Unit>,
     pub heights: Option<Unit>,
 }
@@ -32,7 +34,8 @@ impl StatedUnits {
     }
 }
 
-/// The units that a file and the options state. The unit of each quantity is chosen from these.
+/// The units that a file states, and the options of the user. From both, the unit of each quantity
+/// is chosen.
 pub(super) struct Units<'a> {
     stated: StatedUnits,
     options: &'a ReadOptions,
@@ -46,7 +49,7 @@ pub(super) struct Units<'a> {
 }
 
 impl<'a> Units<'a> {
-    /// Chooses the quantities to which the units in the options apply. `has_positions` is true for
+    /// Decides for which quantities the units in the options are meant. `has_positions` is true for
     /// a profile in which each point has a position.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
@@ -86,8 +89,8 @@ impl<'a> Units<'a> {
         self.lateral("positions", self.stated.along)
     }
 
-    /// Returns the unit of the distances between points: along the rows if `axis` is 0, between the
-    /// rows if `axis` is 1.
+    /// Returns the unit of the distances between points: along the rows if `axis` is 0,
+    /// perpendicular to the rows if `axis` is 1.
     pub fn distances(&self, axis: usize) -> Result<Unit, SurfaceError> {
         let stated = [self.stated.along, self.stated.between];
         self.lateral("distances", stated[axis])

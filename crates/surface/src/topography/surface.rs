@@ -12,13 +12,13 @@ use strum::IntoStaticStr;
 pub(super) enum Layout {
     /// Ascending positions of the points of a profile.
     Positions(Vec<f64>),
-    /// Distance between neighbouring points of a row, and distance between neighbouring rows. For a
-    /// profile both values are the distance between its points.
+    /// Distance in m between neighbouring points of a row, and distance in m between neighbouring
+    /// rows. For a profile both values are the distance between its points.
     Even([f64; 2]),
 }
 
 /// Numbers of columns and rows that were removed at the borders of a map because they have no
-/// measured point. For a profile, the columns are its points; missing points at both ends were
+/// measured point. For a profile, each point is a column, and missing points at both ends were
 /// removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
@@ -33,8 +33,8 @@ impl Cropped {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index of a point among all points of the file. `index` is its index after
-    /// columns and rows at the borders were removed; the rows then have `columns` points.
+    /// Returns the index of a point in the file. `index` is the index of the point after removal of
+    /// columns and rows at the borders, when each row has `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let [columns_before, rows_before] = self.before;
         let [columns_left_out, _] = self.counts();
@@ -54,29 +54,31 @@ pub struct Topography {
     /// Number of points in each row. All points of a profile are one row.
     pub columns: usize,
     pub(super) layout: Layout,
-    /// Numbers of columns and rows that were removed at the borders because they have no measured
-    /// point.
+    /// Numbers of columns and rows that were removed at the borders, because these columns and rows
+    /// have no measured point.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
-    /// Positions in m that the points had before resampling; empty for a surface that was not
-    /// resampled.
+    /// Positions in m that the points had before the surface was resampled at even distances; empty
+    /// for a surface that was not resampled.
     pub(super) resampled: Vec<f64>,
     /// True if the median height of each row was subtracted from the row.
     pub(crate) aligned: bool,
     /// Name of the measurement, if its file is an archive with several measurements; otherwise
     /// empty.
     pub name: String,
-    /// Polynomial that has to be removed before the analysis, if a container states it.
+    /// Polynomial that has to be removed before the analysis; `None` unless the archive with the
+    /// surface states one.
     pub(crate) detrend: Option<Detrend>,
-    /// True if the surface is periodic at its borders, as a container or the file states.
+    /// True if the surface continues periodically at its borders, as the file or the archive with
+    /// the file states.
     pub(crate) periodic: bool,
     /// Messages for the user, each about something unusual in the file.
     pub warnings: Vec<Note>,
 }
 
 impl Topography {
-    /// Returns an error if the surface has a slope above [`LARGEST`].
+    /// Returns an error if a slope between neighbouring points of the surface exceeds [`LARGEST`].
     pub(super) fn check_slopes(&self) -> Result<(), SurfaceError> {
         for index in 1..self.heights.len() {
             // The first point in a row has no neighbour before it in the row.
@@ -103,7 +105,8 @@ impl Topography {
         self.interpolated.len()
     }
 
-    /// Returns the index of the first missing point of a profile in the file, counted from 0.
+    /// Returns the index of the first missing point of a profile in the file, counted from 0;
+    /// `None` if no point is missing.
     pub(crate) fn first_missing(&self) -> Option<usize> {
         let [points_before, _] = self.cropped.before;
         let [points_after, _] = self.cropped.after;
@@ -121,12 +124,13 @@ impl Topography {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights in m. With `quarters` above zero, the copy is changed by about as much as
-    /// interpolation may have changed the original.
+    /// Copies the heights in m. If `quarters` is 0, the copy has the same heights. With 1, 2 or 3,
+    /// the copy is changed by about as much as interpolation may have changed the heights.
     ///
-    /// For this purpose, as many measured points as were missing are interpolated too. They are the
-    /// points `quarters` quarters of the length and of the width away from the missing points. A
-    /// resampled profile also gets an estimate of the short waves that resampling has removed.
+    /// For this change, as many measured points as were missing are interpolated too. These points
+    /// have a distance from the missing points of `quarters` quarters of the length and of the
+    /// width. A resampled profile also gets an estimate of the short waves that resampling has
+    /// removed.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if quarters == 0 {

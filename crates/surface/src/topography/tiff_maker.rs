@@ -5,7 +5,7 @@ use super::reading::Reading;
 use super::{jpk, park, tiff};
 use crate::error::{Place, SurfaceError, refused};
 
-/// Reads the wanted channel of a TIFF file of JPK or Park Systems.
+/// Reads one channel of a TIFF file of JPK or Park Systems; `wanted` chooses the channel.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let directories = tiff::directories(bytes)?;
     if park::is_park(&directories) {

@@ -46,7 +46,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Names of all units of length that can be read, for error messages.
+    /// Text for error messages: the names of all units of length that can be read.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     /// The unit metre.
@@ -55,7 +55,7 @@ impl Unit {
         per_metre: 1.0,
     };
 
-    /// Returns true for the name of a unit of length.
+    /// Returns true if `text` is the name of a unit of length, such as `um`.
     pub(crate) fn is_name(text: &str) -> bool {
         text.parse::<Unit>().is_ok()
     }

@@ -30,7 +30,7 @@ const SCALES: usize = 42 * 4;
 /// numbers.
 const PALETTE: usize = 3 * 256;
 
-/// Reads the wanted image of heights. Images are numbered from 0.
+/// Reads one image of heights of a VK file. Images are numbered from 0; `wanted` chooses the image.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut table = Bytes::from(bytes, Order::Little, HEIGHTS)?;
     let mut labels = Vec::new();

@@ -32,8 +32,8 @@ mod field {
     pub const SIGN: usize = 232;
 }
 
-/// Reads the heights and converts them to m. If the header states the distance 0 between points,
-/// this distance is unknown.
+/// Reads the heights of a Zygo file and converts them to m. If the header states the distance 0
+/// between points, the distance is unknown.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let number = |offset: usize, kind: Number| Bytes::from(bytes, Order::Big, offset)?.number(kind);
     let mut counts = Bytes::from(bytes, Order::Big, field::COLUMNS)?;

@@ -1,9 +1,11 @@
 //! Test whether random profiles describe the measured curves, and effect of errors of the roughness
 //! on the result.
 
-use super::posterior::Predictions;
+use super::computed::{Specimen, Workers};
+use super::predictions::Predictions;
+use super::scatter::{InverseCovariance, Scatter};
 use super::summary::{MeanSummaries, Measurement, NAMES, SUMMARIES, Summaries};
-use super::table::{InverseCovariance, Place, Scatter, Specimen, Table, Workers};
+use super::table::{Place, Table};
 use crate::error::ExperimentError;
 use asperity_data::{mean, quantile};
 use asperity_scene::{Roughness, RunError};

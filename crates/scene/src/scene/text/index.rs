@@ -38,7 +38,7 @@ pub struct TextSpan {
     bare: Range<usize>,
     /// Byte range between the brackets of the value; `None` if the value has no brackets.
     pub(super) inside: Option<Range<usize>>,
-    /// Offset of the byte after the comma that follows the entry.
+    /// Offset of the byte after the comma that follows the entry; `None` if no comma follows.
     pub(super) comma: Option<usize>,
 }
 
@@ -122,17 +122,20 @@ impl Text {
         root.map_or(0, |inside| inside.start - 1)
     }
 
-    /// Returns the value at a path as written, including `Some(…)` around it.
+    /// Returns the value at a path as written, including `Some(…)` around it; `None` if there is no
+    /// value at this path.
     pub(in crate::scene) fn written(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.value.clone())
     }
 
-    /// Returns the value at a path, without `Some(…)` around it.
+    /// Returns the value at a path, without `Some(…)` around it; `None` if there is no value at
+    /// this path.
     pub(in crate::scene) fn value(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.bare.clone())
     }
 
-    /// Returns the name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`.
+    /// Returns the name of the variant at a path: `Cone` for `Some(Cone(angle: 0.1))`. Returns
+    /// `None` if there is no value at this path, or if it does not begin with a name.
     pub(in crate::scene) fn variant(&self, path: &str) -> Option<&str> {
         let name = self.value(path)?.split(['(', '[', '{', '"']).next()?.trim();
         Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())

@@ -13,18 +13,20 @@ const MOST_NAMED: usize = 3;
 /// Largest number of columns that an error message lists.
 const MOST_LISTED: usize = 8;
 
-/// Indices of the columns of a list of points, by their meaning.
+/// Indices of the columns in a table that lists points. Each index belongs to a meaning, such as x
+/// or height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
-    /// Column of the positions of a profile, or of the coordinate x of the points of a map.
+    /// Column of the positions of a profile, or of the coordinate x of the points of a map; `None`
+    /// if the table has no such column.
     pub x: Option<usize>,
     pub y: Option<usize>,
     pub height: usize,
     pub valid: Option<usize>,
 }
 
-/// Finds the columns of a list of points; `None` if the lines are rows of a map. If several columns
-/// may be the heights, `wanted` chooses one of them.
+/// Finds the columns of a table that lists points. Returns `None` if the lines of the table are
+/// rows of a map. If several columns may be the heights, `wanted` chooses one of these columns.
 pub(super) fn list_of(
     columns: &[TextColumn],
     wanted: Wanted<'_>,

@@ -126,20 +126,20 @@ const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 /// Header of a text: the lines above its numbers, with the units, sizes and names that they state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextHeader {
-    /// Name of the channel, if the header states it.
+    /// Name of the channel; `None` if the header states none.
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that say to which of them the unit belongs.
     units: [Option<Unit>; 3],
     /// Unit of all lengths, from a key that does not say to which axis the unit belongs.
     unit: Option<Unit>,
-    /// Unit of the heights if it is not a unit of length.
+    /// Unit of the heights if it is not a unit of length; otherwise `None`.
     pub other_unit: Option<String>,
     /// Width and height of a map.
     sizes: [Option<Length>; 2],
     /// Distances between points of a map, along the rows and between the rows.
     spacing: [Option<Length>; 2],
-    /// Number of columns and number of rows that the header states; `None` if it does not state a
-    /// number.
+    /// Number of columns and number of rows that the header states; `None` for a number that the
+    /// header does not state.
     pub counts: [Option<usize>; 2],
     /// Factor by which the numbers in the file are multiplied to give the heights.
     factor: Option<f64>,
@@ -152,8 +152,8 @@ pub struct TextHeader {
     is_data_scale_needed: bool,
     /// True if the points in a row of numbers follow each other along y.
     pub is_along_y: bool,
-    /// True if the file gives the positions of points only by the numbers of their columns and
-    /// rows.
+    /// True if the positions of points in the file are only the numbers of the columns and rows of
+    /// the points, and not lengths.
     pub has_counted_positions: bool,
     /// True if the heights are in wavelengths of light.
     is_in_wavelengths: bool,
@@ -308,14 +308,15 @@ impl TextHeader {
     }
 
     /// Returns the distance between points in m that the header states for a profile without
-    /// positions.
+    /// positions; `None` if it states no distance or no unit for it.
     pub fn distance(&self) -> Option<f64> {
         let [along, _] = self.spacing;
         self.metres(along?, X, None)
     }
 
-    /// Returns the distances between points in m, along and between the rows of a map. `columns`
-    /// and `rows` are the numbers of columns and rows of the map.
+    /// Returns the distances between points in m, along and between the rows of a map; `None` if
+    /// the header does not determine both. `columns` and `rows` are the numbers of columns and rows
+    /// of the map.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         self.distances_by_size(columns, rows).or_else(|| {
             let [along, between] = self.spacing;
@@ -341,7 +342,8 @@ impl TextHeader {
         Some(unit.to_metres(length.value))
     }
 
-    /// Returns the factor that converts the numbers in the file to heights.
+    /// Returns the factor by which the numbers in the file are multiplied to give the heights in
+    /// their unit.
     pub fn scale(&self) -> f64 {
         let mut scale = 1.0;
         if let Some(factor) = self.factor {
@@ -360,8 +362,9 @@ impl TextHeader {
         scale
     }
 
-    /// Returns the unit of x, y or the heights ([`X`], [`Y`] or [`Z`]). It is the unit in the name
-    /// of the column or, if the name has none, the unit that a key of the header states.
+    /// Returns the unit of x, y or the heights, chosen by `axis` ([`X`], [`Y`] or [`Z`]). It is the
+    /// unit in the name of the column. If this name has no unit, it is the unit that a key of the
+    /// header states. Returns `None` if neither states a unit.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         if let Some(unit) = column.and_then(unit_of_column) {
             return Some(unit);

@@ -10,10 +10,11 @@ use asperity_data::{Remedy, gathered};
 /// the numbers along the other axis are not evenly spaced.
 const LEAST_STEPS: usize = 8;
 
-/// Returns the map in rows of `columns` numbers, without the positions in the first row and the
-/// first column. The distances between points follow from these positions. If the positions only
-/// number the columns and rows, from 0 or 1, the distances remain unknown. `digits` are the printed
-/// digits of the first row and of the first column.
+/// Returns the map in rows. If the first row and the first column of `numbers` are positions, they
+/// are left out of the map. `columns` is the number of cells in a row of `numbers`. The distances
+/// between points follow from the positions. If the positions only count the columns and rows, from
+/// 0 or 1, the distances remain unknown. `digits` are the printed digits of the first row and of
+/// the first column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
     columns: usize,

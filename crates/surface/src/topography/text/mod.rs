@@ -1,5 +1,5 @@
-//! Surfaces in texts. A text has one or several channels, and each channel has columns of heights,
-//! columns of positions and heights, or rows of a map.
+//! Surfaces in text files. A text has one or several channels. The columns of a channel are heights
+//! alone, positions and heights, or rows of a map.
 //!
 //! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of
 //! numbers determines the separator ([`Separator::of`](asperity_data::text_table::Separator::of))
@@ -64,8 +64,8 @@ struct Text {
     is_in_zygo_header: bool,
 }
 
-/// Reads the wanted channel. Channels are numbered from 0. If neither a number nor a name is
-/// wanted, reads the only channel whose unit is a length.
+/// Reads one channel of a text. Channels are numbered from 0. If `wanted` is neither a number nor a
+/// name, reads the only channel whose unit is a length.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let text = Text::parse(bytes)?;
     let last_line = text.last_line;

@@ -37,8 +37,8 @@ pub(super) struct Table {
     /// Indices of the rows before which the file has an empty line.
     breaks: Vec<usize>,
     is_paused: bool,
-    /// Numbers before the first row that state how many rows and columns follow; `None` if there
-    /// are none.
+    /// Numbers before the first row that state how many rows and columns the table has; `None` if
+    /// there are no such numbers.
     pub counts: Option<Counts>,
 }
 
@@ -75,7 +75,7 @@ struct Run {
     line: usize,
 }
 
-/// Numbers above the rows of a table that state how many rows and columns follow.
+/// Numbers above the rows of a table that state how many rows and columns the table has.
 #[derive(Debug)]
 pub(super) struct Counts {
     pub line: usize,
@@ -129,8 +129,8 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers, `first`. `before` is the line before it. This
-    /// line also belongs to the table if it has as many cells and one of two forms:
+    /// Begins a table with `first`, its first line of numbers. `before` is the line before `first`.
+    /// The line `before` also belongs to the table if it has as many cells and one of two forms:
     ///
     /// * It begins with a number and consists mostly of numbers.
     /// * It has positions after a word, as in `y\x 0 1 2`.
@@ -190,8 +190,8 @@ impl Table {
         self.is_paused = true;
     }
 
-    /// Returns true if a line has words instead of numbers. Such a line lies between the lines of
-    /// numbers or after them.
+    /// Returns true if a line has words instead of numbers. Such a line is a heading between the
+    /// lines of numbers, or a text after the last of these lines.
     pub fn is_heading(&self, line: &str) -> bool {
         // A line without letters, except the e of exponents, is a line of numbers. Most lines need
         // no further test.
@@ -319,9 +319,8 @@ impl Table {
         }
     }
 
-    /// Returns the rows of each channel as ranges. Channels are separated by empty lines. There is
-    /// only one range if an empty line precedes every row, or if the table has columns of
-    /// positions.
+    /// Returns the rows of each channel as ranges. Empty lines separate the channels. All rows are
+    /// one channel if an empty line precedes every row, or if the table has columns of positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let rows = self.rows();
         let columns = self.columns();
@@ -360,8 +359,8 @@ impl Table {
         self.widths.cells = columns;
     }
 
-    /// Returns the numbers in a column. They are moved within the memory of the table, which loses
-    /// all its other numbers.
+    /// Returns the numbers in a column. The result uses the memory of the table, so that all other
+    /// numbers of the table are lost.
     pub fn take_column(&mut self, column: usize) -> Vec<f64> {
         let cells = self.widths.cells;
         let mut values = std::mem::take(&mut self.values);

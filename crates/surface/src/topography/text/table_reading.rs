@@ -22,8 +22,8 @@ const MATRIX: &str = "text matrix";
 
 impl Table {
     /// Returns the surface in the given rows of the table. If several columns may be heights,
-    /// `wanted` chooses one of them. `is_open` is true if the last line of the text has no line
-    /// end.
+    /// `wanted` chooses one of these columns. `is_open` is true if the last line of the text has no
+    /// line end.
     pub fn reading(
         mut self,
         header: &TextHeader,

@@ -19,9 +19,9 @@ const ALONE_AT_OPEN_END: f64 = 10.0;
 /// Largest number of heights from which the medians are computed.
 const SAMPLE: usize = 4096;
 
-/// Returns a warning about heights that are far from all others. The heights are in the order of
-/// the file. `is_open` is true if the last line of the file has no line end, so that its last
-/// number may be cut off.
+/// Returns a warning if some heights are far from all others; otherwise an empty list. The heights
+/// are in the order of the file. `is_open` is true if the last line of the file has no line end, so
+/// that its last number may be cut off.
 pub(super) fn of_heights(
     heights: &[f64],
     is_open: bool,

@@ -1,0 +1,326 @@
+//! Computed force curves of random profiles, reduced to their summaries.
+
+use super::noise::Noise;
+use super::summary::{Branches, Point, Protocol, Summaries, summaries};
+use crate::error::ExperimentError;
+use crate::fit::model::Sampling;
+use asperity_contact::motion::{Body, MovingBody};
+use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
+use asperity_data::on_threads;
+use asperity_scene::instrument::DisplacementCurve;
+use asperity_scene::{CheckedScene, Simulation};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Number of points of a computed approach or retraction, without the points at jumps.
+const SAMPLES: usize = 128;
+/// Smallest jump of the force, in units of the noise, at both ends of which a point of the curve is
+/// computed.
+const NOTABLE: f64 = 1.0;
+/// Largest number of points that are added to a computed retraction until contact is lost, divided
+/// by the number of points of the measured retraction.
+const LONGEST: usize = 8;
+/// First seed of the random profiles and of the noise. It is far from the seeds that users write in
+/// scenes, so that no profile of the table is the profile of a scene.
+const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
+/// Difference between the first seeds of two scenes whose seeds differ by 1. No table has so many
+/// profiles, so the tables of two scenes have no profile in common.
+const SEEDS_OF_SCENE: u64 = 1 << 32;
+/// Smallest force at the turning point of a computed curve, divided by the preload, whatever the
+/// noise.
+const LEAST_TURN: f64 = 0.5;
+
+/// Scene, instrument and preloads of the computed curves, and the request to stop.
+#[derive(Clone, Copy)]
+pub(crate) struct Specimen<'a> {
+    pub scene: &'a CheckedScene,
+    /// Stiffness of the instrument in N/m.
+    pub stiffness: f64,
+    /// Work of adhesion on closing divided by the work of adhesion on opening.
+    pub closing: f64,
+    /// Preload, displacements and noise of each measured curve. The computed curves take them in
+    /// turn.
+    pub protocols: &'a [Protocol],
+    /// Function that returns true if the computation has to stop.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Specimen<'_> {
+    /// Returns the summaries of the curves of one random profile. There is a curve for each pair of
+    /// a value ln(γ/E*) in `ranges` and a value ln E* in `moduli`; all moduli of the first range
+    /// come first. `moduli` has to ascend.
+    ///
+    /// Apart from the turning point and the instrument, the curve of the force divided by E* over
+    /// the indentation depends only on γ/E*. So one approach is computed for all moduli of a range.
+    pub fn curves(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        ranges: &[f64],
+        moduli: &[f64],
+    ) -> Result<Vec<Summaries>, ExperimentError> {
+        let seed = seed_of(self.scene, line);
+        let scene = self.scene.with_seed(seed);
+        let (bare, _) = simulation.contact(&scene)?;
+        let modulus = Modulus::effective(bare.effective_modulus())?;
+        let protocol = &self.protocols[line as usize % self.protocols.len()];
+        let mut noise = Noise::new(seed, protocol);
+        let mut all = Vec::with_capacity(ranges.len() * moduli.len());
+        for range in ranges {
+            let work = range.exp() * bare.effective_modulus();
+            let contact = bare
+                .with(modulus)
+                .works_of_adhesion([self.closing * work, work])
+                .build()?;
+            let first = all.len();
+            let mut approach = Body::new(&contact, 2);
+            // The moduli are taken in descending order, because the largest modulus has the
+            // smallest indentation, and the approach cannot go back.
+            for modulus in moduli.iter().rev() {
+                if (self.stop)() {
+                    return Err(ContactError::Interrupted.into());
+                }
+                let scale = modulus.exp() / contact.effective_modulus();
+                let force_loop = ForceLoop {
+                    stiffness: self.stiffness / scale,
+                    scale,
+                    protocol,
+                };
+                let branches = force_loop.branches(&mut approach, &mut noise)?;
+                all.push(summaries(&branches, protocol.preload));
+            }
+            all[first..].reverse();
+        }
+        Ok(all)
+    }
+}
+
+/// Returns the seed of a random profile of the table. Scenes with different seeds have different
+/// profiles.
+pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
+    let seed = scene.seed().unwrap_or_default();
+    FIRST_SEED
+        .wrapping_add(seed.wrapping_mul(SEEDS_OF_SCENE))
+        .wrapping_add(line)
+}
+
+/// Computation of one curve with approach and retraction. The computed forces and the stiffness of
+/// the instrument are in units of `scale`.
+struct ForceLoop<'a> {
+    stiffness: f64,
+    /// E* of the curve divided by E* of the computed contact.
+    scale: f64,
+    protocol: &'a Protocol,
+}
+
+/// Approach and retraction of one computed curve.
+struct ComputedLoop {
+    pressed: DisplacementCurve,
+    pulled: DisplacementCurve,
+    /// Displacement in m at the turning point.
+    top: f64,
+    /// Force in N at the turning point.
+    turning_force: f64,
+    /// Factor that turns the computed forces into forces in N.
+    scale: f64,
+}
+
+impl ComputedLoop {
+    /// Returns the displacement in m at the end of the retraction, relative to the turning point.
+    fn end(&self) -> f64 {
+        match self.pulled.points().last() {
+            Some(point) => point.displacement - self.top,
+            None => -self.top,
+        }
+    }
+
+    /// Returns the force in N of the approach or of the retraction at a displacement in m relative
+    /// to the turning point.
+    fn force_at(&self, curve: &DisplacementCurve, displacement: f64) -> f64 {
+        if let Some(point) = curve.at(self.top + displacement) {
+            return self.scale * point.force;
+        }
+        // By rounding, the turning point may lie beyond the end of the computed curve.
+        let is_turn = displacement > -1e-9 * self.top.abs();
+        if is_turn { self.turning_force } else { 0.0 }
+    }
+}
+
+impl ForceLoop<'_> {
+    /// Presses the body further up to the preload, and returns the forces with noise at the
+    /// measured displacements of approach and retraction.
+    fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
+        let protocol = self.protocol;
+        let computed = self.compute(body, noise.of_preload)?;
+        let mut branches = Branches {
+            approach: Vec::with_capacity(protocol.approach.len()),
+            retraction: Vec::with_capacity(protocol.retraction.len()),
+            noise: protocol.noise,
+            free: protocol.free,
+        };
+        for &displacement in &protocol.approach {
+            let force = computed.force_at(&computed.pressed, displacement);
+            let force = force + noise.at(branches.approach.len());
+            branches.approach.push(Point {
+                displacement,
+                force,
+            });
+        }
+        let first = branches.approach.len();
+        for displacement in until_loss(&protocol.retraction, computed.end()) {
+            let force = computed.force_at(&computed.pulled, displacement);
+            let force = force + noise.at(first + branches.retraction.len());
+            branches.retraction.push(Point {
+                displacement,
+                force,
+            });
+        }
+        Ok(branches)
+    }
+
+    /// Presses the body further up to the preload, and computes the approach and the retraction
+    /// from there. The body itself remains on the approach. The force at which the body turns
+    /// differs from the measured preload by `preload_error` in N, because noise changes the
+    /// measured preload.
+    fn compute(&self, body: &mut Body, preload_error: f64) -> Result<ComputedLoop, ContactError> {
+        let protocol = self.protocol;
+        let least_force = LEAST_TURN * protocol.preload;
+        let turning_force = (protocol.preload + preload_error).max(least_force);
+        body.move_to(Move::ToForce(turning_force / self.scale))?;
+        let approach = body.leg();
+        let turn = body.point().indentation;
+        let retraction = approach.turn(turn)?;
+        let sampling = Sampling {
+            stiffness: self.stiffness,
+            points: SAMPLES,
+            least_jump: NOTABLE * protocol.noise / self.scale,
+        };
+        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
+        let pulled = sampling.pull(&retraction, turn)?;
+        let top = match pressed.points().last() {
+            Some(point) => point.displacement,
+            None => turn,
+        };
+        Ok(ComputedLoop {
+            pressed,
+            pulled,
+            top,
+            turning_force,
+            scale: self.scale,
+        })
+    }
+}
+
+/// Returns the displacements of a retraction in m, relative to the turning point. If the measured
+/// displacements `retraction` end before the computed curve loses contact, at the displacement
+/// `end`, further displacements are added.
+fn until_loss(retraction: &[f64], end: f64) -> Vec<f64> {
+    let mut displacements = retraction.to_vec();
+    let count = retraction.len();
+    let last = retraction[count - 1];
+    if end < last {
+        let step = (last - retraction[0]) / (count - 1) as f64;
+        let more = (((end - last) / step) as usize + 4).min(LONGEST * count);
+        displacements.extend((1..=more).map(|index| last + step * index as f64));
+    }
+    displacements
+}
+
+/// Threads that compute the curves of a table.
+#[derive(Clone, Copy)]
+pub(crate) struct Workers<'a> {
+    pub specimen: Specimen<'a>,
+    /// Simulation that finds the measured files of the scene in their folder, or that already holds
+    /// the measured roughness of the scene.
+    pub simulation: &'a Simulation,
+    /// Number of threads.
+    pub jobs: usize,
+    /// Number of curves computed so far.
+    pub computed: &'a AtomicUsize,
+    /// Function that receives the number of curves computed so far.
+    pub report: &'a (dyn Fn(usize) + Sync),
+}
+
+impl Workers<'_> {
+    /// Returns the summaries of the curves of each random profile at all nodes. All moduli of the
+    /// first range come first.
+    pub fn curves(
+        &self,
+        lines: u64,
+        ranges: &[f64],
+        moduli: &[f64],
+    ) -> Result<Vec<Vec<Summaries>>, ExperimentError> {
+        let worker = || {
+            let mut simulation = self.simulation.another();
+            move |line: u64| {
+                let curves = self
+                    .specimen
+                    .curves(&mut simulation, line, ranges, moduli)?;
+                let before = self.computed.fetch_add(curves.len(), Ordering::Relaxed);
+                (self.report)(before + curves.len());
+                Ok(curves)
+            }
+        };
+        on_threads(lines, self.jobs, worker)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::bodies::{self, Body};
+    use crate::fit::ensemble::summary::{Measurement, NAMES};
+    use asperity_data::{mean, standard_deviation};
+
+    /// Measured and computed curves of the same profiles have the same summaries. They differ only
+    /// by the noise and by a small part of the scatter over the profiles.
+    #[test]
+    fn computed_curves_have_the_summaries_of_measured_ones() {
+        const LINES: u64 = 32;
+        for body in [Body::Cone, Body::Sphere, Body::Flat] {
+            let specimen = bodies::Specimen {
+                noise: 0.003,
+                ..bodies::Specimen::new(body, 0)
+            };
+            let truth = specimen.truth.clone().checked().unwrap();
+            let mut simulation = Simulation::default();
+            let curve = |line: u64| {
+                (
+                    line.to_string(),
+                    specimen.curve(&mut simulation, seed_of(&truth, line)),
+                )
+            };
+            let measured = Measurement::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
+            let table = Specimen {
+                scene: &truth,
+                stiffness: truth.loading_stiffness.unwrap_or(f64::INFINITY),
+                closing: 1.0,
+                protocols: &measured.protocols,
+                stop: &|| false,
+            };
+            let [range, modulus] = [
+                (specimen.work() / specimen.modulus()).ln(),
+                specimen.modulus().ln(),
+            ];
+            let computed = |line: u64| {
+                table
+                    .curves(&mut simulation, line, &[range], &[modulus])
+                    .unwrap()[0]
+            };
+            let computed: Vec<Summaries> = (0..LINES).map(computed).collect();
+            for (index, name) in NAMES.into_iter().enumerate() {
+                let pairs = computed.iter().zip(&measured.summaries);
+                let differences: Vec<f64> = pairs
+                    .map(|(one, other)| other[index] - one[index])
+                    .collect();
+                let values: Vec<f64> = computed.iter().map(|summaries| summaries[index]).collect();
+                let scatter = standard_deviation(&values, mean(&values));
+                let difference = mean(&differences);
+                let error = standard_deviation(&differences, difference) / (LINES as f64).sqrt();
+                assert!(
+                    difference.abs() < 0.05 * scatter + 4.0 * error,
+                    "{body:?}, {name}: {difference} ± {error}, scatter {scatter}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Mean and covariance of two values over the random profiles of a table, at its nodes and between
+//! them.
+
+use super::table::{Place, Table};
+
+/// Mean and covariance of two values over the random profiles at a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moments {
+    pub mean: [f64; 2],
+    /// Variance of the first value, covariance, variance of the second value.
+    pub covariance: [f64; 3],
+}
+
+/// Inverse of a covariance matrix of two values.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InverseCovariance {
+    /// Elements of the inverse matrix, in the order of [`Moments::covariance`].
+    elements: [f64; 3],
+    /// Logarithm of the determinant of the covariance matrix.
+    pub log_determinant: f64,
+}
+
+impl Moments {
+    pub fn of(values: &[[f64; 2]]) -> Self {
+        let count = values.len() as f64;
+        let mean = [0, 1].map(|index| values.iter().map(|value| value[index]).sum::<f64>() / count);
+        let product = |first: usize, second: usize| {
+            let products = values
+                .iter()
+                .map(|value| (value[first] - mean[first]) * (value[second] - mean[second]));
+            products.sum::<f64>() / (count - 1.0).max(1.0)
+        };
+        Moments {
+            mean,
+            covariance: [product(0, 0), product(0, 1), product(1, 1)],
+        }
+    }
+
+    /// Returns the inverse of the covariance matrix. If the second value does not vary, as for a
+    /// given E*, the inverse ignores it.
+    pub fn inverse(&self) -> InverseCovariance {
+        let [first, both, second] = self.covariance;
+        if second == 0.0 {
+            let first = first.max(f64::MIN_POSITIVE);
+            return InverseCovariance {
+                elements: [1.0 / first, 0.0, 0.0],
+                log_determinant: first.ln(),
+            };
+        }
+        let determinant = (first * second - both * both).max(f64::MIN_POSITIVE);
+        InverseCovariance {
+            elements: [
+                second / determinant,
+                -both / determinant,
+                first / determinant,
+            ],
+            log_determinant: determinant.ln(),
+        }
+    }
+}
+
+impl InverseCovariance {
+    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean).
+    pub fn squared_distance(&self, mean: [f64; 2], values: [f64; 2]) -> f64 {
+        let [first, both, second] = self.elements;
+        let x = values[0] - mean[0];
+        let y = values[1] - mean[1];
+        first * x * x + 2.0 * both * x * y + second * y * y
+    }
+
+    /// Returns the product Σ⁻¹ x.
+    pub fn times(&self, values: [f64; 2]) -> [f64; 2] {
+        let [first, both, second] = self.elements;
+        let [x, y] = values;
+        [first * x + both * y, both * x + second * y]
+    }
+}
+
+/// Mean and covariance of two values over the random profiles, at each node of a table.
+#[derive(Clone)]
+pub(crate) struct Scatter {
+    ranges: Vec<f64>,
+    moduli: Vec<f64>,
+    nodes: Vec<Moments>,
+}
+
+/// Weights for the interpolation along an axis. `first` is the index of the first node with a
+/// weight.
+struct Weights<const COUNT: usize> {
+    first: usize,
+    weights: [f64; COUNT],
+}
+
+impl<const COUNT: usize> Weights<COUNT> {
+    /// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or
+    /// through all nodes of a shorter axis.
+    fn new(axis: &[f64], place: f64) -> Self {
+        let count = COUNT.min(axis.len());
+        let next = axis.partition_point(|node| *node < place);
+        let first = next
+            .saturating_sub(count.div_ceil(2))
+            .min(axis.len() - count);
+        let mut weights = [0.0; COUNT];
+        for (index, weight) in weights.iter_mut().enumerate().take(count) {
+            let node = axis[first + index];
+            let others = (first..first + count).filter(|other| *other != first + index);
+            *weight = others
+                .map(|other| (place - axis[other]) / (node - axis[other]))
+                .product();
+        }
+        Weights { first, weights }
+    }
+}
+
+impl Scatter {
+    /// Computes the moments of two values at each node. `value` returns these values from the index
+    /// of a random profile and the index of a node.
+    pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
+        let count = table.ranges.len() * table.moduli.len();
+        let mut nodes = Vec::with_capacity(count);
+        for node in 0..count {
+            let lines = 0..table.lines.len();
+            let values: Vec<[f64; 2]> = lines.map(|line| value(line, node)).collect();
+            nodes.push(Moments::of(&values));
+        }
+        Scatter {
+            ranges: table.ranges.clone(),
+            moduli: table.moduli.clone(),
+            nodes,
+        }
+    }
+
+    /// Computes the moments of one summary; the second value is 0.
+    pub fn of_summary(table: &Table, index: usize) -> Self {
+        Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])
+    }
+
+    /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
+    /// polynomials, and the covariance linearly.
+    pub fn at(&self, place: Place) -> Moments {
+        let mut moments = Moments {
+            mean: [0.0; 2],
+            covariance: [0.0; 3],
+        };
+        self.interpolate::<4>(place, |weight, node| {
+            for (sum, mean) in moments.mean.iter_mut().zip(node.mean) {
+                *sum += weight * mean;
+            }
+        });
+        let inside = Place {
+            range: clamp_to(&self.ranges, place.range),
+            modulus: clamp_to(&self.moduli, place.modulus),
+        };
+        self.interpolate::<2>(inside, |weight, node| {
+            for (sum, covariance) in moments.covariance.iter_mut().zip(node.covariance) {
+                *sum += weight * covariance;
+            }
+        });
+        moments
+    }
+
+    /// Calls `add` with the weight and the moments of each node around a place. There are `COUNT`
+    /// such nodes along each axis.
+    fn interpolate<const COUNT: usize>(&self, place: Place, mut add: impl FnMut(f64, &Moments)) {
+        let ranges = Weights::<COUNT>::new(&self.ranges, place.range);
+        let moduli = Weights::<COUNT>::new(&self.moduli, place.modulus);
+        for (range, of_range) in ranges.weights.iter().enumerate() {
+            if *of_range == 0.0 {
+                continue;
+            }
+            let row = (ranges.first + range) * self.moduli.len();
+            for (modulus, of_modulus) in moduli.weights.iter().enumerate() {
+                if *of_modulus != 0.0 {
+                    let node = &self.nodes[row + moduli.first + modulus];
+                    add(of_range * of_modulus, node);
+                }
+            }
+        }
+    }
+}
+
+fn clamp_to(axis: &[f64], place: f64) -> f64 {
+    place.clamp(axis[0], axis[axis.len() - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::ensemble::summary::SUMMARIES;
+
+    /// Returns a first summary that is a cubic polynomial of the place. The two profiles differ by
+    /// the range.
+    fn cubic(place: Place, line: usize) -> f64 {
+        place.range.powi(3) - 2.0 * place.range * place.modulus.powi(2)
+            + [-0.5, 0.5][line] * place.range
+    }
+
+    #[test]
+    fn means_are_exact_for_cubics_and_covariances_lie_between_nodes() {
+        let (ranges, moduli): (Vec<f64>, Vec<f64>) = (
+            (0..7).map(|at| 0.5 * f64::from(at)).collect(),
+            (0..4).map(|at| 1.0 + 0.3 * f64::from(at)).collect(),
+        );
+        let mut table = Table {
+            ranges,
+            moduli,
+            lines: Vec::new(),
+        };
+        let places: Vec<Place> = table.places();
+        table.lines = (0..2)
+            .map(|line| {
+                places
+                    .iter()
+                    .map(|place| [cubic(*place, line); SUMMARIES])
+                    .collect()
+            })
+            .collect();
+        let scatter = Scatter::of(&table, |line, node| [table.lines[line][node][0], 0.0]);
+        for (range, modulus) in [(0.1, 1.05), (1.3, 1.6), (2.9, 1.9), (1.5, 1.3)] {
+            let place = Place { range, modulus };
+            let found = scatter.at(place);
+            let expected = range.powi(3) - 2.0 * range * modulus * modulus;
+            assert!(
+                (found.mean[0] - expected).abs() < 1e-12,
+                "{place:?}: {found:?}"
+            );
+            let node = (2.0 * range).floor() / 2.0;
+            let square = |at: f64| 0.5 * at * at;
+            let between = square(node) + (range - node) / 0.5 * (square(node + 0.5) - square(node));
+            assert!(
+                (found.covariance[0] - between).abs() < 1e-12,
+                "{place:?}: {found:?}"
+            );
+            assert_eq!((found.mean[1], found.covariance[2]), (0.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn the_distance_is_that_of_the_covariance() {
+        let values = [[1.0, 2.0], [3.0, 1.0], [2.0, 6.0], [6.0, 3.0]];
+        let moments = Moments::of(&values);
+        assert_eq!(moments.mean, [3.0, 3.0]);
+        let inverse = moments.inverse();
+        // The squared Mahalanobis distances of n points sum up to (n − 1) times their dimension.
+        let sum: f64 = values
+            .iter()
+            .map(|value| inverse.squared_distance(moments.mean, *value))
+            .sum();
+        assert!((sum - 6.0).abs() < 1e-12);
+        let [one, both, other] = moments.covariance;
+        assert!((inverse.log_determinant.exp() - (one * other - both * both)).abs() < 1e-12);
+    }
+}
