@@ -430,7 +430,7 @@ def load(
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
         load = (foundation, (stages, edges == "grid", samples))
-        loop = Loop(_native.Loop.of_heights(profile._native, load, progress))
+        loop = Loop(_native.Loop.of_heights(profile._native, load, progress), (profile._native, load))
         warn_of(loop.warnings)
         return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}

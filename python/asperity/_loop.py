@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _native
 
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
     import pandas as pd
+
+    # Profile of given heights, and its loading.
+    _Heights: TypeAlias = tuple[_native.Profile, _native._Load]
 
 
 class Loop:
@@ -59,8 +63,8 @@ class Loop:
     #: Premises of the model that the loading does not meet, one sentence for each; empty if all hold.
     warnings: list[str]
 
-    def __init__(self, native: _native.Loop, scene: _native.Scene | None = None) -> None:
-        self._native, self._scene = native, scene
+    def __init__(self, native: _native.Loop, source: _native.Scene | _Heights) -> None:
+        self._native, self._source = native, source
         (self.stage, self.patches), columns = native.columns()
         self.d, self.F, self.D, self.length, self.energy, self.released = columns
         figures, self.regime, self.jumps = native.figures()
@@ -70,11 +74,27 @@ class Loop:
     @cached_property
     def pull_off_error(self) -> float | None:
         """Estimated error of the pull-off force in N by the finite number of springs, computed at the first access."""
-        if self._scene is None:
+        if not isinstance(self._source, _native.Scene):
             return None
-        report = _native.run((self._scene, 1, None, None), self._native)
+        report = _native.run((self._source, 1, None, None), self._native)
         error: float | None = json.loads(report.write("json"))["adhesion_force_error"]
         return error
+
+    @cached_property
+    def events(self) -> npt.NDArray[np.void]:
+        """Jumps and marks of the loading in the order of the motion, as a structured array with the columns of `run --events`.
+
+        The first access computes the loop once more. `energy` is the elastic energy in J that springs gain (positive) or release
+        (negative) at the fixed indentation. Stages, patches and springs are counted from 0. A mark without a jump has NaN there.
+        """
+        import numpy as np
+
+        if isinstance(self._source, _native.Scene):
+            table = _native.Loop.events_of_scene(self._source)
+        else:
+            table = _native.Loop.events_of_heights(*self._source)
+        events: npt.NDArray[np.void] = np.load(io.BytesIO(table))
+        return events
 
     def to_pandas(self) -> pd.DataFrame:
         """Returns the curve as a pandas DataFrame with one row for each point."""

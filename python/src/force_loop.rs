@@ -5,17 +5,20 @@ use crate::computing::{Progress, computed};
 use crate::failure::Failure;
 use crate::quantity::{Array, array};
 use crate::scene::Scene;
-use asperity::contact::{Figures, LegRecord, Mark, NominalForm};
+use asperity::contact::motion::{JumpCollector, Leg};
+use asperity::contact::{Events, Figures, LegRecord, Mark, NominalForm};
 use asperity::data::Warning;
 use asperity::scene::Outcome;
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
-use asperity::{Contact, Edges, LoadOptions, Modulus, ProfileBuilder};
+use asperity::{Contact, Edges, LoadOptions, Modulus, Move, ProfileBuilder};
 use asperity_plot::Figure;
-use asperity_report::{ForceLoop, LoopUnits, loop_chart, warning_texts};
+use asperity_report::{ForceLoop, LoopUnits, events_table, loop_chart, warning_texts};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
+use std::io;
 use std::sync::Arc;
 
 /// Profile made from heights or from a scene. The Python class `asperity.Profile` wraps it.
@@ -101,6 +104,49 @@ impl Profile {
 /// springs, and the number of samples.
 type Load = ((f64, [f64; 2], f64), (String, bool, u64));
 
+/// Contact of a profile that is given by its heights, and its loading.
+struct Loading {
+    contact: Contact,
+    targets: Vec<Move>,
+    /// Stiffness of the instrument, N/m.
+    stiffness: f64,
+    /// Number of points of the force curve of each stage.
+    samples: u64,
+}
+
+impl Loading {
+    fn new(profile: &Profile, load: &Load) -> Result<Self, Failure> {
+        let ((modulus, works, stiffness), (stages, is_grid, samples)) = load;
+        let targets = read_loading(stages);
+        let targets = targets.map_err(|error| Failure::explained("stages", stages, &error))?;
+        let contact = Contact::builder(&profile.profile, Modulus::effective(*modulus)?);
+        let edges = if *is_grid {
+            Edges::Grid
+        } else {
+            Edges::SubCell
+        };
+        let contact = contact
+            .works_of_adhesion(*works)
+            .loading_stiffness(*stiffness)
+            .edges(edges)
+            .build()?;
+        Ok(Loading {
+            contact,
+            targets,
+            stiffness: *stiffness,
+            samples: *samples,
+        })
+    }
+}
+
+/// Returns the table of events in the format NPY. `first_spring` is the index of the first spring
+/// under the body, and `stiffness` that of the instrument in N/m.
+fn npy(events: &Events, first_spring: usize, stiffness: f64) -> io::Result<Vec<u8>> {
+    let mut table = Vec::new();
+    events_table(events, first_spring, stiffness.is_finite()).write_npy(&mut table)?;
+    Ok(table)
+}
+
 /// Indentation in m and force in N of each marked point. The key is the name of the point.
 type Marks = BTreeMap<&'static str, (f64, f64)>;
 
@@ -128,17 +174,13 @@ impl Loop {
         load: Load,
         progress: Progress,
     ) -> PyResult<Loop> {
-        let ((modulus, works, stiffness), (stages, is_grid, samples)) = load;
         computed(py, progress, |watch| {
-            let targets = read_loading(&stages);
-            let targets = targets.map_err(|error| Failure::explained("stages", &stages, &error))?;
-            let contact = Contact::builder(&profile.profile, Modulus::effective(modulus)?);
-            let edges = if is_grid { Edges::Grid } else { Edges::SubCell };
-            let contact = contact
-                .works_of_adhesion(works)
-                .loading_stiffness(stiffness)
-                .edges(edges)
-                .build()?;
+            let Loading {
+                contact,
+                targets,
+                stiffness,
+                samples,
+            } = Loading::new(profile, &load)?;
             let mut proceed = |stage| {
                 watch.report(stage as u64, targets.len() as u64);
                 !watch.stop()
@@ -157,6 +199,51 @@ impl Loop {
                 outcome: None,
             })
         })
+    }
+
+    /// Computes the loading of a profile that is given by its heights, and returns its events: the
+    /// bytes of a table in the format NPY.
+    #[staticmethod]
+    fn events_of_heights<'py>(
+        py: Python<'py>,
+        profile: &Profile,
+        load: Load,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let table = computed(py, None, |watch| {
+            let Loading {
+                contact,
+                targets,
+                stiffness,
+                samples,
+            } = Loading::new(profile, &load)?;
+            let mut proceed = |_| !watch.stop();
+            let mut jumps = JumpCollector::default();
+            let options = LoadOptions::default()
+                .samples(samples)
+                .jumps(&mut jumps)
+                .before_stage(&mut proceed);
+            let cycle = contact.load_with(&targets, options)?;
+            let events = jumps.events(cycle.stages(), 0.0, usize::MAX)?;
+            Ok(npy(&events, 0, stiffness))
+        })?;
+        Ok(PyBytes::new(py, &table?))
+    }
+
+    /// Computes the loading of the body of a scene, and returns its events as
+    /// [`Self::events_of_heights`] does.
+    #[staticmethod]
+    fn events_of_scene<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyBytes>> {
+        let mut simulation = scene.simulation().for_one_scene();
+        let table = computed(py, None, |watch| {
+            let scene = scene.document.scene();
+            let mut jumps = JumpCollector::default();
+            let mut observe = |_: usize, record: &LegRecord, leg: &Leg| jumps.observe(record, leg);
+            let outcome = simulation.run(scene, &|| watch.stop(), &mut observe)?;
+            let events = jumps.events(&outcome.history.legs, 0.0, usize::MAX)?;
+            let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+            Ok(npy(&events, outcome.line.first, stiffness))
+        })?;
+        Ok(PyBytes::new(py, &table?))
     }
 
     /// Computes the loading of the body of a scene.

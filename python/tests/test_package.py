@@ -36,6 +36,11 @@ class Loops(unittest.TestCase):
         self.assertEqual(loop.regime, "pressure-insensitive")
         self.assertGreater(loop.tabor, 5)
         self.assertAlmostEqual(sum(loop.released), loop.dissipated, delta=1e-12 * loop.dissipated)
+        events = loop.events
+        self.assertEqual([str(event["mark"]) for event in events], ["jump-in", "preload", "pull-off", "jump-out"])
+        self.assertEqual([str(name) for name in events["event"]], ["touches", "", "", "detaches"])
+        self.assertLess(abs(events["energy"][0] + loop.released[0]), abs(loop.released[0]))
+        self.assertTrue(np.isnan(events["energy"][1]) and events["force_after"][3] == 0)
 
     def test_heights_are_loaded_as_the_body_they_come_from(self):
         body = sphere()

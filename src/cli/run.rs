@@ -2,20 +2,23 @@
 
 use super::advice::option;
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
+use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{
     ProfileArguments, SceneArguments, compute, compute_stages, holds_warnings, open_scene,
     simulation_of, staircase_of, threads, warn,
 };
-use asperity_data::{grouped, wrap};
+use asperity_contact::motion::JumpCollector;
+use asperity_data::{grouped, parse_quantity, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
-    ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport,
-    check_measured_files, counted_texts, warning_texts,
+    ComparedScene, ContactSets, EventsReport, Format, PreloadReport, Report, RunReport,
+    ScenesReport, check_measured_files, counted_texts, warning_texts,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
-use asperity_scene::{CheckedScene, Document, Estimate, Outcome, Scene, Simulation, estimate};
+use asperity_scene::{
+    CheckedScene, Document, Estimate, Outcome, Scene, Simulation, Solver, estimate,
+};
 use asperity_study::trust::MeasuredAdhesion;
 use asperity_study::{Axis, Ensemble, Results, Staircase};
 use clap::{Args, ValueEnum};
@@ -32,6 +35,7 @@ Examples:
   asperity run jkr-sphere --tolerance 0.1%
   asperity run pressure-sensitive --profiles 32 --format csv     A row for each profile
   asperity run pressure-sensitive --preloads 0..20uN --profiles 16
+  asperity run pressure-sensitive --events                       The jumps, with their energies
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --draw profile -o profile.svg
   asperity run before.ron after.ron                  Differences, results, curves
@@ -51,6 +55,8 @@ pub enum Drawn {
     Patches,
     /// The force curve of each scene over axes of its own.
     Panels,
+    /// The curves over the preload, which also become the table.
+    Curves,
 }
 
 #[derive(Args, Debug)]
@@ -65,12 +71,12 @@ pub struct RunArguments {
     ///
     /// profile: the profile and its contact at the largest force. patches: the contact patches
     /// over the indentation. panels: the force curve of each scene over axes of its own.
+    /// curves: with --preloads; the table has the drawn curves instead of all profiles.
     #[arg(
         long,
         value_name = "WHAT",
         value_enum,
         hide_possible_values = true,
-        conflicts_with = "preloads",
         verbatim_doc_comment
     )]
     pub draw: Option<Drawn>,
@@ -89,13 +95,36 @@ pub struct RunArguments {
     /// the bodies are still drawn together, and is at least the force at first touch.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = Axis::parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
-    /// Write a table of the drawn curves instead of all profiles
-    #[arg(long, requires = "preloads")]
-    pub curves: bool,
+    /// List the jumps of the loading, those of at least 1 % of the largest energy
+    ///
+    /// Smaller ones too: --events=0.1%; all of them: --events=all. The list is the text and the
+    /// table; JSON has all results and the key events.
+    #[arg(
+        long,
+        value_name = "SHARE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "1%",
+        value_parser = parse_share,
+        conflicts_with_all = ["preloads", "draw"],
+        verbatim_doc_comment
+    )]
+    pub events: Option<f64>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
     #[command(flatten)]
     pub output: OutputArguments,
+}
+
+/// Parses the least share of the largest energy that a jump needs to be listed.
+fn parse_share(text: &str) -> Result<f64, String> {
+    if text == "all" {
+        return Ok(0.0);
+    }
+    match parse_quantity(text, "1") {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err("allowed: all, or a share of the largest energy, such as 0.1%".to_owned()),
+    }
 }
 
 /// Width of messages in columns.
@@ -122,6 +151,11 @@ impl RunArguments {
         matches!(self.draw, Some(Drawn::Profile | Drawn::Patches))
     }
 
+    /// Returns true if the user has requested a table of the curves over the preload.
+    fn lists_curves(&self) -> bool {
+        self.draw == Some(Drawn::Curves)
+    }
+
     /// Returns the format of the results. The number of scenes, `--draw` and `--preloads` determine
     /// which formats are possible.
     fn format(&self) -> Result<Format, CliError> {
@@ -132,7 +166,35 @@ impl RunArguments {
                 "one scene; allowed: several scenes, each over axes of its own",
             ));
         }
+        match (self.draw, &self.preloads) {
+            (Some(Drawn::Curves), None) => {
+                return Err(CliError::named(
+                    "--draw curves",
+                    "the curves over the preload; allowed: with --preloads A..B",
+                ));
+            }
+            (Some(Drawn::Profile | Drawn::Patches | Drawn::Panels), Some(_)) => {
+                return Err(CliError::named(
+                    "--draw",
+                    "not with --preloads; allowed there: --draw curves",
+                ));
+            }
+            _ => {}
+        }
+        if self.events.is_some() && several {
+            return Err(CliError::named(
+                "--events",
+                "several scenes; allowed: one scene, and the share after an equals sign, as in --events=all",
+            ));
+        }
+        if self.events.is_some() && self.profiles.lines.is_some() {
+            return Err(CliError::named(
+                "--events",
+                "the list is that of one profile; allowed: without --profiles, with --set roughness.seed=2 for another profile",
+            ));
+        }
         let (formats, usual) = match self.preloads {
+            _ if self.events.is_some() => (WITHOUT_PICTURE, Format::Text),
             _ if self.has_sections() => (PICTURES, Format::Svg),
             Some(_) if several => (PICTURES, Format::Svg),
             None if several => (TEXT_OR_PICTURE, Format::Text),
@@ -278,7 +340,7 @@ impl RunArguments {
             document, scene, ..
         } = chosen;
         let mut staircase = None;
-        if is_drawn || self.curves || preloads.values[0] < 0.0 {
+        if is_drawn || self.lists_curves() || preloads.values[0] < 0.0 {
             let mut simulation = simulation_of(document);
             staircase = Some(staircase_of(document, scene, preloads, &mut simulation)?);
         }
@@ -347,6 +409,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
                 .write(stdout, report, format, Origin::Scenes(&scenes))
         }
     };
+    if let (Some(least_share), [chosen]) = (arguments.events, &chosen[..]) {
+        return run_events(chosen, least_share, format, &mut write);
+    }
     match &arguments.preloads {
         _ if arguments.has_sections() => write(&sections(arguments, &chosen)?),
         Some(preloads) => run_preloads(arguments, preloads, &chosen, format, &mut write),
@@ -401,6 +466,59 @@ fn loaded<'a>(
         document: chosen.document,
         outcome,
         ensemble,
+    })
+}
+
+/// Computes a scene and writes the events of its loading. Of the jumps, only those are written
+/// whose energy is at least `least_share` of the largest one.
+fn run_events(
+    chosen: &Chosen<'_>,
+    least_share: f64,
+    format: Format,
+    write: &mut WriteReport<'_>,
+) -> Result<(), CliError> {
+    let Chosen {
+        document,
+        scene,
+        choice,
+    } = chosen;
+    if matches!(scene.numerics.solver, Solver::Stepwise { .. }) {
+        return Err(CliError::named(
+            "--events",
+            "the stepwise solver knows the contact only at its steps; allowed: --set numerics.solver=Exact",
+        ));
+    }
+    let mut simulation = simulation_of(document);
+    let mut jumps = JumpCollector::default();
+    let outcome = compute_stages(document, scene, |stop, after| {
+        simulation.run(scene, stop, &mut |stage, record, leg| {
+            jumps.observe(record, leg)?;
+            after(stage);
+            Ok(())
+        })
+    })?;
+    let events = jumps.events(&outcome.history.legs, least_share, usize::MAX)?;
+    if !holds_warnings(format) {
+        warn(document, &outcome_warnings(&outcome, None));
+    }
+    let estimate = match choice {
+        Some(choice) => Some(choice.estimate()),
+        None if format == Format::Json => estimated(document, scene, &outcome)?,
+        None => None,
+    };
+    write(&EventsReport {
+        run: RunReport {
+            wording: option,
+            title: document.title(),
+            scene,
+            outcome: &outcome,
+            choice: choice.as_ref(),
+            estimate: estimate.as_ref(),
+            ensemble: None,
+            deviation: None,
+        },
+        events: &events,
+        least_share,
     })
 }
 
@@ -496,7 +614,7 @@ fn run_preloads(
             choice: one.choice.as_ref(),
             results: &results,
             staircase: staircase.as_ref(),
-            curves: arguments.curves,
+            curves: arguments.lists_curves(),
         });
     }
     let mut figures = Vec::new();

@@ -3,7 +3,6 @@
 use super::app::App;
 use super::manual_path::ManualPath;
 use asperity_contact::Events;
-use asperity_data::format_rounded;
 use std::sync::Arc;
 
 /// Smallest energy of a listed jump, as a share of the largest energy of all jumps.
@@ -30,10 +29,4 @@ pub fn of_app(app: &App) -> Option<Result<&Events, &str>> {
         return None;
     }
     Some(listed.events.as_ref().map_err(String::as_str))
-}
-
-/// Returns an energy with its sign. An energy that springs gain is positive.
-pub fn signed_energy(energy: f64) -> String {
-    let sign = if energy > 0.0 { "+" } else { "" };
-    format!("{sign}{}", format_rounded(energy, 2, "J"))
 }

@@ -393,3 +393,73 @@ fn reversals_end_at_their_turning_points() {
         );
     }
 }
+
+/// The list of jumps is the same as JSON and as a table, at least as long for smaller jumps, and its
+/// energies are a part of those of the loading.
+#[test]
+fn jumps_are_part_of_the_loading() {
+    let scene = "pressure-sensitive";
+    let events = |option: &str| json(&["run", scene, option, "--format", "json"]);
+    let (all, large) = (events("--events=all"), events("--events"));
+    let whole = json(&["run", scene, "--profiles", "1", "--format", "json"]);
+    for key in [
+        "adhesion_force",
+        "dissipated_energy",
+        "curve",
+        "adhesion_force_error",
+    ] {
+        assert_eq!(
+            (&large[key], &all[key]),
+            (&whole[key], &whole[key]),
+            "{key}"
+        );
+    }
+    let [all, large] = [&all["events"], &large["events"]].map(array);
+    let energies = |events: &[Value]| -> Vec<f64> {
+        let energies = events.iter().map(|event| &event["energy"]);
+        energies.filter_map(Value::as_f64).collect()
+    };
+    let found = energies(all);
+    let largest = found
+        .iter()
+        .fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
+    let expected: Vec<f64> = found
+        .iter()
+        .copied()
+        .filter(|energy| energy.abs() >= 0.01 * largest)
+        .collect();
+    assert_eq!(energies(large), expected);
+    // Springs gain energy on loading and release it on unloading, three quarters or more in jumps.
+    assert!(all.iter().all(|event| {
+        let energy = event["energy"].as_f64().unwrap_or_default();
+        if event["leg"] == 0 {
+            energy >= 0.0
+        } else {
+            energy <= 0.0
+        }
+    }));
+    let dissipated = number(&whole["dissipated_energy"]);
+    let sum: f64 = found.iter().sum();
+    assert!(
+        (-sum / dissipated - 1.0).abs() < 0.25,
+        "{sum} of {dissipated} J"
+    );
+    let marks: Vec<&str> = all
+        .iter()
+        .filter_map(|event| event["mark"].as_str())
+        .collect();
+    let marks: Vec<&str> = marks.into_iter().filter(|mark| !mark.is_empty()).collect();
+    assert_eq!(marks, ["jump-in", "preload", "pull-off", "jump-out"]);
+
+    let csv = text(&["run", scene, "--events", "--format", "csv"]);
+    let mut names: Vec<&str> = rows(&csv).next().unwrap().split(',').collect();
+    names.sort_unstable();
+    let keys: Vec<&String> = large[0].as_object().unwrap().keys().collect();
+    assert_eq!(names, keys);
+    let indentations = |event: &Value| number(&event["indentation"]);
+    let expected: Vec<f64> = large.iter().map(indentations).collect();
+    let found: Vec<f64> = table(&csv).map(|row| row[1]).collect();
+    // Reading JSON rounds the last digit.
+    let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= 1e-15 * one.abs();
+    assert!(found.len() == expected.len() && found.iter().zip(&expected).all(is_near));
+}

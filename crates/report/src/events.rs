@@ -70,7 +70,7 @@ fn jump_words(jump: &Jump) -> String {
 }
 
 /// Returns an energy with its sign, such as `+0.7 pJ`, and zero without a sign.
-fn signed_energy(energy: f64) -> String {
+pub fn signed_energy(energy: f64) -> String {
     let sign = if energy > 0.0 { "+" } else { "" };
     format!("{sign}{}", format_rounded(energy, DIGITS, "J"))
 }
@@ -371,15 +371,20 @@ mod tests {
 
     #[test]
     fn contacts_without_jumps_have_their_marks_only() {
-        for (overrides, marks) in [
-            (&[("adhesion", "None")][..], "preload"),
-            (&[("loading", "[ToIndentation(-1e-9)]")], ""),
+        for (name, overrides, marks) in [
+            ("pressure-sensitive", ("adhesion", "None"), "preload"),
             (
-                &[("numerics.points", "2"), ("roughness", "None")],
-                "preload pull-off",
+                "pressure-sensitive",
+                ("loading", "[ToIndentation(-1e-9)]"),
+                "",
+            ),
+            (
+                "jkr-sphere",
+                ("numerics.points", "2"),
+                "jump-in preload pull-off",
             ),
         ] {
-            let (scene, outcome, events) = computed("pressure-sensitive", overrides, 0.01);
+            let (scene, outcome, events) = computed(name, &[overrides], 0.01);
             let found: Vec<String> = events.list.iter().map(event_words).collect();
             assert_eq!((events.jumps, found.join(" ")), (0, marks.to_owned()));
             let text = report(&scene, &outcome, &events, 0.01).text().unwrap();

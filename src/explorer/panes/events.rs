@@ -11,7 +11,7 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use asperity_contact::{Event, Events};
 use asperity_data::{format_range, format_rounded, grouped};
-use asperity_report::event_words;
+use asperity_report::{event_words, signed_energy};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -79,7 +79,7 @@ fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static>
         (None, Some(loss)) => Some(-loss),
         (None, None) => None,
     };
-    let energy_text = energy.map_or_else(String::new, events::signed_energy);
+    let energy_text = energy.map_or_else(String::new, signed_energy);
     let mut right = format!("{energy_text:>NUMBER_COLUMNS$}");
     if width >= WITH_FORCES {
         let forces = match event.forces {

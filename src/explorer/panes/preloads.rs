@@ -66,7 +66,7 @@ fn report(app: &App) -> Exported<'_> {
     };
     let count = axis.count();
     let command =
-        format!("asperity run --preloads={from:?}..{to:?}:{count}{scale}{profiles} --curves");
+        format!("asperity run --preloads={from:?}..{to:?}:{count}{scale}{profiles} --draw curves");
     let report = PreloadReport {
         title: app.edit.document.title(),
         choice: None,

@@ -134,7 +134,8 @@ fn axis(
     let [lower, median, upper, largest] = forces;
     let mut cells = vec!['─'; width];
     cells[0] = '0';
-    let mut taken = vec![0..2];
+    let zero = 0..2;
+    let mut taken = Vec::from([zero]);
     for force in [largest, median, upper, lower] {
         let text = format_rounded(force, 3, "N");
         let length = text.chars().count();

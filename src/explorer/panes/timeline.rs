@@ -13,7 +13,7 @@ use crate::explorer::{events, manual_path};
 use asperity_contact::{Direction, LegRecord, Mark};
 use asperity_data::{format_rounded, grouped};
 use asperity_plot::Ink;
-use asperity_report::event_words;
+use asperity_report::{event_words, signed_energy};
 use ratatui::layout::Size;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
@@ -106,10 +106,7 @@ fn event(app: &App) -> Vec<Part> {
             if let Some(jump) = event.jump {
                 let palette = app.view.appearance.palette();
                 let style = palette.ink(ink_of(jump.energy > 0.0));
-                parts.push(vec![Span::styled(
-                    events::signed_energy(jump.energy),
-                    style,
-                )]);
+                parts.push(vec![Span::styled(signed_energy(jump.energy), style)]);
             }
         }
         None => parts.extend(caption(app).map(|text| vec![Span::raw(text)])),

@@ -228,7 +228,7 @@ impl Leg {
     }
 
     /// Returns the indentations in m at which the force jumps, in ascending order. Only
-    /// indentations above `low` and up to `high` (m) are searched. Jumps smaller than about `least`
+    /// indentations above `low` and up to `high` (m) are returned. Jumps smaller than about `least`
     /// (N) are left out. Jumps of any number of springs count.
     pub fn force_jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(tree, runs) = &self.patches else {
