@@ -36,15 +36,14 @@ fn keys_visit_all_events_in_the_order_of_the_motion() {
                 "{event:?}: {point:?}"
             );
             assert_eq!(driver.app.play.leg, event.stage);
-            if event.jump.is_some() {
+            if let Some(jump) = event.jump {
                 let [before, after] = event.forces;
                 let scale = before.abs().max(after.abs()).max(1e-12);
                 assert!(
                     (point.force - after).abs() <= 1e-6 * scale,
                     "{event:?}: {point:?}"
                 );
-                let patches = event.jump.unwrap().patches[1];
-                assert_eq!(point.fragments, patches, "{event:?}");
+                assert_eq!(point.fragments, jump.patches[1], "{event:?}");
             }
         }
         driver.press(";");
