@@ -29,7 +29,6 @@ use asperity_study::{Axis, Ensemble, Quantity};
 use ratatui::style::Style;
 use ratatui::text::Span;
 use std::sync::Arc;
-use std::time::Duration;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
@@ -179,8 +178,6 @@ pub struct App {
     /// Command that runs next, because the user has chosen it in the list of commands; otherwise
     /// `None`.
     pub chosen: Option<KeyCommand>,
-    /// Time for which the animation still rests at a jump.
-    pub rest: Duration,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
     /// State of the contact that was last requested from the solver; `None` before the first
@@ -230,7 +227,6 @@ impl App {
             message: None,
             config,
             chosen: None,
-            rest: Duration::ZERO,
             finished: false,
             effects: Vec::new(),
             asked: None,
@@ -503,10 +499,10 @@ impl App {
             None => {
                 let mut panes = vec![
                     Pane::Force,
-                    Pane::Timeline,
                     Pane::Profile,
                     Pane::Parameters,
                     Pane::CloseUp,
+                    Pane::Timeline,
                 ];
                 if self.view.lists_events {
                     panes.push(Pane::Events);

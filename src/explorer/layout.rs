@@ -119,6 +119,9 @@ const WITH_TRUST: u16 = 100;
 const NARROWEST_LIST: u16 = 32;
 /// Largest width in columns of the list of parameters at the side.
 const WIDEST_LIST: u16 = 48;
+/// Smallest height in rows of the area on the left if it has both the residuals of a measured curve
+/// and the timeline.
+const WITH_BOTH_STRIPS: u16 = 26;
 /// Smallest height in rows of the area on the left if it has panes below the main pane.
 const WITH_LOWER: u16 = 20;
 /// Smallest width in columns of the area on the left if it has two panes below the main pane.
@@ -258,10 +261,12 @@ fn panes_beside_list(app: &App, left: Rect) -> Vec<(Pane, Rect)> {
     if left.height < WITH_LOWER || is_alone {
         return vec![(only_pane(app), left)];
     }
-    let timeline_rows = if app.view.large.is_none() {
-        timeline_rows(left.height)
-    } else {
+    // In a low window, the residuals of a measured curve need the rows of the timeline.
+    let is_crowded = app.edit.measured.is_some() && left.height < WITH_BOTH_STRIPS;
+    let timeline_rows = if app.view.large.is_some() || is_crowded {
         0
+    } else {
+        timeline_rows(left.height)
     };
     let upper = Rect {
         height: (u32::from(left.height - timeline_rows) * 62 / 100) as u16,

@@ -136,7 +136,10 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
 /// Returns the indentation in m at which the animation of loading stage number `leg` begins. The
 /// animation of the first stage begins a little above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
+    let start = legs.get(leg).map_or(0.0, LegRecord::start);
+    if leg > 0 {
+        return start;
+    }
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
-    let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };
-    legs.get(leg).map_or(0.0, LegRecord::start) - lift
+    start - LIFT * (high - low)
 }

@@ -188,7 +188,7 @@ mod tests {
         assert_eq!(search("shpere rough").corrected.unwrap(), "SPHERE rough");
         assert_eq!(search("shpere rough").found, [2, 3]);
         assert_eq!(search("the rough of a sphere").found, [2, 3]);
-        assert_eq!(search("a").found.len(), 6, "a filler alone is a word");
+        assert_eq!(search("a").found, [0, 4], "a filler alone is a word");
         let unknown = search("qqqqqq sphere");
         assert_eq!(
             (unknown.unknown, unknown.found.len()),

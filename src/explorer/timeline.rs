@@ -14,6 +14,15 @@ const LEAST_COLUMNS: usize = 6;
 pub struct Timeline {
     /// Columns of each loading stage. If there are more stages than columns, some are empty.
     pub stages: Vec<Range<usize>>,
+    ways: Vec<Way>,
+}
+
+/// Indentations in m at which a loading stage begins and ends. The first stage begins a little above
+/// first touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Way {
+    start: f64,
+    end: f64,
 }
 
 /// Height and direction of the tick in a column.
@@ -31,10 +40,15 @@ impl Timeline {
     pub fn new(legs: &[LegRecord], columns: usize) -> Self {
         let mut ways = Vec::new();
         for (number, leg) in legs.iter().enumerate() {
-            ways.push((leg.end() - start_of(legs, number)).abs());
+            ways.push(Way {
+                start: start_of(legs, number),
+                end: leg.end(),
+            });
         }
+        let lengths: Vec<f64> = ways.iter().map(|way| (way.end - way.start).abs()).collect();
         Timeline {
-            stages: distributed(&ways, columns),
+            stages: distributed(&lengths, columns),
+            ways,
         }
     }
 
@@ -67,16 +81,23 @@ impl Timeline {
     }
 
     /// Returns the column of an event.
-    pub fn column_of(&self, legs: &[LegRecord], event: &Event) -> Option<usize> {
-        self.column(event.stage, share_of(legs, event))
+    pub fn column_of(&self, event: &Event) -> Option<usize> {
+        let way = self.ways.get(event.stage)?;
+        let length = way.end - way.start;
+        let share = if length == 0.0 {
+            1.0
+        } else {
+            (event.indentation - way.start) / length
+        };
+        self.column(event.stage, share)
     }
 
     /// Returns the tick of each column; `None` if no jump is in the column.
-    pub fn ticks(&self, legs: &[LegRecord], events: &[Event], columns: usize) -> Vec<Option<Tick>> {
+    pub fn ticks(&self, events: &[Event], columns: usize) -> Vec<Option<Tick>> {
         let mut energies = vec![0.0_f64; columns];
         let mut largest: f64 = 0.0;
         for event in events {
-            let (Some(jump), Some(column)) = (event.jump, self.column_of(legs, event)) else {
+            let (Some(jump), Some(column)) = (event.jump, self.column_of(event)) else {
                 continue;
             };
             largest = largest.max(jump.energy.abs());
@@ -127,16 +148,6 @@ fn distributed(ways: &[f64], columns: usize) -> Vec<Range<usize>> {
         first += width;
     }
     ranges
-}
-
-/// Returns the part of its loading stage before an event, from 0 to 1.
-fn share_of(legs: &[LegRecord], event: &Event) -> f64 {
-    let player = Player {
-        leg: event.stage,
-        at: At::Indentation(event.indentation),
-        playing: false,
-    };
-    player.share(legs)
 }
 
 /// Returns the position of the animation that shows an event. A jump is shown by the state just
@@ -238,7 +249,8 @@ mod tests {
         // A short stage keeps its least number of columns.
         assert_eq!(widths(&[1e-6, 1.0], 40), [6, 34]);
         assert_eq!(widths(&[0.0], 40), [1]);
-        assert_eq!(widths(&[1.0; 100], 40), [0; 100]);
+        // More stages than columns: some stages have none.
+        assert_eq!(widths(&[1.0; 100], 40).iter().sum::<usize>(), 40);
         assert_eq!(widths(&[1.0; 20], 40), [2; 20]);
     }
 
@@ -247,6 +259,7 @@ mod tests {
         for ways in [&[1.0][..], &[1.0, 2.0], &[1.0, 0.0, 3.0], &[1.0; 9]] {
             let timeline = Timeline {
                 stages: distributed(ways, 60),
+                ways: Vec::new(),
             };
             let last = timeline.stages.last().unwrap().end;
             for column in 0..last {
@@ -255,6 +268,6 @@ mod tests {
             }
             assert_eq!(timeline.position(1000), timeline.position(last - 1));
         }
-        assert_eq!(Timeline { stages: Vec::new() }.position(0), None);
+        assert_eq!(Timeline::new(&[], 60).position(0), None);
     }
 }

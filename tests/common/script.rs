@@ -125,7 +125,7 @@ impl Driver {
 
     /// Types a value for the selected parameter in place of the present one.
     pub fn enter(&mut self, value: &str) {
-        self.press(&format!("e Ctrl+u `{value}` Enter"));
+        self.press(&format!("Enter Ctrl+u `{value}` Enter"));
     }
 
     /// Types a value for the parameter of this path.

@@ -72,9 +72,8 @@ fn mid_retraction(document: Document) -> Driver {
     driver.press("Space >");
     driver.elapse(3.0);
     assert_eq!((driver.app.play.leg, driver.app.play.playing), (1, false));
-    driver.press(".");
     while driver.app.play.share(driver.app.legs()) < 0.5 {
-        driver.press(".");
+        steps(&mut driver, "Right");
     }
     driver
 }
@@ -97,7 +96,7 @@ fn steps(driver: &mut Driver, keys: &str) {
 
 /// Explorers in every mode and pane.
 fn everywhere() -> Vec<Driver> {
-    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;d 1;E;o;/ h u;: m a p;d Shift+Left Right;c L a v;N;A;A z;\
+    let keys = ";?;e;Enter;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;d 1;E;o;/ h u;: m a p;d Shift+Left Right;c L a v;N;A;A z;\
                 Q;Q z;% 1;y;m;m z;i;*;* Tab Right;* v Right;i z";
     let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));

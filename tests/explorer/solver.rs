@@ -58,7 +58,7 @@ impl Served {
     fn answer(&self) -> Reply {
         loop {
             match self.report() {
-                Reply::Progress { .. } => {}
+                Reply::Progress { .. } | Reply::Listed(_) => {}
                 other => return other,
             }
         }
@@ -134,7 +134,7 @@ fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Reply> {
 fn solved(reports: &[Reply]) -> Vec<Arc<SolvedScene>> {
     let computed = |report: &Reply| match report {
         Reply::Solved(computed, _) => Some(Arc::clone(computed)),
-        Reply::Progress { .. } => None,
+        Reply::Progress { .. } | Reply::Listed(_) => None,
         other => panic!("{other:?}"),
     };
     reports.iter().filter_map(computed).collect()
@@ -212,7 +212,11 @@ fn of_all_that_wait_only_the_newest_is_done() {
             }
         };
         let reports = serve_all(1, vec![moved(0), moved(1), moved(2)]);
-        let Some(Reply::Solved(_, Some(shown))) = reports.last() else {
+        let computed = reports.iter().find_map(|report| match report {
+            Reply::Solved(_, shown) => shown.as_ref(),
+            _ => None,
+        });
+        let Some(shown) = computed else {
             panic!("not computed: {reports:?}")
         };
         let followed = shown.followed.as_ref().unwrap();

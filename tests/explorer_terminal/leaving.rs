@@ -164,7 +164,7 @@ fn a_changed_scene_asks_before_it_is_left_and_its_summary_stays_to_be_read() {
     let mut terminal = paused(program);
     select(&mut terminal, "κ");
     let before = headline(&terminal.rows()).unwrap();
-    terminal.send("e");
+    terminal.send("\r");
     terminal.wait_for("Esc cancel");
     terminal.send(CLEAR_LINE);
     terminal.send("5\r");

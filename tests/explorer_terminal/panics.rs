@@ -23,7 +23,7 @@ fn panicking() -> Program {
 
 /// Types another seed.
 fn seed(terminal: &mut Terminal, seed: &str) {
-    terminal.send("e");
+    terminal.send("\r");
     terminal.wait_for("Esc cancel");
     terminal.send(CLEAR_LINE);
     terminal.send(seed);
@@ -86,7 +86,7 @@ fn a_typed_key_is_in_the_next_frame_whatever_the_engine_does() {
     seed(&mut terminal, "14");
     terminal.wait_for("computing");
     terminal.settle();
-    terminal.send("e");
+    terminal.send("\r");
     terminal.settle();
     let mut typed = String::new();
     // No text with a letter is a seed, so that no curve of a typed seed arrives between two keys.

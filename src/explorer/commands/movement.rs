@@ -2,7 +2,6 @@
 //! of manual loading.
 
 use super::manual;
-use super::timeline::rest_before;
 use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
 use crate::explorer::request::Focus;
@@ -12,8 +11,6 @@ use std::time::Duration;
 
 /// Time that the animation takes for a loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
-/// Time for which the animation rests at a large jump.
-const REST: Duration = Duration::from_millis(250);
 /// If the animation has passed less than this share of a loading stage, it counts as being at the
 /// start of the stage.
 const NEAR_START: f64 = 0.05;
@@ -94,10 +91,6 @@ pub fn elapse(app: &mut App, time: Duration) {
     if !app.is_playing() || legs.is_empty() {
         return;
     }
-    let Some(time) = after_rest(app, time) else {
-        return;
-    };
-    let legs = app.played_legs();
     let last = legs.len() - 1;
     let mut player = app.playhead();
     let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
@@ -112,14 +105,6 @@ pub fn elapse(app: &mut App, time: Duration) {
         };
     }
     player.at = player.advanced(legs, share);
-    if let Some(at_jump) = rest_before(app, app.playhead(), player) {
-        app.set_playhead(Player {
-            playing: true,
-            ..at_jump
-        });
-        app.rest = REST;
-        return;
-    }
     if player.leg < last || player.at != At::End {
         app.set_playhead(player);
     } else if app.config.repeat {
@@ -129,14 +114,6 @@ pub fn elapse(app: &mut App, time: Duration) {
     } else {
         app.set_playhead(Player::at_rest(legs));
     }
-}
-
-/// Returns the part of the time that is left after the animation has rested at a jump; `None` if it
-/// still rests.
-fn after_rest(app: &mut App, time: Duration) -> Option<Duration> {
-    let left = time.checked_sub(app.rest);
-    app.rest = app.rest.saturating_sub(time);
-    left.filter(|left| !left.is_zero())
 }
 
 /// Shows a snapshot from the solver.

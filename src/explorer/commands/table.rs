@@ -73,6 +73,13 @@ pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
 /// Contexts in which all arrow keys act on the list of parameters. In the other panes, the arrow
 /// keys move the mark on the map, the crosshair, or the body.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
+/// Contexts in which Enter begins a value for the selected parameter.
+const EDITED: &[Context] = &[
+    Context::Explore,
+    Context::Timeline,
+    Context::Events,
+    Context::Parameters,
+];
 /// Contexts in which keys other than those for values act on the list of parameters.
 const LISTED: &[Context] = &[Context::Explore, Context::Manual, Context::Parameters];
 const BY_HAND: &[Context] = &[Context::Manual];
@@ -84,10 +91,20 @@ const ROWS: &[Context] = &[
     Context::Explore,
     Context::Crosshair,
     Context::Manual,
+    Context::Timeline,
     Context::Parameters,
 ];
 /// All contexts of panes except those in which the characters of these keys begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
+/// Contexts in which `+` zooms into the profile. With the timeline selected, it changes the speed.
+const OUTSIDE_TIMELINE: &[Context] = &[
+    Context::Explore,
+    Context::Map,
+    Context::Crosshair,
+    Context::Manual,
+    Context::Events,
+    Context::Parameters,
+];
 const VALUES: &[Context] = &[Context::Parameters];
 const MAP_PANE: &[Context] = &[Context::Map];
 const CROSSHAIR: &[Context] = &[Context::Crosshair];
@@ -203,8 +220,7 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
-    row("← → h l Shift+← Shift+→ H L", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the stage by a small or a large step", ANIMATION).rank(1).unlisted(),
-    row("Home End g G", TIMELINE, "playhead-to-end", Key(timeline::go_to_end), "ends", "go to the beginning or to the end of the loading", ANIMATION).unlisted(),
+    row("← → h l Shift+← Shift+→ H L Home End g G", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the loading by a small or a large step, or to an end", ANIMATION).rank(1).unlisted(),
     row("+ = -", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
     row("↑ ↓ k j PageUp PageDown Home End g G", EVENTS, "select-event", Key(timeline::select_event), "select", "go to another event of the list", ANIMATION).rank(1).unlisted(),
 
@@ -221,7 +237,7 @@ static TABLE: &[Entry] = &[
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
     row("Shift+→ L", LIST, "increase-coarse", Do(|app| stages::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
-    row("Enter", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, such as 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row("Enter", EDITED, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, such as 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, if the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by name, symbol or meaning", PARAMETERS),
@@ -248,7 +264,7 @@ static TABLE: &[Entry] = &[
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "show forces in units of F_a,max, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous patch", LOOK),
-    row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom into the profile if it is selected, else into the patch", LOOK),
+    row("+ =", OUTSIDE_TIMELINE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom into the profile if it is selected, else into the patch", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
     row("( )", EXPLORE, "pan", Key(view::pan), "", "pan left or right along the profile", LOOK).unlisted(),
     row("A", EXPLORE, "toggle-trust", Do(|app| app.toggle(Pane::Trust)), "trust", "show how far F_a can be trusted", LOOK).words("accuracy error uncertainty budget theories criteria Persson Tabor JKR convergence cost time"),

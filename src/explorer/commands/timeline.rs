@@ -8,7 +8,7 @@ use crate::explorer::pane::Pane;
 use crate::explorer::player::{At, Player};
 use crate::explorer::request::Focus;
 use crate::explorer::timeline::{Timeline, next, passed, position_of, previous};
-use asperity_contact::{Event, LegRecord};
+use asperity_contact::Event;
 use crossterm::event::{KeyCode, KeyEvent};
 
 /// Parts of a loading stage over which the playhead moves by a small and by a large step.
@@ -97,10 +97,11 @@ pub fn select_row(app: &mut App, row: usize) {
     }
 }
 
-/// Moves the playhead along the loading by a small or a large step, depending on the pressed key.
+/// Moves the playhead along the loading by a small or a large step or to an end, depending on the
+/// pressed key.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
-        return;
+        return go_to_end(app, matches!(key.code, KeyCode::End | KeyCode::Char('G')));
     };
     let size = if direction.is_coarse {
         LARGE_STEP
@@ -135,19 +136,19 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     app.set_playhead(moved);
 }
 
-/// Moves the playhead to the beginning or to the end of the loading, depending on the pressed key.
-pub fn go_to_end(app: &mut App, key: &KeyEvent) {
-    let legs = app.played_legs();
-    let player = match key.code {
-        KeyCode::Home | KeyCode::Char('g') => Player {
-            playing: false,
-            ..Player::START
-        },
-        _ => Player {
-            leg: legs.len().saturating_sub(1),
+/// Moves the playhead to the beginning of the loading or, if `forwards` is true, to its end.
+fn go_to_end(app: &mut App, forwards: bool) {
+    let player = if forwards {
+        Player {
+            leg: app.played_legs().len().saturating_sub(1),
             at: At::End,
             playing: false,
-        },
+        }
+    } else {
+        Player {
+            playing: false,
+            ..Player::START
+        }
     };
     app.set_playhead(player);
 }
@@ -187,7 +188,7 @@ pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
     let legs = app.played_legs();
     let timeline = Timeline::new(legs, columns);
     if let Some(Ok(events)) = events::of_app(app)
-        && let Some(event) = jump_near(&timeline, legs, &events.list, column)
+        && let Some(event) = jump_near(&timeline, &events.list, column)
     {
         return show(app, &event);
     }
@@ -204,15 +205,10 @@ pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
 
 /// Returns the largest jump whose tick is at or beside a column. A tick in the column itself comes
 /// first.
-fn jump_near(
-    timeline: &Timeline,
-    legs: &[LegRecord],
-    events: &[Event],
-    column: usize,
-) -> Option<Event> {
+fn jump_near(timeline: &Timeline, events: &[Event], column: usize) -> Option<Event> {
     let mut found: Option<(usize, f64, Event)> = None;
     for event in events {
-        let (Some(jump), Some(place)) = (event.jump, timeline.column_of(legs, event)) else {
+        let (Some(jump), Some(place)) = (event.jump, timeline.column_of(event)) else {
             continue;
         };
         let distance = place.abs_diff(column);
@@ -228,26 +224,4 @@ fn jump_near(
         }
     }
     found.map(|(_, _, event)| event)
-}
-
-/// Returns the part of the next event at which the animation rests, because its jump is one of the
-/// largest: the position just after the jump, if it is before `until`.
-pub fn rest_before(app: &App, from: Player, until: Player) -> Option<Player> {
-    /// Share of the largest energy from which a jump is large.
-    const LARGE: f64 = 0.1;
-    let Some(Ok(listed)) = events::of_app(app) else {
-        return None;
-    };
-    let legs = app.played_legs();
-    let energies = listed.list.iter().filter_map(|event| event.jump);
-    let largest = energies.fold(0.0, |largest: f64, jump| jump.energy.abs().max(largest));
-    let first = passed(legs, &listed.list, from);
-    let last = passed(legs, &listed.list, until);
-    let between = listed.list.get(first..last)?;
-    let event = between.iter().find(|event| {
-        event
-            .jump
-            .is_some_and(|jump| jump.energy.abs() >= LARGE * largest)
-    })?;
-    Some(position_of(legs, event))
 }

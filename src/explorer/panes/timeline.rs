@@ -138,7 +138,7 @@ fn tick_lines(
 ) -> Vec<Line<'static>> {
     let palette = app.view.appearance.palette();
     let ticks = match events::of_app(app) {
-        Some(Ok(listed)) => timeline.ticks(app.played_legs(), &listed.list, width),
+        Some(Ok(listed)) => timeline.ticks(&listed.list, width),
         _ => vec![None; width],
     };
     let mut lines = Vec::new();
@@ -205,7 +205,10 @@ fn stage_line(app: &App, timeline: &Timeline, width: usize, head: Option<usize>)
         }
     }
     if let Some(cell) = head.and_then(|column| cells.get_mut(column)) {
-        cell.style = app.style(Meaning::Selected);
+        *cell = Cell {
+            symbol: '◆',
+            style: app.style(Meaning::Cursor),
+        };
     }
     line_of(&cells)
 }
@@ -276,11 +279,10 @@ fn marks(app: &App, timeline: &Timeline) -> Vec<PlacedMark> {
     let Some(Ok(listed)) = events::of_app(app) else {
         return Vec::new();
     };
-    let legs = app.played_legs();
     let mut placed = Vec::new();
     for event in &listed.list {
         if let Some(mark) = event.mark
-            && let Some(column) = timeline.column_of(legs, event)
+            && let Some(column) = timeline.column_of(event)
         {
             placed.push(PlacedMark {
                 column,

@@ -73,7 +73,7 @@ fn a_key_that_cannot_do_anything_says_why() {
         (rough(), none, "x", "no ghost to swap with"),
         (rough(), none, "P", "select a row of the loading"),
         (rough(), none, "d S S", "nothing is in contact"),
-        (rough(), none, "d r", "the path has no move yet"),
+        (rough(), none, "d Space", "the path has no move yet"),
         (rough(), none, "Y * *", "no curves for the crosshair"),
         (
             rough(),

@@ -474,7 +474,7 @@ fn a_path_has_a_largest_number_of_moves() {
         ..path(&driver).clone()
     };
     driver.app.edit.adopt_path(Some(path));
-    driver.press("Tab Tab Tab Tab");
+    driver.press("Tab Tab Tab Tab Tab");
     assert_eq!(followed(&driver).count(), 1000);
     driver.answers("h", "the path has 1000 moves, the most");
     go(&mut driver, "3 µN");

@@ -47,7 +47,7 @@ fn everyday_words_find_commands_parameters_and_scenes() {
         ("theme", "change the colours"),
         ("spectrum", "show spectra"),
         ("spread", "show adhesion against preload"),
-        ("minor loop", "begin manual loading"),
+        ("minor loop", "press and pull by hand"),
         ("hysteresis", "plot force"),
         ("roughness", "rms height"),
         ("work of adhesion", "work of adhesion"),

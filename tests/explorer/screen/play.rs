@@ -17,7 +17,7 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     );
     assert_eq!(driver.app.play.at, before.at);
     let here = driver.point().indentation;
-    driver.press("Tab");
+    driver.press("Tab Tab Tab Tab");
     assert_eq!(driver.app.view.pane, Pane::Timeline);
     driver.press("Right");
     assert!(driver.point().indentation > here);
@@ -128,7 +128,7 @@ fn the_configuration_sets_speed_and_end() {
     let place = |config: Config, seconds: u32| {
         let mut driver = Driver::start(rough());
         driver.app.config = config;
-        driver.press("r");
+        driver.app.play = Player::START;
         (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
         let player = driver.app.play;
         (

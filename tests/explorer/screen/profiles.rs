@@ -67,7 +67,7 @@ fn the_number_of_profiles_is_a_row_and_an_edit() {
         driver.copied
     );
     // Another scene keeps the number, and a smooth body has one profile and no row.
-    driver.press("e `3` Enter : `jkr-sphere` Enter");
+    driver.press("Enter `3` Enter : `jkr-sphere` Enter");
     assert_eq!(driver.document().name(), "jkr-sphere");
     driver.hides("profiles");
     driver.press("y");

@@ -125,9 +125,9 @@ const WIDE: (u16, u16) = (400, 40);
 #[test]
 fn messages_are_whole_or_end_in_an_ellipsis() {
     let scenes: [(&str, &str); 3] = [
-        ("e Ctrl+u 1 2 k g Enter", "! "),
+        ("Enter Ctrl+u 1 2 k g Enter", "! "),
         (
-            "e Ctrl+u - 1 Enter",
+            "Enter Ctrl+u - 1 Enter",
             "! roughness.hurst = -1.0: allowed: above 0 and below 1",
         ),
         ("L q", "The scene has unsaved changes. Leave?"),

@@ -62,7 +62,7 @@ fn keys_visit_all_events_in_the_order_of_the_motion() {
 fn loadings_without_events_say_so() {
     let still = rough().set("loading", "[ToIndentation(-1e-9)]").unwrap();
     let stepwise = rough()
-        .set("numerics.solver", "Stepwise(steps: 200)")
+        .set("numerics.solver", "Stepwise(step: 1e-8)")
         .unwrap();
     for (document, words) in [
         (still, "there is no jump and no mark on this loading"),
@@ -147,7 +147,7 @@ fn the_list_follows_the_playhead_and_moves_it() {
     assert!(driver.app.play.leg == 1);
     driver.press("Home");
     let area = driver.area(Pane::Events);
-    driver.mouse(area.x + 3, area.y + 3, Gesture::Press);
+    driver.mouse(area.x + 3, area.y + 2, Gesture::Press);
     let indentation = driver.point().indentation;
     assert!(
         (indentation - events[2].indentation).abs() < 1e-15,
@@ -178,7 +178,7 @@ fn a_path_by_hand_has_its_own_stages_and_events() {
 fn keys_change_the_speed_and_repeat() {
     let mut driver = at_beginning(smooth());
     driver.resize((120, 36));
-    driver.press("Tab = +");
+    driver.press("Tab Tab Tab Tab = +");
     assert_eq!(driver.app.config.speed, 4.0);
     driver.press("- - - - - -");
     assert_eq!(driver.app.config.speed, 0.25);

@@ -7,7 +7,7 @@ use asperity::explorer::update::update;
 fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
     let mut driver = pressed("");
     driver.select("length");
-    driver.press("e");
+    driver.press("Enter");
     let row = |driver: &Driver| {
         driver
             .rows()
@@ -50,7 +50,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
         "loading.0.0",
     ] {
         driver.select(path);
-        driver.press("e Enter");
+        driver.press("Enter Enter");
         assert_eq!(
             (driver.document().text(), driver.app.keys()),
             (&*text, Context::Explore)
@@ -72,7 +72,7 @@ fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
                     "{size:?} {pane} {zoom}\n{}",
                     driver.text()
                 );
-                driver.press("Tab e Ctrl+u `31415`");
+                driver.press("Tab Enter Ctrl+u `31415`");
                 assert!(
                     driver.text().contains("31415"),
                     "{size:?} {pane} {zoom}\n{}",
@@ -90,7 +90,7 @@ fn the_cursor_of_what_is_typed_is_on_the_screen() {
         let mut driver = pressed("Tab Tab");
         driver.resize(size);
         driver.select("loading");
-        driver.press("e Ctrl+u");
+        driver.press("Enter Ctrl+u");
         driver.type_text(long);
         for keys in ["", "Home", "End", "Left Left Left"] {
             driver.press(keys);
@@ -263,7 +263,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             driver.app.solved.clone().unwrap(),
         );
         let before = driver.text();
-        driver.press("e");
+        driver.press("Enter");
         assert!(
             driver.app.tried_outcome().is_none(),
             "the value as it is needs no preview"
@@ -301,7 +301,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
             (vec![Task::Study], true)
         );
         assert_eq!(driver.text(), before);
-        driver.press("e Ctrl+u `300 nm` Enter");
+        driver.press("Enter Ctrl+u `300 nm` Enter");
         assert_eq!(driver.outcome().figures, tried);
     }
 }
@@ -310,7 +310,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
 fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
     let mut driver = pressed("");
     driver.select("roughness.rms_height");
-    driver.press("e Ctrl+u `300 nm`");
+    driver.press("Enter Ctrl+u `300 nm`");
     let force = |driver: &Driver| {
         driver
             .app
