@@ -48,12 +48,12 @@ pub struct DemoArguments {
     /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
-    /// Background for which colours are chosen
+    /// Background of the terminal
     ///
     /// Default: dark for a picture, else chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Colours that the terminal can show
+    /// Colours of the terminal
     ///
     /// Default: truecolor for a picture, else chosen from NO_COLOR, COLORTERM and TERM.
     #[arg(long, value_enum)]

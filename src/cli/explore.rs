@@ -67,12 +67,12 @@ pub struct ExploreArguments {
 /// Colours and markers of the explorer, and its configuration.
 #[derive(Args, Debug)]
 pub struct LookArguments {
-    /// Background for which colours are chosen
+    /// Background of the terminal
     ///
     /// Default: chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Colours that the terminal can show
+    /// Colours of the terminal
     ///
     /// Default: chosen from NO_COLOR, COLORTERM and TERM.
     #[arg(long, value_enum)]

@@ -19,7 +19,7 @@ use super::studies::Findings;
 use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
-use asperity_contact::{LegRecord, Mark};
+use asperity_contact::{Events, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::{Format, LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
@@ -609,6 +609,17 @@ impl App {
         let is_present = snapshot.generation == self.edit.generation
             && Some(&followed.path) == self.edit.path.as_ref();
         if is_present { Some(followed) } else { None }
+    }
+
+    /// Returns the events of the loading over which the animation moves, or the reason why there are
+    /// none; `None` until the solver has listed the events.
+    pub fn listed_events(&self) -> Option<Result<&Events, &str>> {
+        let listed = self.events.as_deref()?;
+        let is_present = listed.generation == self.edit.generation && listed.path == self.edit.path;
+        if !is_present {
+            return None;
+        }
+        Some(listed.events.as_ref().map_err(String::as_str))
     }
 
     /// Returns the loading stages over which the animation moves: those of the path of manual

@@ -221,8 +221,8 @@ mod tests {
             ),
             (
                 "colours: Ansi256",
-                "colours: None",
-                "config.ron:5:14: colours = None: allowed: Plain, Ansi16, Ansi256, TrueColour",
+                "colours: Many",
+                "config.ron:5:14: colours = Many: allowed: Plain, Ansi16, Ansi256, TrueColour",
             ),
             (
                 "markers: Braille",

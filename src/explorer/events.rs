@@ -1,6 +1,5 @@
 //! The events of the shown loading, as the solver has listed them.
 
-use super::app::App;
 use super::manual_path::ManualPath;
 use asperity_contact::Events;
 use std::sync::Arc;
@@ -18,15 +17,4 @@ pub struct ListedEvents {
     pub path: Option<Arc<ManualPath>>,
     /// The events. If the jumps cannot be listed, the error is the reason, on one line.
     pub events: Result<Events, String>,
-}
-
-/// Returns the events of the loading over which the animation moves, or the reason why there are
-/// none; `None` until the solver has listed the events.
-pub fn of_app(app: &App) -> Option<Result<&Events, &str>> {
-    let listed = app.events.as_deref()?;
-    let is_present = listed.generation == app.edit.generation && listed.path == app.edit.path;
-    if !is_present {
-        return None;
-    }
-    Some(listed.events.as_ref().map_err(String::as_str))
 }

@@ -1,7 +1,7 @@
 //! Colours and text styles of the explorer. Characters and bold text distinguish the same things, so
 //! that colours are not necessary. The colours themselves are in the table of [`asperity_plot`].
 
-use asperity_plot::{Background, Colours, Ink, Palette, Role};
+use asperity_plot::{Background, ColourRole, Colours, Ink, Palette};
 use clap::ValueEnum;
 use ratatui::style::{Modifier, Style};
 use serde::{Deserialize, Serialize};
@@ -83,14 +83,16 @@ impl Appearance {
     pub fn style(self, meaning: Meaning) -> Style {
         let palette = self.palette();
         match meaning {
-            Meaning::Text => palette.style(Role::Text),
-            Meaning::Title => palette.style(Role::Text).add_modifier(Modifier::BOLD),
-            Meaning::Heading => palette.style(Role::Accent).add_modifier(Modifier::BOLD),
+            Meaning::Text => palette.style(ColourRole::Text),
+            Meaning::Title => palette.style(ColourRole::Text).add_modifier(Modifier::BOLD),
+            Meaning::Heading => palette
+                .style(ColourRole::Accent)
+                .add_modifier(Modifier::BOLD),
             Meaning::Cursor => palette.ink(Ink::Cursor),
-            Meaning::Quiet => palette.style(Role::Quiet),
-            Meaning::Error => palette.style(Role::Error),
-            Meaning::Key => palette.style(Role::Key),
-            Meaning::Selected => match palette.ground(Role::SelectionGround) {
+            Meaning::Quiet => palette.style(ColourRole::Quiet),
+            Meaning::Error => palette.style(ColourRole::Error),
+            Meaning::Key => palette.style(ColourRole::Key),
+            Meaning::Selected => match palette.ground(ColourRole::SelectionGround) {
                 Some(ground) => Style::new().bg(ground),
                 None => Style::new().add_modifier(Modifier::REVERSED),
             },

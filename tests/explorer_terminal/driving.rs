@@ -50,7 +50,7 @@ pub fn paused(program: Program) -> Terminal {
     terminal.wait_for("F_a ");
     // The error appears after a short rest.
     terminal.wait_without("± …");
-    terminal.send(".");
+    terminal.send("!");
     terminal.settle();
     terminal
 }

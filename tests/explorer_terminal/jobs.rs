@@ -43,7 +43,7 @@ fn in_each_shell(test: impl Fn(Terminal)) {
         println!("in {shell}");
         terminal.send(&format!("'{ASPERITY}' scene.ron\r"));
         terminal.wait_for("F_a ");
-        terminal.send(".");
+        terminal.send("!");
         terminal.settle();
         test(terminal);
     }

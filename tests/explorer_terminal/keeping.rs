@@ -65,7 +65,7 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         // The next explorer reports the kept change in a line that ends with the next key.
         let mut terminal = again(home, "scene.ron").start();
         terminal.wait_for("unsaved changes of scene.ron are kept");
-        terminal.send(".");
+        terminal.send(">");
         terminal.wait_without("unsaved changes");
         quit(&mut terminal);
         let mut terminal = again(home, "--restore").start();

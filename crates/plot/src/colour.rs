@@ -1,7 +1,5 @@
 //! Meanings of lines and areas, colour scales, and how similar two colours look.
 
-use crate::palette::{Palette, Role};
-
 /// Colour as red, green and blue, each from 0 to 255.
 pub type Rgb = [u8; 3];
 
@@ -48,42 +46,6 @@ pub enum Ink {
     Cursor,
     /// One of several curves in a figure. The value is the index of this curve, from 0.
     Series(usize),
-}
-
-impl Ink {
-    /// Returns the role that determines the colour of the ink.
-    pub fn role(self) -> Role {
-        /// Colours of the curves of a figure. Neighbouring colours differ in lightness, so that
-        /// they can be distinguished in a print without colours.
-        const SERIES: [Role; 5] = [
-            Role::Pull,
-            Role::Press,
-            Role::Text,
-            Role::Accent,
-            Role::Quiet,
-        ];
-        match self {
-            Ink::Text | Ink::Cursor => Role::Text,
-            Ink::Quiet | Ink::Profile | Ink::Kept | Ink::Compared => Role::Quiet,
-            Ink::Surface => Role::Zero,
-            Ink::Contact => Role::Accent,
-            Ink::Press => Role::Press,
-            Ink::Pull => Role::Pull,
-            Ink::Loop => Role::LoopGround,
-            Ink::Body => Role::BodyGround,
-            Ink::Series(number) => SERIES[number % SERIES.len()],
-        }
-    }
-
-    /// Returns true for an area that a terminal shows as the ground of cells, if it can.
-    pub(crate) fn is_ground(self) -> bool {
-        matches!(self, Ink::Loop | Ink::Body)
-    }
-
-    /// Returns the colour of the ink in a figure with a white background.
-    pub fn on_paper(self) -> Rgb {
-        Palette::LIGHT.rgb(self.role())
-    }
 }
 
 /// Colour scale for the values of a heat map.

@@ -27,7 +27,7 @@ pub use cells::text::figure_text;
 pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, StressFill, Stroke};
 pub use colour::{Ink, Rgb, Shades};
 pub use label::{Label, prefixed, statement, value_label};
-pub use palette::{Background, Colours, Palette, Role};
+pub use palette::{Background, ColourRole, Colours, Palette};
 pub use scale::Span;
 pub use screen::ascii::to_ascii;
 pub use screen::screen_text;

@@ -62,7 +62,7 @@ pub enum Background {
 
 /// What a colour is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum ColourRole {
     Text,
     /// Axes, frames, the rigid profile and curves in the background.
     Quiet,
@@ -109,7 +109,7 @@ const fn swatch(rgb: Rgb, index: u8, name: Color) -> Option<Swatch> {
     Some(Swatch { rgb, index, name })
 }
 
-impl Role {
+impl ColourRole {
     /// Returns the colours of a role: the table of all colours. A test checks that they can be read
     /// and distinguished.
     #[rustfmt::skip]
@@ -117,63 +117,63 @@ impl Role {
         use Color::{Blue, Cyan, DarkGray, LightBlue, LightMagenta, LightRed, LightYellow, Magenta, Red, Reset, White};
         match self {
             // A terminal shows text in its own colour, so that only pictures use this row.
-            Role::Text => Swatches {
+            ColourRole::Text => Swatches {
                 dark: swatch([222, 226, 233], 254, Reset),
                 light: swatch([32, 36, 44], 235, Reset),
                 unknown: None,
             },
-            Role::Quiet => Swatches {
+            ColourRole::Quiet => Swatches {
                 dark: swatch([128, 138, 154], 245, DarkGray),
                 light: swatch([104, 112, 126], 242, DarkGray),
                 unknown: swatch([122, 122, 122], 243, DarkGray),
             },
             // The yellow of most terminals cannot be read on a light background.
-            Role::Press => Swatches {
+            ColourRole::Press => Swatches {
                 dark: swatch([245, 166, 60], 215, LightYellow),
                 light: swatch([166, 84, 0], 130, Red),
                 unknown: swatch([198, 108, 0], 130, LightRed),
             },
-            Role::Pull => Swatches {
+            ColourRole::Pull => Swatches {
                 dark: swatch([92, 168, 255], 75, LightBlue),
                 light: swatch([0, 92, 196], 26, Blue),
                 unknown: swatch([44, 122, 224], 33, LightBlue),
             },
-            Role::Zero => Swatches {
+            ColourRole::Zero => Swatches {
                 dark: swatch([206, 210, 216], 252, White),
                 light: swatch([64, 68, 76], 238, Reset),
                 unknown: None,
             },
-            Role::Accent => Swatches {
+            ColourRole::Accent => Swatches {
                 dark: swatch([92, 200, 180], 80, Cyan),
                 light: swatch([0, 116, 100], 30, Cyan),
                 unknown: swatch([0, 142, 122], 29, Cyan),
             },
-            Role::Key => Swatches {
+            ColourRole::Key => Swatches {
                 dark: swatch([240, 214, 110], 221, Reset),
                 light: swatch([128, 96, 0], 94, Reset),
                 unknown: None,
             },
-            Role::Error => Swatches {
+            ColourRole::Error => Swatches {
                 dark: swatch([255, 107, 107], 203, LightRed),
                 light: swatch([190, 24, 36], 124, Magenta),
                 unknown: swatch([222, 60, 60], 203, LightMagenta),
             },
-            Role::LoopGround => Swatches {
+            ColourRole::LoopGround => Swatches {
                 dark: swatch([38, 48, 72], 236, Reset),
                 light: swatch([226, 233, 246], 254, Reset),
                 unknown: None,
             },
-            Role::BodyGround => Swatches {
+            ColourRole::BodyGround => Swatches {
                 dark: swatch([30, 34, 44], 235, Reset),
                 light: swatch([240, 242, 246], 255, Reset),
                 unknown: None,
             },
-            Role::SelectionGround => Swatches {
+            ColourRole::SelectionGround => Swatches {
                 dark: swatch([44, 54, 76], 237, Reset),
                 light: swatch([214, 224, 244], 254, Reset),
                 unknown: None,
             },
-            Role::QuartileGround => Swatches {
+            ColourRole::QuartileGround => Swatches {
                 dark: swatch([40, 58, 84], 237, Reset),
                 light: swatch([208, 222, 246], 189, Reset),
                 unknown: None,
@@ -187,7 +187,7 @@ impl Role {
 pub(crate) const STRESS_STEPS: u8 = 4;
 
 /// Numbers among the 256 fixed colours for the first three stress steps; the last step has the
-/// colour of [`Role::Press`] or [`Role::Pull`].
+/// colour of [`ColourRole::Press`] or [`ColourRole::Pull`].
 struct StressIndices {
     press: [u8; 3],
     pull: [u8; 3],
@@ -230,7 +230,7 @@ impl Palette {
         }
     }
 
-    const fn swatch(self, role: Role) -> Option<Swatch> {
+    const fn swatch(self, role: ColourRole) -> Option<Swatch> {
         let swatches = role.swatches();
         match self.background {
             Background::Dark => swatches.dark,
@@ -240,7 +240,7 @@ impl Palette {
     }
 
     /// Returns the colour of a role in a picture.
-    pub(crate) const fn rgb(self, role: Role) -> Rgb {
+    pub(crate) const fn rgb(self, role: ColourRole) -> Rgb {
         match (self.swatch(role), role.swatches().dark) {
             (Some(swatch), _) | (None, Some(swatch)) => swatch.rgb,
             (None, None) => self.paper(),
@@ -249,9 +249,9 @@ impl Palette {
 
     /// Returns the colour in which a terminal shows a role. Text has the colour that the user chose
     /// for the terminal.
-    pub fn colour(self, role: Role) -> Color {
+    pub fn colour(self, role: ColourRole) -> Color {
         match self.swatch(role) {
-            Some(swatch) if role != Role::Text => self.shown(swatch),
+            Some(swatch) if role != ColourRole::Text => self.shown(swatch),
             _ => Color::Reset,
         }
     }
@@ -268,7 +268,7 @@ impl Palette {
 
     /// Returns the ground of a role; `None` for a terminal that shows no grounds, because it has
     /// too few colours or an unknown background.
-    pub fn ground(self, role: Role) -> Option<Color> {
+    pub fn ground(self, role: ColourRole) -> Option<Color> {
         if matches!(self.colours, Colours::Plain | Colours::Ansi16) {
             return None;
         }
@@ -282,11 +282,11 @@ impl Palette {
 
     /// Returns the style in which a terminal shows a role. Bold and dim text distinguish the roles
     /// even without colours.
-    pub fn style(self, role: Role) -> Style {
+    pub fn style(self, role: ColourRole) -> Style {
         let style = Style::new().fg(self.colour(role));
         match role {
-            Role::Key | Role::Error => style.add_modifier(Modifier::BOLD),
-            Role::Quiet | Role::Zero if self.colours == Colours::Plain => {
+            ColourRole::Key | ColourRole::Error => style.add_modifier(Modifier::BOLD),
+            ColourRole::Quiet | ColourRole::Zero if self.colours == Colours::Plain => {
                 style.add_modifier(Modifier::DIM)
             }
             _ => style,
@@ -306,7 +306,7 @@ impl Palette {
     /// its absolute value is the share of the largest stress, from 0 to 1.
     pub(crate) fn stress(self, stress: f64) -> Color {
         let step = stress_step(stress);
-        let role = Role::of_stress(stress);
+        let role = ColourRole::of_stress(stress);
         let Some(swatch) = self.swatch(role) else {
             return Color::Reset;
         };
@@ -314,7 +314,7 @@ impl Palette {
             return self.shown(swatch);
         }
         let indices = self.stress_indices();
-        let indices = if role == Role::Press {
+        let indices = if role == ColourRole::Press {
             indices.press
         } else {
             indices.pull
@@ -344,11 +344,11 @@ impl Palette {
     }
 
     /// Returns the colour of a step from 1 to [`STRESS_STEPS`] between zero stress and a role.
-    pub(crate) fn stress_rgb(self, role: Role, step: u8) -> Rgb {
+    pub(crate) fn stress_rgb(self, role: ColourRole, step: u8) -> Rgb {
         let zero = match self.background {
             // On an unknown background, springs without stress have the grey that reads everywhere.
-            Background::Unknown => self.rgb(Role::Quiet),
-            Background::Dark | Background::Light => self.rgb(Role::Zero),
+            Background::Unknown => self.rgb(ColourRole::Quiet),
+            Background::Dark | Background::Light => self.rgb(ColourRole::Zero),
         };
         let full = self.rgb(role);
         let share = f64::from(step) / f64::from(STRESS_STEPS);
@@ -382,13 +382,13 @@ impl Palette {
     }
 }
 
-impl Role {
+impl ColourRole {
     /// Returns the role of a spring with this stress.
-    pub(crate) fn of_stress(stress: f64) -> Role {
+    pub(crate) fn of_stress(stress: f64) -> ColourRole {
         if stress < 0.0 {
-            Role::Pull
+            ColourRole::Pull
         } else {
-            Role::Press
+            ColourRole::Press
         }
     }
 }
@@ -442,6 +442,42 @@ fn nearest_index(colour: Rgb) -> u8 {
     nearest
 }
 
+impl Ink {
+    /// Returns the role that determines the colour of the ink.
+    pub fn role(self) -> ColourRole {
+        /// Colours of the curves of a figure. Neighbouring colours differ in lightness, so that
+        /// they can be distinguished in a print without colours.
+        const SERIES: [ColourRole; 5] = [
+            ColourRole::Pull,
+            ColourRole::Press,
+            ColourRole::Text,
+            ColourRole::Accent,
+            ColourRole::Quiet,
+        ];
+        match self {
+            Ink::Text | Ink::Cursor => ColourRole::Text,
+            Ink::Quiet | Ink::Profile | Ink::Kept | Ink::Compared => ColourRole::Quiet,
+            Ink::Surface => ColourRole::Zero,
+            Ink::Contact => ColourRole::Accent,
+            Ink::Press => ColourRole::Press,
+            Ink::Pull => ColourRole::Pull,
+            Ink::Loop => ColourRole::LoopGround,
+            Ink::Body => ColourRole::BodyGround,
+            Ink::Series(number) => SERIES[number % SERIES.len()],
+        }
+    }
+
+    /// Returns true for an area that a terminal shows as the ground of cells, if it can.
+    pub(crate) fn is_ground(self) -> bool {
+        matches!(self, Ink::Loop | Ink::Body)
+    }
+
+    /// Returns the colour of the ink in a figure with a white background.
+    pub fn on_paper(self) -> Rgb {
+        Palette::LIGHT.rgb(self.role())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -450,21 +486,21 @@ mod tests {
 
     const DARK_GROUNDS: [Rgb; 4] = [[0; 3], [0x10, 0x13, 0x1a], [0x1e; 3], [0, 0x2b, 0x36]];
     const LIGHT_GROUNDS: [Rgb; 2] = [[255; 3], [0xfd, 0xf6, 0xe3]];
-    const INKS: [Role; 8] = [
-        Role::Text,
-        Role::Quiet,
-        Role::Press,
-        Role::Pull,
-        Role::Zero,
-        Role::Accent,
-        Role::Key,
-        Role::Error,
+    const INKS: [ColourRole; 8] = [
+        ColourRole::Text,
+        ColourRole::Quiet,
+        ColourRole::Press,
+        ColourRole::Pull,
+        ColourRole::Zero,
+        ColourRole::Accent,
+        ColourRole::Key,
+        ColourRole::Error,
     ];
-    const GROUNDS: [Role; 4] = [
-        Role::LoopGround,
-        Role::BodyGround,
-        Role::SelectionGround,
-        Role::QuartileGround,
+    const GROUNDS: [ColourRole; 4] = [
+        ColourRole::LoopGround,
+        ColourRole::BodyGround,
+        ColourRole::SelectionGround,
+        ColourRole::QuartileGround,
     ];
 
     const UNKNOWN: Palette = Palette {
@@ -509,11 +545,11 @@ mod tests {
             }
         }
         for role in [
-            Role::Quiet,
-            Role::Press,
-            Role::Pull,
-            Role::Accent,
-            Role::Error,
+            ColourRole::Quiet,
+            ColourRole::Press,
+            ColourRole::Pull,
+            ColourRole::Accent,
+            ColourRole::Error,
         ] {
             let found = least_contrast(UNKNOWN.rgb(role), &grounds(UNKNOWN));
             assert!(found >= 3.4, "{role:?} {found}");
@@ -522,18 +558,18 @@ mod tests {
 
     #[test]
     fn texts_and_curves_can_be_read_on_coloured_grounds() {
-        let ground = Palette::DARK.rgb(Role::LoopGround);
+        let ground = Palette::DARK.rgb(ColourRole::LoopGround);
         for (role, least) in [
-            (Role::Text, 10.0),
-            (Role::Press, 6.4),
-            (Role::Pull, 5.2),
-            (Role::Quiet, 3.7),
+            (ColourRole::Text, 10.0),
+            (ColourRole::Press, 6.4),
+            (ColourRole::Pull, 5.2),
+            (ColourRole::Quiet, 3.7),
         ] {
             let found = contrast(Palette::DARK.rgb(role), ground);
             assert!(found >= least, "{role:?} {found}");
         }
         let light_grounds = GROUNDS.map(|role| Palette::LIGHT.rgb(role));
-        for role in [Role::Text, Role::Press, Role::Pull] {
+        for role in [ColourRole::Text, ColourRole::Press, ColourRole::Pull] {
             let found = least_contrast(Palette::LIGHT.rgb(role), &light_grounds);
             assert!(found >= 3.95, "{role:?} {found}");
         }
@@ -578,32 +614,32 @@ mod tests {
         for (palette, roles, least) in [
             (
                 Palette::DARK,
-                [Role::Press, Role::Pull],
+                [ColourRole::Press, ColourRole::Pull],
                 [114.0, 108.0, 117.0, 82.0],
             ),
             (
                 Palette::LIGHT,
-                [Role::Press, Role::Pull],
+                [ColourRole::Press, ColourRole::Pull],
                 [114.0, 104.0, 117.0, 79.0],
             ),
             (
                 Palette::DARK,
-                [Role::Press, Role::Zero],
+                [ColourRole::Press, ColourRole::Zero],
                 [70.0, 67.0, 67.0, 48.0],
             ),
             (
                 Palette::DARK,
-                [Role::Pull, Role::Zero],
+                [ColourRole::Pull, ColourRole::Zero],
                 [49.0, 43.0, 52.0, 38.0],
             ),
             (
                 Palette::LIGHT,
-                [Role::Press, Role::Zero],
+                [ColourRole::Press, ColourRole::Zero],
                 [53.8, 53.8, 53.8, 28.8],
             ),
             (
                 Palette::LIGHT,
-                [Role::Pull, Role::Zero],
+                [ColourRole::Pull, ColourRole::Zero],
                 [53.8, 53.8, 53.8, 28.8],
             ),
         ] {
@@ -636,7 +672,7 @@ mod tests {
                 assert!(error <= most, "{palette:?} {role:?} {error}");
             }
             let StressIndices { press, pull } = palette.stress_indices();
-            for (role, indices) in [(Role::Press, press), (Role::Pull, pull)] {
+            for (role, indices) in [(ColourRole::Press, press), (ColourRole::Pull, pull)] {
                 for (step, index) in (1..).zip(indices) {
                     let rgb = palette.stress_rgb(role, step);
                     assert_eq!(index, nearest_index(rgb), "{palette:?} {role:?} {step}");
@@ -650,8 +686,8 @@ mod tests {
         let steps = [0.0, 0.1, 0.2, 0.4, 0.7, 1.0, 5.0].map(stress_step);
         assert_eq!(steps, [1, 1, 2, 3, 4, 4, 4]);
         let palette = Palette::DARK;
-        assert_eq!(palette.stress(1.0), palette.colour(Role::Press));
-        assert_eq!(palette.stress(-1.0), palette.colour(Role::Pull));
+        assert_eq!(palette.stress(1.0), palette.colour(ColourRole::Press));
+        assert_eq!(palette.stress(-1.0), palette.colour(ColourRole::Pull));
         assert_ne!(palette.stress(0.1), palette.stress(-0.1));
         // Sixteen colours still show the sign of a small stress.
         let sixteen = Palette {

@@ -2,7 +2,6 @@
 //! playhead (the position of the animation), and the speed of the animation.
 
 use crate::explorer::app::App;
-use crate::explorer::events;
 use crate::explorer::keys::key::direction;
 use crate::explorer::pane::Pane;
 use crate::explorer::player::{At, Player};
@@ -42,7 +41,7 @@ pub fn go_to_event(app: &mut App, forwards: bool) {
 /// Returns the listed events. If there are none yet or if they cannot be listed, a message states
 /// it.
 fn listed(app: &mut App) -> Option<Vec<Event>> {
-    let found = match events::of_app(app) {
+    let found = match app.listed_events() {
         Some(Ok(listed)) => Ok(listed.list.clone()),
         Some(Err(why)) => Err(why.to_owned()),
         None => Err("the jumps are being listed…".to_owned()),
@@ -187,7 +186,7 @@ pub fn toggle_events(app: &mut App) {
 pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
     let legs = app.played_legs();
     let timeline = Timeline::new(legs, columns);
-    if let Some(Ok(events)) = events::of_app(app)
+    if let Some(Ok(events)) = app.listed_events()
         && let Some(event) = jump_near(&timeline, &events.list, column)
     {
         return show(app, &event);

@@ -4,7 +4,6 @@
 use super::row::PaneRow;
 use super::timeline::{ink_of, symbol_of};
 use crate::explorer::app::App;
-use crate::explorer::events;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
@@ -32,7 +31,7 @@ const WITH_FORCES: u16 = 56;
 const NUMBER_COLUMNS: usize = 9;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let listed = match events::of_app(app) {
+    let listed = match app.listed_events() {
         None => return Panel::of_text("Events".to_owned(), "listing the jumps…"),
         Some(Err(why)) => return Panel::of_text("Events".to_owned(), why),
         Some(Ok(listed)) => listed,

@@ -4,12 +4,12 @@
 use super::row::PaneRow;
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
+use crate::explorer::manual_path;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel, title_line};
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::{Tick, Timeline, passed};
-use crate::explorer::{events, manual_path};
 use asperity_contact::{Direction, LegRecord, Mark};
 use asperity_data::{format_rounded, grouped};
 use asperity_plot::Ink;
@@ -93,7 +93,7 @@ fn title(app: &App) -> String {
 /// event, the name of the present part of the loading.
 fn event(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
-    let listed = match events::of_app(app) {
+    let listed = match app.listed_events() {
         None => return vec![vec![Span::raw("listing the jumps…")]],
         Some(Err(why)) => return vec![vec![Span::raw(why.to_owned())]],
         Some(Ok(listed)) => listed,
@@ -137,7 +137,7 @@ fn tick_lines(
     head: Option<usize>,
 ) -> Vec<Line<'static>> {
     let palette = app.view.appearance.palette();
-    let ticks = match events::of_app(app) {
+    let ticks = match app.listed_events() {
         Some(Ok(listed)) => timeline.ticks(&listed.list, width),
         _ => vec![None; width],
     };
@@ -276,7 +276,7 @@ struct PlacedMark {
 }
 
 fn marks(app: &App, timeline: &Timeline) -> Vec<PlacedMark> {
-    let Some(Ok(listed)) = events::of_app(app) else {
+    let Some(Ok(listed)) = app.listed_events() else {
         return Vec::new();
     };
     let mut placed = Vec::new();

@@ -1,12 +1,11 @@
 //! The timeline, the list of events, and the results beside them.
 
 use super::*;
-use asperity::explorer::events;
 use asperity::explorer::player::At;
 use asperity_contact::{Direction, Event, LegRecord};
 
 fn listed(driver: &Driver) -> Vec<Event> {
-    match events::of_app(&driver.app) {
+    match driver.app.listed_events() {
         Some(Ok(listed)) => listed.list.clone(),
         other => panic!("{other:?}"),
     }

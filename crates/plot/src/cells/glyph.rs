@@ -1,6 +1,7 @@
 //! Characters of markers in terminal cells.
 
 use crate::chart::Sign;
+use ratatui::buffer::Cell;
 
 /// Returns the character with which a terminal shows a marker.
 pub fn glyph(sign: Sign) -> &'static str {
@@ -17,4 +18,9 @@ pub fn glyph(sign: Sign) -> &'static str {
         Sign::HollowDiamond => "◇",
         Sign::Point => "⠪",
     }
+}
+
+/// Returns true for a cell without content.
+pub fn is_blank(cell: &Cell) -> bool {
+    matches!(cell.symbol(), " " | "\u{2800}")
 }

@@ -1,8 +1,9 @@
 //! A chart in a pane of the screen. The name of each curve is written beside the curve. The pane
 //! may have one more chart on the right and one more below.
 
+use super::glyph::is_blank;
 use super::legend::legend;
-use super::plot::{CellPlot, Name, is_blank};
+use super::plot::{CellPlot, Name};
 use crate::chart::{Chart, Shape};
 use crate::colour::Ink;
 use crate::palette::{Colours, Palette};
@@ -19,7 +20,7 @@ type Entry = Vec<Text<'static>>;
 /// Width in columns of the chart on the right, including the dividing line.
 const BESIDE: u16 = 14;
 /// Smallest width in columns of an area that is divided into two charts side by side.
-const WITH_BESIDE: u16 = 54;
+const WITH_BESIDE: u16 = 44;
 /// Largest height in rows that is used to decide which numbers and labels the chart on the right
 /// has. The plot of this chart has as many rows as the main plot.
 const MOST_BESIDE: u16 = 15;

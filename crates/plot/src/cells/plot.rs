@@ -1,14 +1,14 @@
 //! A chart in an area of a terminal. The area contains the plot, the numbers on the left of the
 //! plot and the numbers below the plot.
 
-use super::glyph::glyph;
+use super::glyph::{glyph, is_blank};
 use super::map;
 use super::shapes::{LayerShape, border_of_band, shade_inside};
 use crate::axis::ChartAxis;
 use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
 use crate::palette::Palette;
-use ratatui::buffer::{Buffer, Cell};
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
@@ -415,11 +415,6 @@ fn is_on_canvas(layer: &Layer) -> bool {
 
 fn is_fill(layer: &Layer) -> bool {
     matches!(layer.shape, Shape::Envelope { fill: Some(_), .. })
-}
-
-/// Returns true for a cell without content.
-pub(super) fn is_blank(cell: &Cell) -> bool {
-    matches!(cell.symbol(), " " | "\u{2800}")
 }
 
 /// Returns the position of the middle of a cell along an axis, from 0 to 1. The axis consists of

@@ -1,10 +1,10 @@
 //! Draws the layers of a chart as Braille dots, on a canvas with coordinates from 0 to 1.
 
-use super::plot::is_blank;
+use super::glyph::is_blank;
 use crate::axis::{Axes, Share};
 use crate::chart::{Chart, Shape, Sign, StressFill, Stroke};
 use crate::colour::Ink;
-use crate::palette::{Colours, Palette, Role};
+use crate::palette::{ColourRole, Colours, Palette};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
@@ -245,7 +245,8 @@ pub(super) fn shade_inside(
             && !is_beside_text
             && let Some(dots) = char::from_u32(0x2800 + inside.pattern)
         {
-            cell.set_char(dots).set_style(palette.style(Role::Quiet));
+            cell.set_char(dots)
+                .set_style(palette.style(ColourRole::Quiet));
         }
     }
 }

@@ -6,7 +6,7 @@
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Rgb, hex};
-use crate::palette::{Palette, Role};
+use crate::palette::{ColourRole, Palette};
 use crate::svg::elements::{Svg, escaped};
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
@@ -166,7 +166,7 @@ struct CellColours {
 impl CellColours {
     fn of(glyph: &Glyph<'_>, palette: Palette) -> Self {
         let modifier = glyph.cell.modifier;
-        let mut ink = rgb(glyph.cell.fg, palette.rgb(Role::Text));
+        let mut ink = rgb(glyph.cell.fg, palette.rgb(ColourRole::Text));
         let mut ground = rgb(glyph.cell.bg, palette.paper());
         if modifier.contains(Modifier::DIM) {
             ink = mixed(ink, ground, DIMMED);

@@ -3,10 +3,10 @@
 use crate::chart::Stroke;
 use crate::colour::{Rgb, hex};
 use crate::label::{Face, Label, SMALL};
-use crate::palette::{Palette, Role};
+use crate::palette::{ColourRole, Palette};
 use std::fmt::{Arguments, Write};
 
-pub(super) const TEXT: Rgb = Palette::LIGHT.rgb(Role::Text);
+pub(super) const TEXT: Rgb = Palette::LIGHT.rgb(ColourRole::Text);
 pub(super) const PAPER: Rgb = Palette::LIGHT.paper();
 /// Colour of map cells without a value: a grey that does not occur in any colour scale.
 pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
