@@ -53,11 +53,6 @@ pub struct DemoArguments {
     /// Default: dark for a picture, else chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Colours of the terminal
-    ///
-    /// Default: truecolor for a picture, else chosen from NO_COLOR, COLORTERM and TERM.
-    #[arg(long, value_enum)]
-    pub colours: Option<Colours>,
     /// Print only the frame at this time
     #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
@@ -114,11 +109,11 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
         } else {
             environment.theme
         }),
-        colours: arguments.colours.unwrap_or(if arguments.output.is_some() {
+        colours: if arguments.output.is_some() {
             Colours::TrueColour
         } else {
             environment.colours
-        }),
+        },
         marker: arguments.marker.unwrap_or(environment.marker),
     };
     let of_terminal = if watched {

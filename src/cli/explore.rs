@@ -17,7 +17,6 @@ use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::view;
 use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
-use asperity_plot::Colours;
 use asperity_report::brief_summary;
 use asperity_scene::Simulation;
 use asperity_scene::text::{nearest, quoted};
@@ -72,11 +71,6 @@ pub struct LookArguments {
     /// Default: chosen from COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Colours of the terminal
-    ///
-    /// Default: chosen from NO_COLOR, COLORTERM and TERM.
-    #[arg(long, value_enum)]
-    pub colours: Option<Colours>,
     /// Marker of plots
     ///
     /// Default: braille.
@@ -113,7 +107,6 @@ impl LookArguments {
         };
         Ok(Options {
             theme: self.theme,
-            colours: self.colours,
             marker: self.marker,
             warning,
             ..Options::new(config)

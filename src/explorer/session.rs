@@ -15,7 +15,6 @@ use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::{autosave, input, terminal};
-use asperity_plot::Colours;
 use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -52,14 +51,12 @@ const DRAINING: Duration = Duration::from_millis(100);
 pub struct Options {
     /// Background for which the colours are chosen; `None` if the environment determines it.
     pub theme: Option<Theme>,
-    /// Colours that the terminal can show; `None` if the environment determines them.
-    pub colours: Option<Colours>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
     /// Unsaved changes of another session, with which this session continues; `None` if it
     /// continues no other session. Their first scene is the scene that is opened.
     pub restored: Option<Kept>,
-    /// Configuration. The fields `theme`, `colours` and `marker` have precedence over it.
+    /// Configuration. The fields `theme` and `marker` have precedence over it.
     pub config: Config,
     pub warning: Option<String>,
     /// Folder for copies of unsaved changes. If it is `None`, no copies are made.
@@ -71,7 +68,6 @@ impl Options {
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
-            colours: None,
             marker: None,
             restored: None,
             config,
@@ -228,10 +224,7 @@ fn chosen_appearance(options: &Options) -> Appearance {
     let config = &options.config;
     Appearance {
         theme: options.theme.or(config.theme).unwrap_or(environment.theme),
-        colours: options
-            .colours
-            .or(config.colours)
-            .unwrap_or(environment.colours),
+        colours: config.colours.unwrap_or(environment.colours),
         marker: options
             .marker
             .or(config.markers)

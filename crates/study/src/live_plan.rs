@@ -162,7 +162,7 @@ impl Plan {
     /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene over numbers of
     /// the scene. Each of the `axes` is the path of a number and its values in SI units. The map has
     /// the first axis upwards and the second axis across. `quantity` is recorded in addition to
-    /// [`MAP_RECORD`].
+    /// `MAP_RECORD`.
     ///
     /// # Errors
     /// Returns an error if the scene has no such number, or if two axes set the same number.
