@@ -10,19 +10,15 @@ use std::sync::LazyLock;
 
 /// Colours that a terminal can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 pub enum Colours {
-    /// No colours, only bold, dim and reverse
+    /// No colours, only bold, dim and reversed text.
     Plain,
-    /// The sixteen colours that the terminal itself chooses
-    #[cfg_attr(feature = "clap", value(name = "16"))]
+    /// The sixteen colours that the terminal itself chooses.
     Ansi16,
-    /// 256 fixed colours, 8 bits
-    #[cfg_attr(feature = "clap", value(name = "256"))]
+    /// 256 fixed colours, of 8 bits.
     Ansi256,
-    /// All colours of red, green and blue, 24 bits
-    #[cfg_attr(feature = "clap", value(name = "truecolor"))]
+    /// All colours of red, green and blue, of 24 bits.
     TrueColour,
 }
 
