@@ -611,8 +611,8 @@ impl App {
         if is_present { Some(followed) } else { None }
     }
 
-    /// Returns the events of the loading over which the animation moves, or the reason why there are
-    /// none; `None` until the solver has listed the events.
+    /// Returns the events of the loading over which the animation moves, or the reason why there
+    /// are none; `None` until the solver has listed the events.
     pub fn listed_events(&self) -> Option<Result<&Events, &str>> {
         let listed = self.events.as_deref()?;
         let is_present = listed.generation == self.edit.generation && listed.path == self.edit.path;

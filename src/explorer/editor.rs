@@ -280,7 +280,8 @@ impl Editor {
         }
     }
 
-    /// Replaces the present scene, curve, path and number of profiles, and returns the previous ones.
+    /// Replaces the present scene, curve, path and number of profiles, and returns the previous
+    /// ones.
     fn exchange(&mut self, edited: Edited) -> Edited {
         self.series = None;
         self.tried = None;

@@ -65,9 +65,9 @@ impl ManualBody {
         self.kept.last().map_or(&self.start, |kept| &kept.body)
     }
 
-    /// Moves the body along these stages, beginning at separation. Stages that the body has followed
-    /// already are not computed again. Returns the reason if the contact cannot follow a stage; the
-    /// body then stays at the end of the stage before.
+    /// Moves the body along these stages, beginning at separation. Stages that the body has
+    /// followed already are not computed again. Returns the reason if the contact cannot follow a
+    /// stage; the body then stays at the end of the stage before.
     ///
     /// # Errors
     /// Returns an error if `stop` returns true between two stages.

@@ -183,8 +183,8 @@ impl Solver {
         }
     }
 
-    /// Lists the events of the newest scene or, under manual loading, of the path. Returns `None` if
-    /// they are listed already, or if the explorer waits for a newer scene.
+    /// Lists the events of the newest scene or, under manual loading, of the path. Returns `None`
+    /// if they are listed already, or if the explorer waits for a newer scene.
     fn list_events(&self) -> Option<Arc<ListedEvents>> {
         let solved = self.newest.solved.as_deref()?;
         let manual = self.newest.manual.as_ref();
@@ -470,7 +470,8 @@ fn position(legs: &[LegRecord], number: usize, at: At) -> Player {
 fn point_at(player: &Player, legs: &[LegRecord], leg: &Leg) -> Option<CurvePoint> {
     let record = legs.get(player.leg);
     // After a separation nothing is in contact, although the animation still shows the indentation
-    // of the last contact. Therefore the end of the curve, and not the indentation, gives the point.
+    // of the last contact. Therefore the end of the curve, and not the indentation, gives the
+    // point.
     if player.at == At::End && is_separated(record) {
         return record.and_then(|record| record.curve.last().copied());
     }

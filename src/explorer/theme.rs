@@ -1,5 +1,5 @@
-//! Colours and text styles of the explorer. Characters and bold text distinguish the same things, so
-//! that colours are not necessary. The colours themselves are in the table of [`asperity_plot`].
+//! Colours and text styles of the explorer. Characters and bold text distinguish the same things,
+//! so that colours are not necessary. The colours themselves are in the table of [`asperity_plot`].
 
 use asperity_plot::{Background, ColourRole, Colours, Ink, Palette};
 use clap::ValueEnum;

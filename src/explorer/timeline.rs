@@ -17,8 +17,8 @@ pub struct Timeline {
     ways: Vec<Way>,
 }
 
-/// Indentations in m at which a loading stage begins and ends. The first stage begins a little above
-/// first touch.
+/// Indentations in m at which a loading stage begins and ends. The first stage begins a little
+/// above first touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Way {
     start: f64,

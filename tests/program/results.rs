@@ -394,8 +394,8 @@ fn reversals_end_at_their_turning_points() {
     }
 }
 
-/// The list of jumps is the same as JSON and as a table, at least as long for smaller jumps, and its
-/// energies are a part of those of the loading.
+/// The list of jumps is the same as JSON and as a table, at least as long for smaller jumps, and
+/// its energies are a part of those of the loading.
 #[test]
 fn jumps_are_part_of_the_loading() {
     let scene = "pressure-sensitive";

@@ -325,8 +325,8 @@ fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
     own.map(|name| (None, name)).chain(uses).collect()
 }
 
-/// Names of items of the crate of values that the crates above publish again, for users who need few
-/// other names of it.
+/// Names of items of the crate of values that the crates above publish again, for users who need
+/// few other names of it.
 const PUBLISHED_AGAIN: [&str; 2] = ["CountedWarning", "Warning"];
 
 /// Names that two crates publish would mean two things; the program's crate publishes again what

@@ -114,7 +114,8 @@ impl JumpCollector {
         Ok(())
     }
 
-    /// Forgets the stages after the first `count` ones, for a body that returns to an earlier state.
+    /// Forgets the stages after the first `count` ones, for a body that returns to an earlier
+    /// state.
     pub fn truncate(&mut self, count: usize) {
         self.stages.truncate(count);
     }

@@ -143,7 +143,8 @@ pub(crate) fn lab(colour: Rgb) -> Lab {
 }
 
 /// Returns the position of a colour whose channels emit these shares of their light.
-pub(crate) fn lab_of_light([red, green, blue]: [f64; 3]) -> Lab {
+pub(crate) fn lab_of_light(light: [f64; 3]) -> Lab {
+    let [red, green, blue] = light;
     // Colour of a white screen (illuminant D65).
     const WHITE: [f64; 3] = [0.95047, 1.0, 1.08883];
     let cube_root = |share: f64| {

@@ -189,8 +189,8 @@ struct StressIndices {
     pull: [u8; 3],
 }
 
-/// Power of the stress to which the share of the full colour is proportional. It is below 1, so that
-/// small stresses can be distinguished too.
+/// Power of the stress to which the share of the full colour is proportional. It is below 1, so
+/// that small stresses can be distinguished too.
 const STRESS_POWER: f64 = 0.7;
 
 /// Colours for a terminal or a picture: those that it can show and that read on its background.

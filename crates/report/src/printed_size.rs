@@ -11,8 +11,8 @@ const MOST: u32 = 500;
 /// Number of px (1/96 inch) in a metre of a printed figure.
 const PX: f64 = 96.0 / 0.0254;
 
-/// Parses a length of a printed figure, such as `85mm`, and returns it in m. The length must be from
-/// `least` mm to 500 mm.
+/// Parses a length of a printed figure, such as `85mm`, and returns it in m. The length must be
+/// from `least` mm to 500 mm.
 ///
 /// # Errors
 /// Returns a message with the allowed lengths.

@@ -282,8 +282,8 @@ struct CurveRow<'a> {
 }
 
 /// Returns the table of a force curve in SI units. Each row has a point of the curve and the index
-/// of its loading stage. `stiffness` is the stiffness of the instrument in N/m. If it is not `None`,
-/// the table also has the displacement of the instrument.
+/// of its loading stage. `stiffness` is the stiffness of the instrument in N/m. If it is not
+/// `None`, the table also has the displacement of the instrument.
 fn table_of_curve(legs: &[LegRecord], stiffness: Option<f64>) -> Table<'_> {
     let table = Table::of(move || curve_rows(legs, stiffness.unwrap_or(f64::INFINITY)))
         .whole("leg", |row| row.stage)

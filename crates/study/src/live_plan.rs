@@ -53,7 +53,8 @@ fn hursts() -> Vec<f64> {
     hursts
 }
 
-/// Returns true if neighbouring values have equal ratios, apart from their rounding to a few digits.
+/// Returns true if neighbouring values have equal ratios, apart from their rounding to a few
+/// digits.
 fn have_equal_ratios(values: &[f64]) -> bool {
     const ROUNDING: f64 = 0.02;
     let ratios: Vec<f64> = values.windows(2).map(|pair| pair[1] / pair[0]).collect();
@@ -160,8 +161,8 @@ impl Plan {
 
 impl Plan {
     /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene over numbers of
-    /// the scene. Each of the `axes` is the path of a number and its values in SI units. The map has
-    /// the first axis upwards and the second axis across. `quantity` is recorded in addition to
+    /// the scene. Each of the `axes` is the path of a number and its values in SI units. The map
+    /// has the first axis upwards and the second axis across. `quantity` is recorded in addition to
     /// `MAP_RECORD`.
     ///
     /// # Errors

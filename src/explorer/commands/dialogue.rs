@@ -113,8 +113,8 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     select(app, rows);
 }
 
-/// Moves the selection by a page, in the list of a prompt or in the list of parameters, or shows the
-/// next or previous page of the selected pane. A page of a list has half as many entries as the
+/// Moves the selection by a page, in the list of a prompt or in the list of parameters, or shows
+/// the next or previous page of the selected pane. A page of a list has half as many entries as the
 /// window has rows, because an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
@@ -338,8 +338,8 @@ fn is_map(app: &App) -> bool {
     prompt.is_some_and(|prompt| matches!(prompt.purpose, Purpose::Map))
 }
 
-/// Requests the paths that begin with the typed path, as a task. In the prompt of a map, goes to the
-/// next row.
+/// Requests the paths that begin with the typed path, as a task. In the prompt of a map, goes to
+/// the next row.
 pub fn complete(app: &mut App) {
     if is_map(app) {
         return map_over::next_row(app);

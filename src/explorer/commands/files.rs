@@ -14,8 +14,8 @@ use asperity_scene::library::typed_path;
 use asperity_scene::text::quoted;
 use std::path::{Path, PathBuf};
 
-/// Asks for the name of a file for the scene. If a live map is selected, asks for the name of a file
-/// for its plan instead.
+/// Asks for the name of a file for the scene. If a live map is selected, asks for the name of a
+/// file for its plan instead.
 pub fn ask_save(app: &mut App, then_quit: bool) {
     let is_map = app.view.pane == Pane::Map && app.map.shown_study().is_none();
     if is_map && !then_quit && app.map.plan(app.edit.document.scene()).is_ok() {

@@ -22,8 +22,8 @@ use std::sync::Arc;
 const SMALL_STEPS: f64 = 400.0;
 /// Number of large steps from the lowest to the highest indentation.
 const LARGE_STEPS: f64 = 40.0;
-/// Number of digits of an indentation to which keys or the mouse move the body. It is small, because
-/// the path may become the loading of the scene.
+/// Number of digits of an indentation to which keys or the mouse move the body. It is small,
+/// because the path may become the loading of the scene.
 const DIGITS: usize = 10;
 
 /// Begins manual loading or, if the body has been moved, makes the path the loading of the scene.

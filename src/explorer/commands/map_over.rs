@@ -32,8 +32,8 @@ const PROPOSED: [&str; 6] = [
     "length",
 ];
 
-/// Asks for the quantity and the two numbers of a map. It proposes the selected row and the row that
-/// was edited before it.
+/// Asks for the quantity and the two numbers of a map. It proposes the selected row and the row
+/// that was edited before it.
 pub fn ask(app: &mut App) {
     let rows = numbers(app);
     let selected = app.edit.parameter();
@@ -197,8 +197,8 @@ fn axis(app: &App, name: &str) -> Result<ChosenAxis, String> {
     Ok(ChosenAxis { path, values })
 }
 
-/// Returns ascending values around the value of a row, from a third to three times the value, as far
-/// as they are allowed.
+/// Returns ascending values around the value of a row, from a third to three times the value, as
+/// far as they are allowed.
 fn around(row: &Parameter, value: f64) -> Result<Vec<f64>, String> {
     let name = row.name();
     if value == 0.0 {

@@ -72,8 +72,8 @@ pub fn name(app: &App) -> String {
 }
 
 /// Returns the target that the prompt proposes: the share of F_a,max that the scene reaches, as the
-/// median over the profiles. Other values are then near a value that is reached. For a scene without
-/// adhesion, the target is half of the contact.
+/// median over the profiles. Other values are then near a value that is reached. For a scene
+/// without adhesion, the target is half of the contact.
 fn proposed(app: &App) -> String {
     let of_profiles = app
         .studies

@@ -181,8 +181,8 @@ pub fn toggle_events(app: &mut App) {
     app.view.pane = if shows { Pane::Force } else { Pane::Events };
 }
 
-/// Moves the playhead to a column of the timeline, which is `columns` wide. If a tick is at or beside
-/// the column, the playhead moves to the largest jump of this tick.
+/// Moves the playhead to a column of the timeline, which is `columns` wide. If a tick is at or
+/// beside the column, the playhead moves to the largest jump of this tick.
 pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
     let legs = app.played_legs();
     let timeline = Timeline::new(legs, columns);

@@ -1,5 +1,5 @@
-//! The pane with the list of events: the jumps and the marked points of the loading, in the order of
-//! the motion. The selected row is the event that the animation has passed last.
+//! The pane with the list of events: the jumps and the marked points of the loading, in the order
+//! of the motion. The selected row is the event that the animation has passed last.
 
 use super::row::PaneRow;
 use super::timeline::{ink_of, symbol_of};

@@ -123,8 +123,8 @@ fn strip(app: &App, outcome: &Outcome, ensemble: &Ensemble, width: usize) -> Vec
     lines
 }
 
-/// Returns the axis of the strip: a line with zero, the quartiles and the largest force, each at its
-/// place if there is room.
+/// Returns the axis of the strip: a line with zero, the quartiles and the largest force, each at
+/// its place if there is room.
 fn axis(
     app: &App,
     forces: [f64; 4],
@@ -185,7 +185,7 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
             results.push(ResultLine {
                 name,
                 value: in_unit(median, unit),
-                range: range_in_unit((lower, upper), unit),
+                range: range_in_unit(lower, upper, unit),
             });
         } else if let Some(value) = present {
             results.push(ResultLine {
@@ -244,7 +244,7 @@ fn in_unit(value: f64, unit: &str) -> String {
     }
 }
 
-fn range_in_unit((low, high): (f64, f64), unit: &str) -> String {
+fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
     if unit == "%" {
         format_range((100.0 * low, 100.0 * high), 2, "1")
     } else {

@@ -54,11 +54,12 @@ pub struct Jump {
     /// leftmost one, and so of the merged patch. If a patch splits, its leftmost part has the same
     /// number.
     pub number: u64,
-    /// Springs of the patch before the jump, counted from the first spring under the body. If several patches merge, these are all springs from
-    /// the first one to the last one of the patches. `None` if the patch appears.
+    /// Springs of the patch before the jump, counted from the first spring under the body. If
+    /// several patches merge, these are all springs from the first one to the last one of the
+    /// patches. `None` if the patch appears.
     pub before: Option<Patch>,
-    /// Springs of the patch after the jump, counted as in `before`. If the patch splits, these are all springs from the
-    /// first one to the last one of the parts. `None` if the patch disappears.
+    /// Springs of the patch after the jump, counted as in `before`. If the patch splits, these are
+    /// all springs from the first one to the last one of the parts. `None` if the patch disappears.
     pub after: Option<Patch>,
 }
 

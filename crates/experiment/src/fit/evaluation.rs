@@ -19,7 +19,8 @@ use std::f64::consts::PI;
 /// from the pull-off force.
 const ALLOWED_NOISE: f64 = 3.0;
 
-/// Returns the result of a fit, without the assumptions of its start. `searched` is the result of the search.
+/// Returns the result of a fit, without the assumptions of its start. `searched` is the result of
+/// the search.
 pub(crate) fn fit_result(
     document: &Document,
     simulation: &mut Simulation,

@@ -15,7 +15,8 @@ use asperity_contact::{Contact, Modulus};
 use asperity_data::{Note, format_rounded};
 
 /// Ratio of the fitted and the stated stiffness beyond which a wrong unit of the force is more
-/// likely than a wrong stiffness. The nominal stiffness of a cantilever may be off by a factor of 3.
+/// likely than a wrong stiffness. The nominal stiffness of a cantilever may be off by a factor of
+/// 3.
 const FAR: f64 = 4.0;
 /// Difference of this ratio from 1 that is worth a sentence. It is below the error of usual
 /// calibrations.

@@ -36,7 +36,8 @@ struct Stated {
 }
 
 impl Stated {
-    /// Adds what a line states, unless a line before has stated it: `# xPosition: 1e-6`, `X 2 Y 3`, `x = 1 um, y = 2 um` or `curve 7`.
+    /// Adds what a line states, unless a line before has stated it: `# xPosition: 1e-6`, `X 2 Y 3`,
+    /// `x = 1 um, y = 2 um` or `curve 7`.
     fn take(&mut self, line: &str) {
         let is_between = |c: char| c.is_whitespace() || ",;:=\"#[](){}".contains(c);
         let words: Vec<&str> = line

@@ -48,8 +48,8 @@ pub struct PaneChart {
 }
 
 /// Row of characters below a chart that shows which springs are in contact, and their stress. Each
-/// character shows the springs above it: `█` if all of them are in contact, `▪` if some are, and `·`
-/// if none is. In a terminal with colours the colour shows the mean stress; without colours the
+/// character shows the springs above it: `█` if all of them are in contact, `▪` if some are, and
+/// `·` if none is. In a terminal with colours the colour shows the mean stress; without colours the
 /// characters are `▒` and `▫` for springs that are pulled.
 #[derive(Default)]
 pub struct ContactRow {

@@ -203,7 +203,8 @@ const DOTS_OF_GROUND: u8 = 5;
 const BRAILLE: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 /// Shades the cells inside a closed line: with a ground or, in a terminal without grounds, with
-/// dots if it is a loop. Dots are only drawn in blank cells that are not beside a text, so that texts can be read.
+/// dots if it is a loop. Dots are only drawn in blank cells that are not beside a text, so that
+/// texts can be read.
 pub(super) fn shade_inside(
     buffer: &mut Buffer,
     plot: Rect,

@@ -178,8 +178,8 @@ impl CellColours {
     }
 }
 
-/// Returns the colour of a cell, or `reset` for the default colour. A picture is drawn from a screen
-/// with 24-bit colours, so that other colours do not occur.
+/// Returns the colour of a cell, or `reset` for the default colour. A picture is drawn from a
+/// screen with 24-bit colours, so that other colours do not occur.
 fn rgb(colour: Color, reset: Rgb) -> Rgb {
     match colour {
         Color::Rgb(red, green, blue) => [red, green, blue],

@@ -83,8 +83,8 @@ impl RowWarning {
 
 /// Names of the columns after the parameters. `pull_off_work` is the work of adhesion of a smooth
 /// sphere with the pull-off force of the curve. The residuals are those in contact. The next three
-/// numbers follow from the curve without the scene. The last two are the coordinates of the place on
-/// the specimen.
+/// numbers follow from the curve without the scene. The last two are the coordinates of the place
+/// on the specimen.
 pub const FACTS: [&str; 11] = [
     "pull_off_force",
     "pull_off_work",
@@ -141,8 +141,8 @@ impl CurveRow {
         }
     }
 
-    /// Returns the row of a curve that was fitted. `position` are the coordinates, in m, of the place
-    /// on the specimen at which the curve was measured; `None` if they are not known.
+    /// Returns the row of a curve that was fitted. `position` are the coordinates, in m, of the
+    /// place on the specimen at which the curve was measured; `None` if they are not known.
     pub fn fitted(report: &FitReport<'_>, position: Option<[f64; 2]>) -> Self {
         let FitReport {
             title,
