@@ -39,7 +39,7 @@ fn a_whole_loop_is_played_over_a_slow_line() {
     // Approach and retraction, from the start to the end: twelve seconds.
     let (start, first) = (terminal.written().len(), terminal.frames().len());
     let begun = Instant::now();
-    terminal.send("r");
+    terminal.send(" ");
     // Until a pause longer than between any two frames.
     terminal.settle_for(Duration::from_millis(1500));
     let frames = &terminal.frames()[first..];
