@@ -200,7 +200,12 @@ impl Solver {
         Some(Arc::new(ListedEvents {
             generation: self.newest.generation,
             path,
-            events: events.map_err(|error| error.to_string()),
+            events: events.map_err(|error| match error {
+                ContactError::Stepwise => {
+                    "the stepwise solver knows no jumps; the solver Exact lists them".to_owned()
+                }
+                error => error.to_string(),
+            }),
         }))
     }
 

@@ -83,6 +83,8 @@ const EDITED: &[Context] = &[
 /// Contexts in which keys other than those for values act on the list of parameters.
 const LISTED: &[Context] = &[Context::Explore, Context::Manual, Context::Parameters];
 const BY_HAND: &[Context] = &[Context::Manual];
+/// Contexts in which Esc drops the path by hand.
+const BESIDE_PATH: &[Context] = &[Context::Manual, Context::Timeline, Context::Events];
 const TIMELINE: &[Context] = &[Context::Timeline];
 const EVENTS: &[Context] = &[Context::Events];
 /// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
@@ -221,14 +223,14 @@ static TABLE: &[Entry] = &[
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
     row("← → h l Shift+← Shift+→ H L Home End g G", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the loading by a small or a large step, or to an end", ANIMATION).rank(1).unlisted(),
-    row("+ = -", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
+    row("+ - =", TIMELINE, "change-speed", Key(timeline::change_speed), "speed", "double or halve the speed of the animation", ANIMATION).rank(1).unlisted(),
     row("↑ ↓ k j PageUp PageDown Home End g G", EVENTS, "select-event", Key(timeline::select_event), "select", "go to another event of the list", ANIMATION).rank(1).unlisted(),
 
     row("d", EXPLORE, "toggle-manual", Do(manual::toggle), "by hand", "press and pull by hand with ← → or a typed target; again: the path becomes the loading", MANUAL).words("minor loop manual history keep path"),
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
     row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
     row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).words("detach unload").shown_if(is_manual),
-    row("Esc", BY_HAND, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1),
+    row("Esc", BESIDE_PATH, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),

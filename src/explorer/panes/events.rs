@@ -1,22 +1,25 @@
 //! The pane with the list of events: the jumps and the marked points of the loading, in the order
 //! of the motion. The selected row is the event that the animation has passed last.
 
-use super::row::PaneRow;
+use super::force;
+use super::row::{Exported, PaneRow, outcome, run_report};
 use super::timeline::{ink_of, symbol_of};
 use crate::explorer::app::App;
+use crate::explorer::events::LEAST_SHARE;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use asperity_contact::{Event, Events};
 use asperity_data::{format_range, format_rounded, grouped};
-use asperity_report::{event_words, signed_energy};
+use asperity_report::{EventsReport, event_words, signed_energy};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |_, _| None,
+    figure: |app, panel| (force::ROW.figure)(app, panel),
+    report,
     help: &[(
         "Events",
         "key e: the jumps of the loading with at least 1 % of the largest energy, and its marks. A positive energy is \
@@ -24,6 +27,21 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+/// Returns the events of the scene, and the command that lists them. Under manual loading, returns
+/// the path.
+fn report(app: &App) -> Exported<'_> {
+    if app.edit.path.is_some() {
+        return outcome(app);
+    }
+    let events = app.listed_events()?.ok()?;
+    let report = EventsReport {
+        run: run_report(app)?,
+        events,
+        least_share: LEAST_SHARE,
+    };
+    Some(("asperity run --events".into(), Box::new(report)))
+}
 
 /// Width in columns from which a row also states the forces.
 const WITH_FORCES: u16 = 56;

@@ -1,6 +1,7 @@
 //! The pane of the main results: the adhesion forces of the random profiles as a strip, and the
 //! results in one line each. In a small pane, the last lines are left out.
 
+use super::force;
 use super::row::{PaneRow, outcome};
 use super::trust;
 use crate::explorer::app::App;
@@ -16,7 +17,7 @@ use ratatui::text::{Line, Span};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |_, _| None,
+    figure: |app, panel| (force::ROW.figure)(app, panel),
     report: outcome,
     help: &[(
         "Result",

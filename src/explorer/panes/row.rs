@@ -66,17 +66,21 @@ pub fn outcome(app: &App) -> Exported<'_> {
         };
         return Some((OPEN_COMMAND.into(), Box::new(report)));
     }
+    let command = format!("asperity run{}", app.edit.profiles_argument());
+    Some((command.into(), Box::new(run_report(app)?)))
+}
+
+/// Returns the report on the computed scene; `None` until the present scene is computed.
+pub fn run_report(app: &App) -> Option<RunReport<'_>> {
     let measured = app.studies.value::<MeasuredAdhesion>();
-    let report = RunReport {
+    Some(RunReport {
         title: app.edit.document.title(),
-        scene,
+        scene: app.edit.document.scene(),
         outcome: &app.current()?.outcome,
         choice: None,
         estimate: app.studies.value(),
         ensemble: app.studies.value(),
         deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
         wording: advice::row,
-    };
-    let command = format!("asperity run{}", app.edit.profiles_argument());
-    Some((command.into(), Box::new(report)))
+    })
 }

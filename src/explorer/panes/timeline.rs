@@ -1,6 +1,7 @@
 //! The pane of the timeline: the loading stages as segments of a line, the jumps as ticks over it,
 //! and the position of the animation.
 
+use super::force;
 use super::row::PaneRow;
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
@@ -21,7 +22,8 @@ use std::ops::{Range, RangeInclusive};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |_, _| None,
+    figure: |app, panel| (force::ROW.figure)(app, panel),
+    report: |app| (force::ROW.report)(app),
     help: &[(
         "Timeline",
         "the stages of the loading; a tick is a jump, its height the square root of the elastic energy that springs gain \

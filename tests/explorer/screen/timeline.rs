@@ -2,6 +2,7 @@
 
 use super::*;
 use asperity::explorer::player::At;
+use asperity::explorer::theme::Marker;
 use asperity_contact::{Direction, Event, LegRecord};
 
 fn listed(driver: &Driver) -> Vec<Event> {
@@ -185,4 +186,36 @@ fn keys_change_the_speed_and_repeat() {
     driver.states("the animation repeats");
     assert!(driver.text().contains('↻'), "{}", driver.text());
     assert_eq!(driver.app.play.at, At::Start);
+}
+
+#[test]
+fn the_panes_of_the_loading_are_exported() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.press("e E Ctrl+u `events.csv` Enter");
+    let text = driver.file("events.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(rows, 1 + listed(&driver).len(), "{text}");
+    for (pane, name) in [
+        (Pane::Timeline, "timeline.csv"),
+        (Pane::Timeline, "timeline.svg"),
+        (Pane::Events, "events.svg"),
+        (Pane::Result, "result.json"),
+    ] {
+        driver.app.view.pane = pane;
+        driver.press(&format!("E Ctrl+u `{name}` Enter"));
+        assert!(!driver.file(name).is_empty());
+    }
+}
+
+#[test]
+fn the_timeline_is_legible_in_ascii() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.app.view.appearance.marker = Marker::Ascii;
+    driver.resize((120, 36));
+    driver.press("; r");
+    let area = driver.area(Pane::Timeline);
+    for row in &driver.rows()[usize::from(area.y)..usize::from(area.bottom())] {
+        let timeline: String = row.chars().take(area.width.into()).collect();
+        assert!(timeline.is_ascii() && !timeline.contains('?'), "{timeline}");
+    }
 }

@@ -72,8 +72,8 @@ fn bits(shape: &str) -> u8 {
 /// Table of replacements. Each group of characters between blanks begins with an ASCII character,
 /// which replaces the other characters of the group. A Greek letter is replaced by a letter that
 /// looks or sounds similar, an accented letter by the letter without accent.
-const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ @●◉◎ #■█▉▊ &▓ +▪□±┌┐└┘├┤┬┴┼ _▁▄ .·⋅∙ :░¦ %▒ \
-    -▫─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
+const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ↻ @●◉◎ #■█▉▊▇ &▓ +▪□±┌┐└┘├┤┬┴┼ _▁▂ .·⋅∙ :░¦▃▄ %▒ \
+    -▫─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖❚▅▆ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
     8⁸₈∞ 9⁹₉ V∇√ DΔ dδ∂ GΓ gγ SΣ∑∫ sσς PΠΨ pπψ OΩΘ wω LΛ lλℓ FΦ fφϕ aα bβ eεϵ hηℎ iι Kκϰ nⁿₙ rρ tτ uµμ zζ XΞ \
     AÀÁÂÃÄÅ CÇ EÈÉÊË IÌÍÎÏ NÑ OÒÓÔÕÖØ UÙÚÛÜ YÝ aàáâãäå cç eèéêë iìíîï nñ oòóôõöø uùúûü yýÿ";
 
