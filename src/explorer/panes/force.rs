@@ -178,7 +178,7 @@ fn panel(app: &App, size: Size) -> Panel {
         names.extend(names_of_marks(app));
     }
     names.extend(letters_of_ghosts(app));
-    if shows_loss(app) && app.is_current() {
+    if shows_loss(app) && app.is_current() && app.edit.path.is_none() {
         names.extend(name_of_loss(app));
     }
     let below = residuals(app, &chart.x);
@@ -262,7 +262,10 @@ fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
 /// Returns the texts on the right of the title: F_a/F_a,max, and the shown state after the sign ◆.
 fn edge(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
-    if let Some(share) = app.adhesion_share_in_words() {
+    // Under manual loading, the pane shows another loading than the one that has this share.
+    if app.edit.path.is_none()
+        && let Some(share) = app.adhesion_share_in_words()
+    {
         parts.push(vec![Text::raw(share)]);
     }
     let cursor = app.view.appearance.style(Meaning::Cursor);
