@@ -194,39 +194,36 @@ impl Solver {
             return None;
         }
         let events = match manual {
-            Some(manual) => manual.body.events(),
+            Some(manual) => manual.body.events().map_err(why_no_events),
             None => self.events_of_loading(solved)?,
         };
         Some(Arc::new(ListedEvents {
             generation: self.newest.generation,
             path,
-            events: events.map_err(|error| match error {
-                ContactError::Stepwise => {
-                    "the stepwise solver knows no jumps; the solver Exact lists them".to_owned()
-                }
-                error => error.to_string(),
-            }),
+            events,
         }))
     }
 
-    /// Lists the events of the loading of a scene. Returns `None` if the explorer waits for a newer
-    /// scene.
-    fn events_of_loading(&self, solved: &SolvedScene) -> Option<Result<Events, ContactError>> {
+    /// Lists the events of the loading of a scene, or returns the reason why they cannot be listed.
+    /// Returns `None` if the explorer waits for a newer scene.
+    fn events_of_loading(&self, solved: &SolvedScene) -> Option<Result<Events, String>> {
         let records = &solved.outcome.history.legs;
         let mut jumps = JumpCollector::default();
         for (record, leg) in records.iter().zip(&self.newest.legs) {
             if self.awaited.load(Ordering::Relaxed) != solved.generation {
                 return None;
             }
-            // A leg that does not fit into memory has too many springs for a list.
             let Some(leg) = leg else {
-                return Some(Ok(Events::default()));
+                let why = "the jumps of so many springs and stages do not fit into memory; fewer \
+                           points N list them";
+                return Some(Err(why.to_owned()));
             };
             if let Err(error) = jumps.observe(record, leg) {
-                return Some(Err(error));
+                return Some(Err(why_no_events(error)));
             }
         }
-        Some(jumps.events(records, LEAST_SHARE, MOST_LISTED))
+        let events = jumps.events(records, LEAST_SHARE, MOST_LISTED);
+        Some(events.map_err(why_no_events))
     }
 
     /// Computes a scene, including the histogram of heights.
@@ -449,6 +446,16 @@ impl Solver {
             },
         );
         found
+    }
+}
+
+/// Returns the reason why events cannot be listed, in the words of the explorer.
+fn why_no_events(error: ContactError) -> String {
+    match error {
+        ContactError::Stepwise => {
+            "the stepwise solver knows no jumps; the solver Exact lists them".to_owned()
+        }
+        error => error.to_string(),
     }
 }
 

@@ -169,9 +169,14 @@ fn a_path_by_hand_has_its_own_stages_and_events() {
     let events = listed(&driver);
     assert!(events.iter().all(|event| event.stage < followed.legs.len()));
     assert!(driver.text().contains("press to"), "{}", driver.text());
-    driver.press("Esc");
+    driver.press("d");
     assert!(driver.app.edit.path.is_none());
     assert_eq!(driver.app.events.as_ref().unwrap().path, None);
+    // The events are those of the scene with this loading: no jump of a move that was replaced is
+    // left.
+    assert_eq!(listed(&driver), events);
+    driver.press("u Esc");
+    assert!(driver.app.edit.path.is_none());
 }
 
 #[test]

@@ -41,7 +41,7 @@ use crate::history::{Direction, LegRecord, Patch};
 pub struct Jump {
     /// Indentation in m at which the springs attach or detach.
     pub indentation: f64,
-    /// How the patch changes.
+    /// Kind of the change: whether the patch appears, grows, merges, shrinks, splits or disappears.
     pub kind: JumpKind,
     /// Number of springs that attach (positive) or detach (negative).
     pub springs: i64,
@@ -63,7 +63,7 @@ pub struct Jump {
     pub after: Option<Patch>,
 }
 
-/// How a patch changes in a [`Jump`].
+/// Kind of the change of a patch in a [`Jump`].
 ///
 /// ```
 /// use asperity_contact::motion::JumpKind;
