@@ -10,6 +10,7 @@ use super::history::{CurvePoint, History, LegRecord};
 use super::leg::{Leg, PatchState};
 use super::moving_body::{MovingBody, load_body};
 use super::profile::Profile;
+use super::relaxation::RelaxingBody;
 use super::target::Move;
 use asperity_data::Warning;
 
@@ -126,8 +127,12 @@ pub struct Cycle {
     figures: Figures,
     /// Points of the force curve of each stage at the additional indentations of [`LoadOptions`].
     points: Vec<Vec<CurvePoint>>,
-    /// Leg of the last stage. If there are no stages, the leg of the separated body.
+    /// Leg of the last stage. If there are no stages, the leg of the separated body. With
+    /// relaxation it is the elastic approach.
     leg: Leg,
+    /// Patches at the end of a loading with relaxation. `None` without relaxation: the patches then
+    /// follow from the leg.
+    relaxed_patches: Option<Vec<PatchState>>,
 }
 
 /// Force curve of all loading stages. Each field is a column with one value for each point of the
@@ -228,6 +233,9 @@ impl Contact {
         if !stages.is_empty() && !may_begin(0) {
             return Err(ContactError::Interrupted);
         }
+        if self.relaxing().is_some() {
+            return self.load_relaxing(stages, &mut may_begin);
+        }
         let mut body = Body::new(self, samples as usize);
         let mut points = Vec::with_capacity(stages.len());
         let history = load_body(&mut body, stages, |record, leg| {
@@ -245,6 +253,36 @@ impl Contact {
             history,
             points,
             leg: body.leg(),
+            relaxed_patches: None,
+        })
+    }
+
+    /// Loads a body over a foundation with relaxation. `may_begin` returns false to end the loading
+    /// before a stage.
+    fn load_relaxing(
+        &self,
+        stages: &[Move],
+        may_begin: &mut dyn FnMut(usize) -> bool,
+    ) -> Result<Cycle, ContactError> {
+        let mut body = RelaxingBody::new(self)?;
+        let mut history = History::default();
+        for (index, &target) in stages.iter().enumerate() {
+            if index > 0 && !may_begin(index) {
+                return Err(ContactError::Interrupted);
+            }
+            let record = body
+                .advance(target)
+                .map_err(|reason| reason.in_stage(index, target))?;
+            history.legs.push(record);
+        }
+        history.contacts = body.patches();
+        history.work = body.work();
+        Ok(Cycle {
+            figures: Figures::of(&history),
+            history,
+            points: Vec::new(),
+            leg: body.approach().clone(),
+            relaxed_patches: Some(body.patch_states()?),
         })
     }
 
@@ -497,6 +535,9 @@ impl Cycle {
     /// from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
+        if let Some(patches) = &self.relaxed_patches {
+            return patches.clone();
+        }
         let last_stage = self.history.legs.last();
         match last_stage.and_then(LegRecord::end_in_contact) {
             Some(end) => self.leg.patch_states(end.indentation),

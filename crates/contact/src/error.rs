@@ -79,6 +79,12 @@ pub enum ContactError {
         /// Smallest force in N that the contact reaches on this unloading.
         smallest: f64,
     },
+    /// A body over a foundation with [relaxation](crate::Relaxation) cannot load again after
+    /// springs have detached, because the free surface has not recovered.
+    #[error(
+        "with relaxation the surface that has detached has not recovered; allowed: one approach and one unloading, or no relaxation"
+    )]
+    NotRecovered,
     /// No finite indentation on this foundation has the target force.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,

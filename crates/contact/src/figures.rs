@@ -57,7 +57,7 @@ impl Figures {
         let pull_off = Branch::pull_off(legs).map(|(_, point)| point);
         let end = legs.last().and_then(|leg| leg.curve.last());
         let ends_separated = end.is_some_and(|point| point.springs == 0);
-        let energy = ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum());
+        let energy = ends_separated.then(|| legs.iter().map(LegRecord::dissipated_energy).sum());
         Figures::of_points(preload, pull_off, energy)
     }
 

@@ -54,6 +54,12 @@ pub struct LegRecord {
     /// history. If a jump begins in one stage and continues in the next stage of the same
     /// direction, each of the two stages has its own part of the energy.
     pub jump_energy: f64,
+    /// Energy in J that the foundation dissipates because it relaxes. Zero without
+    /// [relaxation](crate::Relaxation).
+    pub dashpot_energy: f64,
+    /// Time in s since first touch at each point of `curve`. Empty without
+    /// [relaxation](crate::Relaxation), because time then has no effect.
+    pub seconds: Vec<f64>,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
     /// Point of the smallest force that a further unloading to separation would reach. It is
@@ -94,6 +100,8 @@ impl LegRecord {
             detached: 0,
             released_energy: 0.0,
             jump_energy: 0.0,
+            dashpot_energy: 0.0,
+            seconds: Vec::new(),
             reaches_ends: false,
             smallest_of_rest: None,
         }
@@ -189,6 +197,12 @@ impl LegRecord {
         // number is at a point of the curve.
         let springs = self.curve.iter().map(|point| point.springs);
         springs.max().unwrap_or(0)
+    }
+
+    /// Returns the energy in J that the contact dissipates in this stage: the released energy, and
+    /// the energy that relaxation dissipates.
+    pub fn dissipated_energy(&self) -> f64 {
+        self.released_energy + self.dashpot_energy
     }
 
     /// Returns the indentation in m at the beginning of the motion.
@@ -445,16 +459,21 @@ pub(super) enum Goal {
     Separation(Option<f64>),
 }
 
-impl From<Move> for Goal {
-    fn from(target: Move) -> Self {
-        match target {
+impl Goal {
+    /// Returns the goal of a motion to a target; `None` if the target keeps the body in place.
+    fn of(target: Move) -> Result<Option<Self>, ContactError> {
+        Ok(Some(match target {
             Move::ToIndentation(indentation) => Goal::Indentation(indentation),
             Move::ToDisplacement(displacement) => Goal::Displacement(displacement),
             Move::ToTouch => Goal::Indentation(0.0),
             Move::ToForce(force) => Goal::Force(force),
             Move::ToZeroForce => Goal::Force(0.0),
             Move::ToSeparation => Goal::Separation(None),
-        }
+            Move::Hold(seconds) if !seconds.is_finite() => {
+                return Err(ContactError::NotFinite(seconds));
+            }
+            Move::Hold(_) => return Ok(None),
+        }))
     }
 }
 
@@ -466,7 +485,10 @@ pub(super) fn plan(
     stiffness: f64,
 ) -> Result<Option<(Direction, Goal)>, ContactError> {
     let separated = here.springs == 0;
-    let goal = match Goal::from(target) {
+    let Some(goal) = Goal::of(target)? else {
+        return Ok(None);
+    };
+    let goal = match goal {
         // The displacement equals the indentation if the instrument is rigid, or if no force
         // deflects it because the body has not touched yet.
         Goal::Displacement(end) if stiffness.is_infinite() || separated && end < 0.0 => {

@@ -61,6 +61,7 @@ mod modulus;
 mod moving_body;
 mod nominal_form;
 mod profile;
+mod relaxation;
 mod stepwise;
 mod target;
 mod thresholds;
@@ -79,6 +80,7 @@ pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
 pub use nominal_form::NominalForm;
 pub use profile::Profile;
+pub use relaxation::Relaxation;
 pub use target::Move;
 
 pub use asperity_data::Warning;
@@ -93,5 +95,6 @@ pub mod motion {
     pub use crate::leg::jumps::{Jump, JumpKind};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::moving_body::{MovingBody, load_body};
+    pub use crate::relaxation::RelaxingBody;
     pub use crate::stepwise::Stepwise;
 }

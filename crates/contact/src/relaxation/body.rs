@@ -1,0 +1,450 @@
+//! A body that moves at a speed over a relaxing foundation, from target to target.
+
+use super::drive::Drive;
+use super::loading::Step;
+use super::memory::Moment;
+use super::state::{Phase, State};
+use crate::contact::Contact;
+use crate::detachment::DetachmentRule;
+use crate::error::ContactError;
+use crate::history::{CurvePoint, Direction, Goal, LegRecord, Patch, Work, plan};
+use crate::leg::{Leg, PatchState};
+use crate::target::Move;
+
+/// Number of steps of a stage before they are divided.
+const STEPS: usize = 48;
+/// Largest number of states of one stage.
+const MOST_STATES: usize = 1 << 22;
+/// Share of the largest force by which forces may deviate because of the steps.
+const TOLERANCE: f64 = 1e-3;
+
+/// A body that moves at a constant speed over a foundation with [`Relaxation`].
+pub struct RelaxingBody {
+    drive: Drive,
+    state: State,
+    speed: f64,
+    tolerance: f64,
+    work: Work,
+}
+
+/// A motion to a target.
+struct Stage {
+    target: Move,
+    direction: Direction,
+    goal: Goal,
+    /// Displacement in m by which the drive moves in a step; negative on unloading.
+    step: f64,
+}
+
+impl RelaxingBody {
+    /// Creates a separated body just before first touch.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::Value`] if the contact has no relaxation or no loading speed.
+    pub fn new(contact: &Contact) -> Result<Self, ContactError> {
+        let Some(relaxing) = contact.relaxing() else {
+            return Err(ContactError::Value {
+                name: "relaxation share".to_owned(),
+                value: 0.0,
+                allowed: "above 0 for a relaxing body",
+            });
+        };
+        Ok(RelaxingBody {
+            drive: Drive::new(contact, relaxing.relaxation)?,
+            state: State::apart(),
+            speed: relaxing.speed,
+            tolerance: TOLERANCE,
+            work: Work {
+                springs: contact.gaps().len() as u64,
+                ..Work::default()
+            },
+        })
+    }
+
+    /// Sets the error of the force that the steps may have, as a share of the largest force.
+    #[must_use]
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        RelaxingBody { tolerance, ..self }
+    }
+
+    /// Returns the present point of the force curve.
+    pub fn point(&self) -> CurvePoint {
+        self.point_of(&self.state)
+    }
+
+    /// Returns the time in s since first touch.
+    pub fn seconds(&self) -> f64 {
+        self.state.seconds
+    }
+
+    /// Returns counts of the computing work.
+    pub fn work(&self) -> Work {
+        Work {
+            steps: self.drive.steps,
+            ..self.work
+        }
+    }
+
+    /// Returns the elastic approach, from which the relaxing contact takes its springs in contact.
+    pub fn approach(&self) -> &Leg {
+        &self.drive.approach.leg
+    }
+
+    fn point_of(&self, state: &State) -> CurvePoint {
+        state.point(self.drive.contact.foundation, self.drive.remaining())
+    }
+
+    /// Moves the body to a target and returns the record of the stage.
+    ///
+    /// # Errors
+    /// Returns an error for a target that the contact cannot reach, and
+    /// [`ContactError::NotRecovered`] for a loading after springs have detached. The body then stays
+    /// in place.
+    pub fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+        let before = self.state.clone();
+        let moments = self.drive.history.len();
+        let largest_force = self.drive.largest_force;
+        let record = self.try_to(target);
+        if record.is_err() {
+            self.state = before;
+            self.drive.forget(moments);
+            self.drive.largest_force = largest_force;
+        }
+        record
+    }
+
+    fn try_to(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+        if let Move::Hold(seconds) = target {
+            return self.hold(target, seconds);
+        }
+        let stiffness = self.drive.contact.loading_stiffness;
+        let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
+            return Ok(LegRecord::still(target, self.point()));
+        };
+        if direction == Direction::Loading && self.state.has_detached() {
+            return Err(ContactError::NotRecovered);
+        }
+        if let Goal::Indentation(end) = goal
+            && self.state.is_separated()
+            && end < 0.0
+        {
+            return Ok(LegRecord::free(target, self.state.indentation, end));
+        }
+        let mut states = vec![self.state.clone()];
+        if self.state.is_separated() {
+            self.touch(&mut states)?;
+        }
+        let step = self.step_of(direction, goal)?;
+        let stage = Stage {
+            target,
+            direction,
+            goal,
+            step,
+        };
+        self.run(&stage, &mut states)?;
+        self.finish(target, direction, states)
+    }
+
+    /// Lets the body touch, at the displacement zero of the drive.
+    fn touch(&mut self, states: &mut Vec<State>) -> Result<(), ContactError> {
+        self.drive.approach.prepare(0.0)?;
+        let apart = State::apart();
+        self.drive.history.push(Moment {
+            indentation: 0.0,
+            seconds: 0.0,
+            memory: 0.0,
+        });
+        let touched = self.drive.driven(&apart, 0.0, 0.0)?;
+        self.drive.remember(&apart, &touched);
+        let force = self.drive.force(&touched).abs();
+        self.drive.largest_force = self.drive.largest_force.max(force);
+        states.clear();
+        states.push(apart);
+        states.push(touched);
+        Ok(())
+    }
+
+    /// Returns the way of the drive in one step, and prepares the approach for the way.
+    fn step_of(&mut self, direction: Direction, goal: Goal) -> Result<f64, ContactError> {
+        let contact = &self.drive.contact;
+        let spring = contact.foundation.spring_stiffness();
+        if direction == Direction::Unloading {
+            let rule = contact.rules().rule(direction);
+            let load = &self.state.load;
+            let pulled = rule.largest_stretch(load.length);
+            let tension = load.length * pulled / self.drive.instrument;
+            let bent = self.state.drive - self.state.indentation;
+            let lowest = match goal {
+                Goal::Indentation(end) => end,
+                Goal::Displacement(end) => end - bent.max(0.0),
+                Goal::Force(_) | Goal::Separation(_) => -pulled,
+            };
+            let way = (self.state.indentation - lowest) + bent.max(0.0) + tension;
+            return Ok(-way / STEPS as f64);
+        }
+        let from = self.state.indentation.max(0.0);
+        let goal_of_elastic = match goal {
+            Goal::Displacement(end) if self.drive.instrument.is_infinite() => {
+                Goal::Indentation(end)
+            }
+            goal => goal,
+        };
+        let leg = &self.drive.approach.leg;
+        let (end, _) = leg.reach(goal_of_elastic, from.min(leg.end()), &mut self.work)?;
+        let elastic = leg.state(end)?;
+        self.drive.approach.prepare(end)?;
+        let force = elastic.compression.abs();
+        self.drive.largest_force = self.drive.largest_force.max(match goal {
+            Goal::Force(force) => force.abs() / spring,
+            _ => self.drive.remaining() * force,
+        });
+        let drive_end = match goal {
+            Goal::Displacement(end) => end,
+            _ => end + elastic.compression / self.drive.instrument,
+        };
+        let way = (drive_end - self.state.drive).max(end - self.state.indentation);
+        if way > 0.0 {
+            return Ok(way / STEPS as f64);
+        }
+        // The elastic contact is already at the goal, which the relaxed one has yet to reach.
+        let scale = self.state.drive.abs().max(self.state.indentation.abs());
+        let small = scale.max(contact.profile.deepest()).max(f64::MIN_POSITIVE);
+        Ok(small * 1e-3 / STEPS as f64)
+    }
+
+    /// Moves the drive until the goal is reached.
+    fn run(&mut self, stage: &Stage, states: &mut Vec<State>) -> Result<(), ContactError> {
+        let remaining = self.drive.remaining();
+        let spring = self.drive.contact.foundation.spring_stiffness();
+        let sign = match stage.direction {
+            Direction::Loading => 1.0,
+            Direction::Unloading => -1.0,
+        };
+        let separates = matches!(stage.goal, Goal::Separation(_));
+        let goal_value = move |state: &State| match stage.goal {
+            Goal::Force(force) => sign * (state.load.force(remaining) - force / spring),
+            Goal::Indentation(end) => sign * (state.indentation - end),
+            Goal::Displacement(end) => sign * (state.drive - end),
+            Goal::Separation(_) => {
+                if state.is_separated() {
+                    0.0
+                } else {
+                    -1.0
+                }
+            }
+        };
+        let end_of_drive = self.end_of_drive(stage);
+        let mut step = stage.step;
+        let mut steps = 0;
+        if states.last().is_some_and(|state| goal_value(state) >= 0.0) {
+            return Ok(());
+        }
+        loop {
+            let Some(from) = states.last() else {
+                return Ok(());
+            };
+            let mut drive = from.drive + step;
+            if let Some(end) = end_of_drive
+                && (end - drive) * sign <= 0.25 * step.abs()
+            {
+                drive = end;
+            }
+            let seconds = (drive - from.drive).abs() / self.speed;
+            let first_new = states.len();
+            let tolerance = self.tolerance * self.drive.largest_force;
+            let moments = self.drive.history.len();
+            self.drive.step(states, Step { drive, seconds }, tolerance)?;
+            let reached = (first_new..states.len()).find(|&index| {
+                let state = &states[index];
+                goal_value(state) >= 0.0 || (state.is_separated() && !separates)
+            });
+            if let Some(index) = reached {
+                return self.stop_at(stage, states, index, moments, &goal_value);
+            }
+            steps += 1;
+            if states.len() > MOST_STATES {
+                return Err(ContactError::OutOfReach);
+            }
+            if steps % (STEPS / 2) == 0 && end_of_drive.is_none() {
+                step *= 2.0;
+            }
+        }
+    }
+
+    /// Returns the displacement of the drive in m at which the motion certainly ends.
+    fn end_of_drive(&self, stage: &Stage) -> Option<f64> {
+        match stage.goal {
+            Goal::Displacement(end) => Some(end),
+            Goal::Indentation(end) if self.drive.instrument.is_infinite() => Some(end),
+            _ => None,
+        }
+    }
+
+    /// Ends a motion at the goal, which the state with the index `index` is the first to pass.
+    fn stop_at(
+        &mut self,
+        stage: &Stage,
+        states: &mut Vec<State>,
+        index: usize,
+        moments: usize,
+        goal_value: &dyn Fn(&State) -> f64,
+    ) -> Result<(), ContactError> {
+        let reached = states[index].clone();
+        states.truncate(index);
+        let from = states[index - 1].clone();
+        if reached.is_separated() && goal_value(&reached) < 0.0 || is_lost(stage, &reached) {
+            if matches!(stage.goal, Goal::Force(_)) {
+                let remaining = self.drive.remaining();
+                let forces = states.iter().map(|state| state.load.force(remaining));
+                let smallest = forces.fold(f64::INFINITY, f64::min);
+                let spring = self.drive.contact.foundation.spring_stiffness();
+                return Err(ContactError::DetachesBefore {
+                    smallest: spring * smallest,
+                });
+            }
+            states.push(reached);
+            return Ok(());
+        }
+        // The moments after the goal are no part of the motion.
+        let seconds = from.seconds;
+        let mut kept = self.drive.history.len();
+        while kept > moments && self.drive.history.time_of(kept - 1) > seconds {
+            kept -= 1;
+        }
+        self.drive.forget(kept);
+        let state = if matches!(stage.goal, Goal::Separation(_)) || goal_value(&reached) == 0.0 {
+            reached
+        } else {
+            self.drive.reach(&from, reached, goal_value)?
+        };
+        self.drive.remember(&from, &state);
+        states.push(state);
+        Ok(())
+    }
+
+    /// Keeps the drive in place for a time in s.
+    fn hold(&mut self, target: Move, seconds: f64) -> Result<LegRecord, ContactError> {
+        if !(seconds >= 0.0) || !seconds.is_finite() {
+            return Err(ContactError::NotFinite(seconds));
+        }
+        if self.state.is_separated() || seconds == 0.0 {
+            return Ok(LegRecord::still(target, self.point()));
+        }
+        let mut states = vec![self.state.clone()];
+        let step = Step {
+            drive: self.state.drive,
+            seconds: seconds / STEPS as f64,
+        };
+        let tolerance = self.tolerance * self.drive.largest_force;
+        for _ in 0..STEPS {
+            self.drive.step(&mut states, step, tolerance)?;
+        }
+        let last = states.len() - 1;
+        let direction = if states[last].indentation < states[0].indentation {
+            Direction::Unloading
+        } else {
+            Direction::Loading
+        };
+        self.finish(target, direction, states)
+    }
+
+    /// Moves the body to the last one of `states`, and records the stage.
+    fn finish(
+        &mut self,
+        target: Move,
+        direction: Direction,
+        states: Vec<State>,
+    ) -> Result<LegRecord, ContactError> {
+        let curve: Vec<CurvePoint> = states.iter().map(|state| self.point_of(state)).collect();
+        let mut record = LegRecord {
+            direction,
+            seconds: states.iter().map(|state| state.seconds).collect(),
+            ..LegRecord::still(target, curve[0])
+        };
+        record.dashpot_energy = self.dashpot_energy(&states);
+        let mut work = 0.0;
+        for (pair, points) in states.windows(2).zip(curve.windows(2)) {
+            let force = 0.5 * (points[0].force + points[1].force);
+            work += force * (pair[1].drive - pair[0].drive);
+            let attached = points[1].springs.saturating_sub(points[0].springs);
+            let detached = points[0].springs.saturating_sub(points[1].springs);
+            record.attached += attached;
+            record.detached += detached;
+        }
+        for &point in &curve {
+            if point.force > record.largest.force {
+                record.largest = point;
+            }
+            if point.force < record.smallest.force {
+                record.smallest = point;
+            }
+        }
+        let first = curve[0];
+        let last = curve[curve.len() - 1];
+        let bent = |point: CurvePoint| {
+            0.5 * point.force * (point.force / self.drive.contact.loading_stiffness)
+        };
+        let stored = (last.stored_energy + bent(last)) - (first.stored_energy + bent(first));
+        record.released_energy = work - stored - record.dashpot_energy;
+        record.reaches_ends = self.reaches_ends(&states);
+        record.curve = curve;
+        self.work.count(&record);
+        if let Some(last) = states.into_iter().next_back() {
+            self.state = last;
+        }
+        if self.state.is_separated() && !matches!(self.state.phase, Phase::Apart) {
+            self.state.indentation = self.state.drive;
+        }
+        Ok(record)
+    }
+
+    /// Returns the energy in J that the dashpots dissipate between the first and the last state.
+    fn dashpot_energy(&self, states: &[State]) -> f64 {
+        let share = self.drive.relaxation.share();
+        let rate = share * self.drive.contact.foundation.spring_stiffness()
+            / self.drive.relaxation.time();
+        let mut energy = 0.0;
+        for pair in states.windows(2) {
+            let mean = 0.5 * (pair[0].load.fresh_squares + pair[1].load.fresh_squares);
+            energy += rate * mean * (pair[1].seconds - pair[0].seconds);
+        }
+        energy
+    }
+
+    fn reaches_ends(&self, states: &[State]) -> bool {
+        let deepest = states.iter().map(|state| state.deepest);
+        let deepest = deepest.fold(f64::NEG_INFINITY, f64::max);
+        states.iter().any(|state| !state.is_separated())
+            && self.drive.approach.leg.reaches_ends(deepest)
+    }
+
+    /// Returns the patches in contact, from left to right.
+    pub fn patches(&self) -> Vec<Patch> {
+        match &self.state.phase {
+            Phase::Apart => Vec::new(),
+            Phase::Deepest => self.drive.approach.leg.patches(self.state.deepest),
+            Phase::Turned(turned) => {
+                let patches = turned.patches.iter();
+                patches
+                    .map(|patch| Patch {
+                        first: patch.left.spring,
+                        last: patch.right.spring,
+                    })
+                    .collect()
+            }
+        }
+    }
+
+    /// Returns the states of the patches in contact, from left to right. The force and the stretch
+    /// of a patch are those with relaxation.
+    pub fn patch_states(&self) -> Result<Vec<PatchState>, ContactError> {
+        self.drive.patch_states(&self.state)
+    }
+}
+
+/// Returns true if a motion to a force ends because the contact is lost.
+fn is_lost(stage: &Stage, reached: &State) -> bool {
+    matches!(stage.goal, Goal::Force(_))
+        && stage.direction == Direction::Unloading
+        && reached.is_separated()
+}
