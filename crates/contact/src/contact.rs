@@ -36,6 +36,8 @@ pub struct Contact {
     pub(super) profile: Profile,
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
+    /// Works of adhesion on closing and on opening, J/m².
+    works: [f64; 2],
     /// Rules of attachment and detachment; `None` without adhesion.
     rules: Option<Rules<ContactRule>>,
     /// Stiffness k in N/m of the instrument that moves the body; infinite for a rigid instrument.
@@ -176,6 +178,7 @@ impl ContactBuilder {
             profile,
             foundation,
             edges,
+            works: [closing, work],
             rules,
             loading_stiffness,
             relaxing,
@@ -206,6 +209,26 @@ impl Contact {
             edges: Edges::Grid,
             loading_stiffness: f64::INFINITY,
             relaxing: None,
+            closing: Arc::default(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns this contact with another profile.
+    pub(super) fn with_profile(&self, profile: Profile) -> Self {
+        let foundation = Foundation {
+            spacing: profile.spacing,
+            length: profile.length,
+            ..self.foundation
+        };
+        let [closing, work] = self.works;
+        let rules = self
+            .rules
+            .map(|_| Rules::<ContactRule>::from_works(foundation, closing, work));
+        Contact {
+            profile,
+            foundation,
+            rules,
             closing: Arc::default(),
             ..self.clone()
         }

@@ -1,8 +1,10 @@
 //! A body that moves at a speed over a relaxing foundation, from target to target.
 
+use super::division::Division;
 use super::drive::Drive;
 use super::loading::Step;
 use super::memory::Moment;
+use super::patch::StretchedPatch;
 use super::state::{Phase, State};
 use crate::contact::Contact;
 use crate::detachment::DetachmentRule;
@@ -21,6 +23,8 @@ const TOLERANCE: f64 = 1e-3;
 /// A body that moves at a constant speed over a foundation with [`Relaxation`].
 pub struct RelaxingBody {
     drive: Drive,
+    /// Division of a coarse profile, over which the drive moves.
+    division: Option<Division>,
     state: State,
     speed: f64,
     tolerance: f64,
@@ -49,8 +53,16 @@ impl RelaxingBody {
                 allowed: "above 0 for a relaxing body",
             });
         };
+        let (division, drive) = match Division::of(contact)? {
+            Some((division, divided)) => {
+                let drive = Drive::new(&divided, relaxing.relaxation)?;
+                (Some(division), drive)
+            }
+            None => (None, Drive::new(contact, relaxing.relaxation)?),
+        };
         Ok(RelaxingBody {
-            drive: Drive::new(contact, relaxing.relaxation)?,
+            drive,
+            division,
             state: State::apart(),
             speed: relaxing.speed,
             tolerance: TOLERANCE,
@@ -91,7 +103,24 @@ impl RelaxingBody {
     }
 
     fn point_of(&self, state: &State) -> CurvePoint {
-        state.point(self.drive.contact.foundation, self.drive.remaining())
+        let foundation = self.drive.contact.foundation;
+        let mut point = state.point(foundation, self.drive.remaining());
+        let Some(division) = &self.division else {
+            return point;
+        };
+        // The division has further springs, which do not count.
+        point.springs = match &state.phase {
+            Phase::Apart => 0,
+            Phase::Deepest => division
+                .springs_of_approach(state.indentation)
+                .unwrap_or(point.springs),
+            Phase::Turned(turned) => {
+                let patches = turned.patches.iter();
+                let springs = patches.map(|patch| division.whole(patch.range()).springs().len());
+                springs.sum::<usize>() as u64
+            }
+        };
+        point
     }
 
     /// Moves the body to a target and returns the record of the stage.
@@ -420,25 +449,32 @@ impl RelaxingBody {
 
     /// Returns the patches in contact, from left to right.
     pub fn patches(&self) -> Vec<Patch> {
-        match &self.state.phase {
+        let mut patches = match &self.state.phase {
             Phase::Apart => Vec::new(),
             Phase::Deepest => self.drive.approach.leg.patches(self.state.deepest),
             Phase::Turned(turned) => {
                 let patches = turned.patches.iter();
-                patches
-                    .map(|patch| Patch {
-                        first: patch.left.spring,
-                        last: patch.right.spring,
-                    })
-                    .collect()
+                patches.map(StretchedPatch::range).collect()
+            }
+        };
+        if let Some(division) = &self.division {
+            for patch in &mut patches {
+                *patch = division.whole(*patch);
             }
         }
+        patches
     }
 
     /// Returns the states of the patches in contact, from left to right. The force and the stretch
     /// of a patch are those with relaxation.
     pub fn patch_states(&self) -> Result<Vec<PatchState>, ContactError> {
-        self.drive.patch_states(&self.state)
+        let mut patches = self.drive.patch_states(&self.state)?;
+        if let Some(division) = &self.division {
+            for patch in &mut patches {
+                patch.springs = division.whole(patch.springs);
+            }
+        }
+        Ok(patches)
     }
 }
 

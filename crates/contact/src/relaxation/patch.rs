@@ -4,6 +4,7 @@ use super::field::{Field, Spring, Sums};
 use super::line::Line;
 use super::peaks::{Bound, bound_of};
 use crate::detachment::{DetachmentRule, Levels};
+use crate::history::Patch;
 
 /// Relative difference below which two tensions count as equal.
 const ROUNDING: f64 = 1e-12;
@@ -76,6 +77,13 @@ impl StretchedPatch {
             right,
             sums,
             bound,
+        }
+    }
+
+    pub fn range(&self) -> Patch {
+        Patch {
+            first: self.left.spring,
+            last: self.right.spring,
         }
     }
 

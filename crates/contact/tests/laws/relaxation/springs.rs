@@ -4,8 +4,8 @@
 use super::super::levels::relaxed::Relaxed;
 use super::*;
 
-/// Points of a piece of a polygon at which the rule is evaluated before bisection.
-const POINTS: usize = 16;
+/// Difference of tensions in m that is due to rounding; profiles are about 1 m deep.
+const ROUNDING: f64 = 1e-13;
 
 /// A point of the profile in contact.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ struct Vertex {
     /// Position in cells.
     x: f64,
     gap: f64,
-    /// Fresh part v of the compression when the body turned, minus J at this time, m.
+    /// Fresh part v of the compression at the end of the loading, minus J at this time, m.
     memory: f64,
 }
 
@@ -90,13 +90,12 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// Presses the body in a number of steps, and returns the forces at the ends of the steps.
-    pub fn press(&mut self, steps: usize) -> Vec<Found> {
+    /// Presses the body to ascending indentations in m, and returns the forces there.
+    pub fn press(&mut self, indentations: &[f64]) -> Vec<Found> {
         let mut found = Vec::new();
         let mut relaxed = Relaxed::new(self.body);
         let mut low = 0.0;
-        for step in 0..=steps {
-            let d = self.motion.deepest * step as f64 / steps as f64;
+        for &d in indentations {
             let before = relaxed.clone();
             relaxed.move_to(d);
             for spring in indices(&relaxed.contacts()) {
@@ -108,13 +107,6 @@ impl<'a> Springs<'a> {
             let seconds = d / self.motion.speed;
             self.patches = self.polygons(&relaxed, seconds);
             found.push(self.found(seconds));
-        }
-        // Memories at the turn.
-        let turn = self.motion.turn();
-        let ages = turn - self.motion.deepest / self.motion.speed;
-        let decay = (-ages / self.motion.time).exp();
-        for vertex in self.patches.iter_mut().flatten() {
-            vertex.memory *= decay;
         }
         found
     }
@@ -148,16 +140,17 @@ impl<'a> Springs<'a> {
         polygons
     }
 
+    /// Factor by which memories have decayed since the end of the loading.
     fn decay(&self, seconds: f64) -> f64 {
-        let turn = self.motion.turn();
-        if seconds <= turn { 1.0 } else { (-(seconds - turn) / self.motion.time).exp() }
+        let age = seconds - self.motion.deepest / self.motion.speed;
+        (-age.max(0.0) / self.motion.time).exp()
     }
 
     /// Force and energy at a time, with the patches as they are.
     pub fn found(&self, seconds: f64) -> Found {
         let d = self.motion.indentation(seconds);
         let stiffness = self.body.foundation.spring_stiffness();
-        let decay = if self.motion.turn() < seconds { self.decay(seconds) } else { 1.0 };
+        let decay = self.decay(seconds);
         let common = self.motion.memory(seconds);
         let share = self.motion.share;
         let force_at = |vertex: &Vertex| {
@@ -172,6 +165,10 @@ impl<'a> Springs<'a> {
             springs += polygon.iter().filter(|vertex| vertex.x.fract() == 0.0).count();
         }
         Found { seconds, indentation: d, force: stiffness * force, springs }
+    }
+
+    pub fn ends(&self) -> Vec<(f64, f64)> {
+        self.patches.iter().map(|patch| (patch[0].x, patch[patch.len() - 1].x)).collect()
     }
 
     /// Lets springs detach at a time after the turn.
@@ -201,18 +198,20 @@ impl<'a> Springs<'a> {
     ) -> Vec<Vec<Vertex>> {
         let length = |polygon: &[Vertex]| polygon[polygon.len() - 1].x - polygon[0].x;
         let of = |polygon: &[Vertex]| polygon.iter().map(tension).fold(f64::NEG_INFINITY, f64::max);
-        loop {
+        for round in 0.. {
+            assert!(round < 100_000, "{top} {polygon:?}", top = of(&polygon));
             if polygon.len() < 2 || length(&polygon) <= 0.0 {
                 return Vec::new();
             }
             let top = of(&polygon);
-            if top <= one * length(&polygon).sqrt() {
+            if top <= one * length(&polygon).sqrt() + ROUNDING {
                 self.patches.push(polygon);
                 return Vec::new();
             }
             let last = polygon.len() - 1;
             let ends = tension(&polygon[0]).max(tension(&polygon[last]));
-            if let Some(inner) = (1..last).find(|&at| tension(&polygon[at]) >= top && ends < top) {
+            // A vertex inside is as much in tension as an end.
+            if let Some(inner) = (1..last).find(|&at| tension(&polygon[at]) >= top - ROUNDING && ends < top - ROUNDING) {
                 return vec![polygon[..=inner].to_vec(), polygon[inner..].to_vec()];
             }
             // The highest level below, at which a further point counts.
@@ -220,25 +219,35 @@ impl<'a> Springs<'a> {
             let others = [tension(&polygon[0]), tension(&polygon[last])];
             let below = inner
                 .chain(others)
-                .filter(|&level| level < top)
+                .filter(|&level| level < top - ROUNDING)
                 .fold(f64::NEG_INFINITY, f64::max);
             let below = below.max(top - 1e3 * (top.abs() + 1.0));
             let holds = |level: f64| {
                 let cut = cut_ends(&polygon, tension, level);
                 cut.len() > 1 && level <= one * length(&cut).sqrt()
             };
-            let point = |k: usize| top + (below - top) * k as f64 / POINTS as f64;
-            let found = (1..=POINTS).find(|&k| holds(if k == POINTS { below } else { point(k) }));
-            let level = match found {
-                None => below,
-                Some(k) => {
-                    let [mut high, mut low] = [point(k - 1), if k == POINTS { below } else { point(k) }];
-                    for _ in 0..60 {
-                        let middle = 0.5 * (low + high);
-                        if holds(middle) { low = middle } else { high = middle }
-                    }
-                    low
+            // Tension minus what the patch bears is convex in the level, down to the next vertex.
+            let excess = |level: f64| {
+                let cut = cut_ends(&polygon, tension, level);
+                if cut.len() > 1 { level - one * length(&cut).sqrt() } else { f64::INFINITY }
+            };
+            let [mut low, mut high] = [below, top];
+            for _ in 0..40 {
+                let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+                if excess(a) < excess(b) { high = b } else { low = a }
+            }
+            let candidates = [below, low, high];
+            let least = candidates.into_iter().min_by(|&a, &b| excess(a).total_cmp(&excess(b)));
+            let least = least.unwrap_or(below);
+            let level = if holds(least) {
+                let [mut low, mut high] = [least, top];
+                for _ in 0..45 {
+                    let middle = 0.5 * (low + high);
+                    if holds(middle) { low = middle } else { high = middle }
                 }
+                low
+            } else {
+                below
             };
             let cut = cut_ends(&polygon, tension, level);
             if cut.len() == polygon.len() && length(&cut) == length(&polygon) {
@@ -246,18 +255,19 @@ impl<'a> Springs<'a> {
                 if polygon.len() <= 2 {
                     return Vec::new();
                 }
-                if tension(&polygon[0]) >= level { polygon.remove(0); } else { polygon.pop(); }
+                if tension(&polygon[0]) >= level - ROUNDING { polygon.remove(0); } else { polygon.pop(); }
                 continue;
             }
             polygon = cut;
         }
+        Vec::new()
     }
 }
 
 /// A polygon without its ends of a larger tension than `level`.
 fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -> Vec<Vertex> {
     let cut_left = |polygon: &[Vertex]| {
-        let Some(first) = polygon.iter().position(|vertex| tension(vertex) <= level) else {
+        let Some(first) = polygon.iter().position(|vertex| tension(vertex) <= level + ROUNDING) else {
             return Vec::new();
         };
         let mut rest = polygon[first..].to_vec();
@@ -282,7 +292,7 @@ fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -
 
 /// The indentation at which a spring attaches, by bisection.
 fn attaches(before: &Relaxed<'_>, spring: usize, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..24 {
+    for _ in 0..12 {
         let middle = 0.5 * (low + high);
         let mut body = before.clone();
         body.move_to(middle);
