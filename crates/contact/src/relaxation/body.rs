@@ -33,7 +33,6 @@ pub struct RelaxingBody {
 
 /// A motion to a target.
 struct Stage {
-    target: Move,
     direction: Direction,
     goal: Goal,
     /// Displacement in m by which the drive moves in a step; negative on unloading.
@@ -165,7 +164,6 @@ impl RelaxingBody {
         }
         let step = self.step_of(direction, goal)?;
         let stage = Stage {
-            target,
             direction,
             goal,
             step,

@@ -68,15 +68,20 @@ pub struct Springs<'a> {
     patches: Vec<Vec<Vertex>>,
     /// Energy that detachment has released, J.
     pub released: f64,
+    /// Energy that the dashpots have dissipated, J.
+    pub dissipated: f64,
+    last: Option<Found>,
 }
 
 /// Force and time of one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     pub seconds: f64,
-    pub indentation: f64,
     pub force: f64,
-    pub springs: usize,
+    /// Stored energy, J.
+    pub energy: f64,
+    /// Power of the dashpots, W.
+    pub power: f64,
 }
 
 impl<'a> Springs<'a> {
@@ -87,6 +92,8 @@ impl<'a> Springs<'a> {
             thresholds: vec![f64::INFINITY; body.gaps.len()],
             patches: Vec::new(),
             released: 0.0,
+            dissipated: 0.0,
+            last: None,
         }
     }
 
@@ -106,7 +113,10 @@ impl<'a> Springs<'a> {
             low = d;
             let seconds = d / self.motion.speed;
             self.patches = self.polygons(&relaxed, seconds);
-            found.push(self.found(seconds));
+            let here = self.found(seconds);
+            self.dissipate(here);
+            self.last = Some(here);
+            found.push(here);
         }
         found
     }
@@ -153,22 +163,36 @@ impl<'a> Springs<'a> {
         let decay = self.decay(seconds);
         let common = self.motion.memory(seconds);
         let share = self.motion.share;
-        let force_at = |vertex: &Vertex| {
-            (1.0 - share) * (d - vertex.gap) + share * (common + decay * vertex.memory)
-        };
         let mut force = 0.0;
-        let mut springs = 0;
+        let mut energy = 0.0;
+        let mut fresh_squares = 0.0;
         for polygon in &self.patches {
             for pair in polygon.windows(2) {
-                force += 0.5 * (force_at(&pair[0]) + force_at(&pair[1])) * (pair[1].x - pair[0].x);
+                let length = pair[1].x - pair[0].x;
+                let u = [0, 1].map(|end| d - pair[end].gap);
+                let v = [0, 1].map(|end| common + decay * pair[end].memory);
+                let mean = |of: [f64; 2]| length * 0.5 * (of[0] + of[1]);
+                let square = |of: [f64; 2]| {
+                    length * (of[0] * of[0] + of[0] * of[1] + of[1] * of[1]) / 3.0
+                };
+                force += (1.0 - share) * mean(u) + share * mean(v);
+                energy += 0.5 * ((1.0 - share) * square(u) + share * square(v));
+                fresh_squares += square(v);
             }
-            springs += polygon.iter().filter(|vertex| vertex.x.fract() == 0.0).count();
         }
-        Found { seconds, indentation: d, force: stiffness * force, springs }
+        Found {
+            seconds,
+            force: stiffness * force,
+            energy: stiffness * energy,
+            power: stiffness * share * fresh_squares / self.motion.time,
+        }
     }
 
-    pub fn ends(&self) -> Vec<(f64, f64)> {
-        self.patches.iter().map(|patch| (patch[0].x, patch[patch.len() - 1].x)).collect()
+    /// Counts the energy that the dashpots dissipate up to a moment.
+    fn dissipate(&mut self, found: Found) {
+        if let Some(last) = self.last {
+            self.dissipated += 0.5 * (last.power + found.power) * (found.seconds - last.seconds);
+        }
     }
 
     /// Lets springs detach at a time after the turn.
@@ -181,12 +205,17 @@ impl<'a> Springs<'a> {
             (1.0 - share) * (vertex.gap - d) - share * (common + decay * vertex.memory)
         };
         let one = self.body.foundation.largest_stretch(self.body.work, 1);
+        let before = self.found(seconds);
+        self.dissipate(before);
         let mut waiting = std::mem::take(&mut self.patches);
         while let Some(polygon) = waiting.pop() {
             waiting.extend(self.shortened(polygon, &tension, one));
         }
         self.patches.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
-        self.found(seconds)
+        let after = self.found(seconds);
+        self.released += before.energy - after.energy;
+        self.last = Some(after);
+        after
     }
 
     /// Keeps a patch, shortens it, or returns its parts.
