@@ -9,7 +9,7 @@ use super::peaks::{Bound, Peak, PeakTree, bound_of};
 use crate::error::ContactError;
 use crate::history::Patch;
 use crate::leg::Leg;
-use asperity_data::resized;
+use asperity_data::{gathered, resized};
 use std::ops::RangeInclusive;
 
 /// The profile with the memory of each spring that was in contact when the body turned.
@@ -166,10 +166,12 @@ impl Line {
 }
 
 fn sums_before(springs: &[Spring]) -> Result<Vec<Sums>, ContactError> {
-    let mut sums = resized(Vec::new(), springs.len(), Sums::default())?;
-    for index in 1..springs.len() {
-        let piece = Sums::of_piece(springs[index - 1], springs[index], 1.0);
-        sums[index] = sums[index - 1].plus(piece);
-    }
-    Ok(sums)
+    let mut sum = Sums::default();
+    let sums = springs.iter().enumerate().map(|(index, &spring)| {
+        let before = springs[index.saturating_sub(1)];
+        let length = if index > 0 { 1.0 } else { 0.0 };
+        sum = sum.plus(Sums::of_piece(before, spring, length));
+        sum
+    });
+    Ok(gathered(springs.len(), sums)?)
 }

@@ -97,10 +97,13 @@ impl History {
         let way = indentation - before.indentation;
         let share = way / (after.indentation - before.indentation);
         let seconds = share * (after.seconds - before.seconds);
+        let duration = seconds / relaxation.time();
+        let mean_decay = mean_decay(duration);
+        let decay = 1.0 - duration * mean_decay;
         Moment {
             indentation,
             seconds: before.seconds + seconds,
-            memory: Ramp::new(relaxation, seconds).memory(before.memory, way),
+            memory: before.memory * decay + way * mean_decay,
         }
     }
 }

@@ -38,6 +38,7 @@
 
 mod approach;
 mod body;
+mod core;
 mod division;
 mod drive;
 mod end_patches;

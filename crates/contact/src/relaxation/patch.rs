@@ -1,8 +1,9 @@
 //! A patch that loses springs where its tension is largest.
 
+use super::core::{Core, Peaks};
 use super::field::{Field, Spring, Sums};
 use super::line::Line;
-use super::peaks::{Bound, bound_of};
+use super::peaks::{Bound, Peak, bound_of};
 use crate::detachment::{DetachmentRule, Levels};
 use crate::history::Patch;
 
@@ -41,6 +42,7 @@ pub struct StretchedPatch {
     pub sums: Sums,
     /// Upper bound of the tension of all its places.
     bound: Bound,
+    core: Core,
 }
 
 /// The two sides of a patch while its edges recede.
@@ -50,6 +52,7 @@ struct Receding<'a> {
     common: f64,
     left: Edge,
     right: Edge,
+    peaks: Peaks<'a>,
 }
 
 /// What is left of a patch.
@@ -64,7 +67,13 @@ enum Remainder {
 
 impl StretchedPatch {
     pub fn new(line: &Line, left: Edge, right: Edge) -> Self {
-        let mut bound = line.bound(left.spring, right.spring);
+        Self::with_core(line, left, right, None)
+    }
+
+    /// Creates a patch. `known` may be the core of a larger patch.
+    fn with_core(line: &Line, left: Edge, right: Edge, known: Option<Core>) -> Self {
+        let core = Core::renewed(known, line, left.spring, right.spring);
+        let mut bound = core.bound_with_flanks(line, left.spring, right.spring);
         let mut sums = line.sums_between(left.spring, right.spring);
         for edge in [left, right] {
             let inner = line.spring(edge.spring);
@@ -77,6 +86,7 @@ impl StretchedPatch {
             right,
             sums,
             bound,
+            core,
         }
     }
 
@@ -93,7 +103,7 @@ impl StretchedPatch {
 
     /// Returns the largest tension of the patch in m.
     pub fn tension(&self, line: &Line, field: &Field) -> f64 {
-        let receding = Receding::new(line, field, self.left, self.right);
+        let mut receding = Receding::new(line, field, self.left, self.right, self.core);
         let [left, right] = receding.tensions();
         left.max(right).max(receding.peak().tension)
     }
@@ -112,7 +122,7 @@ impl StretchedPatch {
             held.push(*self);
             return false;
         }
-        let mut receding = Receding::new(line, field, self.left, self.right);
+        let mut receding = Receding::new(line, field, self.left, self.right, self.core);
         let [left, right] = receding.tensions();
         let most = left.max(right).max(receding.peak().tension);
         if most <= rule.largest_stretch(self.sums.length) {
@@ -123,11 +133,11 @@ impl StretchedPatch {
         loop {
             match receding.recede(rule) {
                 Remainder::Holds => {
-                    held.push(StretchedPatch::new(line, receding.left, receding.right));
+                    held.push(receding.patch());
                 }
                 Remainder::Nothing => {}
                 Remainder::Parts(lost) => {
-                    let (left, right) = receding.split(lost);
+                    let [left, right] = receding.split(lost);
                     waiting.push(right);
                     receding = left;
                     continue;
@@ -142,30 +152,43 @@ impl StretchedPatch {
 }
 
 impl<'a> Receding<'a> {
-    fn new(line: &'a Line, field: &'a Field, left: Edge, right: Edge) -> Self {
+    fn new(line: &'a Line, field: &'a Field, left: Edge, right: Edge, core: Core) -> Self {
         Receding {
             line,
             field,
             common: field.common(),
             left,
             right,
+            peaks: Peaks::new(line, field, core, left.spring, right.spring),
         }
+    }
+
+    fn patch(&self) -> StretchedPatch {
+        let core = Some(self.peaks.core());
+        StretchedPatch::with_core(self.line, self.left, self.right, core)
     }
 
     fn length(&self) -> f64 {
         (self.right.spring - self.left.spring) as f64 + (self.left.share + self.right.share)
     }
 
+    #[inline]
     fn tension_of(&self, place: Spring) -> f64 {
         self.field.own_tension(place) - self.common
     }
 
     /// Returns the tensions of both edges in m.
     fn tensions(&self) -> [f64; 2] {
-        [self.left, self.right].map(|edge| {
-            let inner = self.line.spring(edge.spring);
-            self.tension_of(inner.between(edge.outer, edge.share))
-        })
+        [
+            self.tension_at(&self.left),
+            self.tension_at(&self.right),
+        ]
+    }
+
+    #[inline]
+    fn tension_at(&self, edge: &Edge) -> f64 {
+        let inner = self.line.spring(edge.spring);
+        self.tension_of(inner.between(edge.outer, edge.share))
     }
 
     /// Returns the growth of the tension over the cell in which the edge lies, in m for each cell.
@@ -175,10 +198,9 @@ impl<'a> Receding<'a> {
     }
 
     /// Returns the spring of the patch with the largest tension.
-    fn peak(&self) -> super::peaks::Peak {
-        let springs = self.left.spring..=self.right.spring;
-        let own = self.line.peak(springs, self.field);
-        super::peaks::Peak {
+    fn peak(&mut self) -> Peak {
+        let own = self.peaks.largest(self.left.spring, self.right.spring);
+        Peak {
             tension: own.tension - self.common,
             ..own
         }
@@ -188,6 +210,10 @@ impl<'a> Receding<'a> {
     /// spring inside.
     fn recede<R: DetachmentRule>(&mut self, rule: R) -> Remainder {
         loop {
+            let length = self.length();
+            // Whatever is more in tension than the patch now bears will be lost in any case,
+            // because a shorter patch bears less.
+            self.shed(rule.largest_stretch(length));
             let length = self.length();
             let tensions = self.tensions();
             let peak = self.peak();
@@ -212,6 +238,28 @@ impl<'a> Receding<'a> {
             if self.slide(rule, tensions, peak.tension, slack) {
                 return Remainder::Holds;
             }
+        }
+    }
+
+    /// Moves both edges inwards to the tension `most` in m, but keeps one spring.
+    fn shed(&mut self, most: f64) {
+        while self.left.spring < self.right.spring
+            && self.tension_of(self.line.spring(self.left.spring)) > most
+        {
+            self.left = self.left.without_spring(self.line, self.left.spring + 1);
+        }
+        while self.left.spring < self.right.spring
+            && self.tension_of(self.line.spring(self.right.spring)) > most
+        {
+            self.right = self.right.without_spring(self.line, self.right.spring - 1);
+        }
+        let inner = self.tension_of(self.line.spring(self.left.spring));
+        if self.tension_at(&self.left) > most && inner <= most {
+            self.left.share = self.share_at(&self.left, most);
+        }
+        let inner = self.tension_of(self.line.spring(self.right.spring));
+        if self.tension_at(&self.right) > most && inner <= most {
+            self.right.share = self.share_at(&self.right, most);
         }
     }
 
@@ -261,25 +309,27 @@ impl<'a> Receding<'a> {
     /// Returns the share of its cell at which an edge has the tension `tension` in m.
     fn share_at(&self, edge: &Edge, tension: f64) -> f64 {
         let inner = self.tension_of(self.line.spring(edge.spring));
+        if tension <= inner {
+            return 0.0;
+        }
         ((tension - inner) / self.slope(edge)).clamp(0.0, edge.share)
     }
 
     /// Returns the two parts of the patch without the spring `lost`.
-    fn split(&self, lost: usize) -> (Self, Self) {
+    fn split(&self, lost: usize) -> [Self; 2] {
         let outer = self.line.spring(lost);
         let end = |spring| Edge {
             spring,
             share: 1.0,
             outer,
         };
-        let left = Receding {
-            right: end(lost - 1),
-            ..*self
+        let part = |left: Edge, right: Edge| {
+            let core = Core::renewed(None, self.line, left.spring, right.spring);
+            Receding::new(self.line, self.field, left, right, core)
         };
-        let right = Receding {
-            left: end(lost + 1),
-            ..*self
-        };
-        (left, right)
+        [
+            part(self.left, end(lost - 1)),
+            part(end(lost + 1), self.right),
+        ]
     }
 }

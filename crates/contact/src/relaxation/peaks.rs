@@ -50,6 +50,18 @@ pub struct Peak {
     pub tension: f64,
 }
 
+impl Peak {
+    /// Returns the one of two springs that has the larger tension.
+    #[inline]
+    pub fn larger(self, other: Peak) -> Peak {
+        if other.tension > self.tension {
+            other
+        } else {
+            self
+        }
+    }
+}
+
 /// A tree of bounds over the springs.
 #[derive(Clone, Debug)]
 pub struct PeakTree {
