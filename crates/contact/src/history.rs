@@ -1,7 +1,7 @@
 //! Loading histories: the records of motions with their force curves, the contact patches, the
 //! counts of computing work, and the plan of a motion to a target.
 
-use super::error::ContactError;
+use super::error::{ContactError, LARGEST, check};
 use super::target::Move;
 #[cfg(feature = "serde")]
 use serde::Serialize;
@@ -469,10 +469,10 @@ impl Goal {
             Move::ToForce(force) => Goal::Force(force),
             Move::ToZeroForce => Goal::Force(0.0),
             Move::ToSeparation => Goal::Separation(None),
-            Move::Hold(seconds) if !seconds.is_finite() => {
-                return Err(ContactError::NotFinite(seconds));
+            Move::Hold(seconds) => {
+                check_hold(seconds)?;
+                return Ok(None);
             }
-            Move::Hold(_) => return Ok(None),
         }))
     }
 }
@@ -522,4 +522,10 @@ pub(super) fn plan(
 
 fn order(end: f64, here: f64) -> Ordering {
     end.partial_cmp(&here).unwrap_or(Ordering::Equal)
+}
+
+/// Returns an error unless a body can keep its place for this time in s.
+pub(super) fn check_hold(seconds: f64) -> Result<(), ContactError> {
+    let is_allowed = (0.0..=LARGEST).contains(&seconds);
+    check("time of a hold", seconds, is_allowed, "from 0 to 1e50 s")
 }

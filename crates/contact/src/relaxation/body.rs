@@ -9,7 +9,9 @@ use super::state::{Phase, State};
 use crate::contact::Contact;
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
-use crate::history::{CurvePoint, Direction, Goal, LegRecord, Patch, Work, plan};
+use crate::history::{
+    CurvePoint, Direction, Goal, LegRecord, Patch, Work, check_hold, plan,
+};
 use crate::leg::{Leg, PatchState};
 use crate::target::Move;
 
@@ -351,9 +353,7 @@ impl RelaxingBody {
 
     /// Keeps the drive in place for a time in s.
     fn hold(&mut self, target: Move, seconds: f64) -> Result<LegRecord, ContactError> {
-        if !(seconds >= 0.0) || !seconds.is_finite() {
-            return Err(ContactError::NotFinite(seconds));
-        }
+        check_hold(seconds)?;
         if self.state.is_separated() || seconds == 0.0 {
             return Ok(LegRecord::still(target, self.point()));
         }

@@ -3,11 +3,13 @@
 mod brute_force;
 mod closed_forms;
 mod cost;
+mod instrument;
 mod limits;
+mod refusals;
 mod springs;
 
 use super::*;
-use asperity_contact::{Modulus, Profile, Relaxation};
+use asperity_contact::{ContactBuilder, Modulus, Profile, Relaxation};
 
 /// A sphere of radius 1 m with γ = E₀ = 1 on a line of `points` springs, 8 m long.
 pub struct Sphere {
@@ -18,6 +20,8 @@ pub struct Sphere {
     pub time: f64,
     /// m/s
     pub speed: f64,
+    /// N/m
+    pub stiffness: f64,
 }
 
 impl Sphere {
@@ -35,6 +39,7 @@ impl Sphere {
             .work_of_adhesion(self.work)
             .relaxation(Relaxation::new(self.share, self.time).unwrap())
             .loading_speed(self.speed)
+            .loading_stiffness(self.stiffness)
             .build()
             .unwrap()
     }

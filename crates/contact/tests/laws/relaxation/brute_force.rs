@@ -174,13 +174,3 @@ fn a_few_rough_lines_agree_with_brute_force() {
 fn two_hundred_rough_lines_agree_with_brute_force() {
     judge(0..200);
 }
-
-#[test]
-#[ignore = "debug"]
-fn debug_energy() {
-    for number in [6, 32] {
-        for (pulls, tolerance) in [(500, 1e-3), (2000, 1e-3), (500, 1e-5), (2000, 1e-5)] {
-            println!("{number} {pulls} {tolerance} {:?}", energy_deviations(&compared(number, pulls, tolerance)));
-        }
-    }
-}

@@ -13,7 +13,7 @@ fn pull_off(sphere: &Sphere, dwell: f64) -> f64 {
 
 #[test]
 fn a_fast_loop_pulls_off_as_an_elastic_one() {
-    let sphere = Sphere { points: 1001, work: 1.0, share: 0.5, time: 1e6, speed: 1.0 };
+    let sphere = Sphere { points: 1001, work: 1.0, share: 0.5, time: 1e6, speed: 1.0, stiffness: f64::INFINITY };
     let found = pull_off(&sphere, 0.0) / JKR;
     assert!((found - 1.0).abs() < 1e-3, "{found}");
 }
@@ -22,7 +22,7 @@ fn a_fast_loop_pulls_off_as_an_elastic_one() {
 fn after_full_relaxation_the_pull_off_is_larger_by_the_ratio_of_moduli() {
     for share in [0.1, 0.3, 0.5, 0.6] {
         for speed in [1e-4, 1e-2, 1.0, 1e2, 1e4] {
-            let sphere = Sphere { points: 1001, work: 1.0, share, time: 1.0, speed };
+            let sphere = Sphere { points: 1001, work: 1.0, share, time: 1.0, speed, stiffness: f64::INFINITY };
             let found = pull_off(&sphere, 50.0) / JKR * (1.0 - share);
             assert!((found - 1.0).abs() < 1e-3, "{share} {speed}: {found}");
         }
@@ -45,7 +45,7 @@ fn hereditary(sphere: &Sphere, seconds: f64, end: f64) -> f64 {
 #[test]
 fn without_adhesion_the_force_is_that_of_lee_and_radok_and_of_ting() {
     for (share, time) in [(0.3, 0.1), (0.7, 1.0), (0.9, 0.3)] {
-        let sphere = Sphere { points: 801, work: 0.0, share, time, speed: 1.0 };
+        let sphere = Sphere { points: 801, work: 0.0, share, time, speed: 1.0, stiffness: f64::INFINITY };
         let cycle = sphere
             .contact()
             .load(&[Move::ToIndentation(1.0), Move::ToSeparation])

@@ -34,7 +34,7 @@ fn times() {
         println!("rough 2^{power}: elastic {elastic:.2} ms relaxing {relaxing:.2} ms {shown}");
     }
     for points in [400, 1001, 4001, 16385] {
-        let sphere = Sphere { points, work: 1.0, share: 0.3, time: 1.0, speed: 1.0 };
+        let sphere = Sphere { points, work: 1.0, share: 0.3, time: 1.0, speed: 1.0, stiffness: f64::INFINITY };
         let (gaps, spacing) = sphere.gaps();
         let body = Body::new(gaps, Edges::SubCell, Foundation::new(spacing, 1.0), 1.0);
         let stages = [Move::ToForce(5.0), Move::ToSeparation];
