@@ -9,15 +9,20 @@ use super::memory::{History, Moment, Ramp};
 use super::patch::StretchedPatch;
 use super::state::{Load, Phase, State, Turned};
 use crate::contact::Contact;
-use crate::detachment::ContactRule;
+use crate::detachment::{ContactRule, DetachmentRule};
 use crate::error::ContactError;
 use crate::history::Direction;
 use std::sync::Arc;
 
 /// Largest number of guesses of the indentation at which instrument and contact are in equilibrium.
-const GUESSES: usize = 60;
+const GUESSES: usize = 160;
+/// Number of guesses after which the steps between guesses are doubled.
+const SHORT_GUESSES: usize = 8;
 /// Share of the largest force up to which instrument and contact may be out of equilibrium.
 const BALANCE: f64 = 1e-11;
+
+/// Way above the largest indentation, as a share of it, in which the body counts as being there.
+const SAME_DEPTH: f64 = 1e-9;
 
 /// The contact and its approach, from which the state after a step follows.
 pub struct Drive {
@@ -84,7 +89,7 @@ impl Drive {
             });
         }
         self.history.push(Moment {
-            indentation: state.indentation,
+            indentation: state.deepest,
             seconds: state.seconds,
             memory: state.memory,
         });
@@ -134,8 +139,8 @@ impl Drive {
         let mut beyond: Option<(f64, f64)> = None;
         let begins_above = excess > 0.0;
         let mut before: Option<(f64, f64)> = None;
-        for _ in 0..GUESSES {
-            let scale = self.largest_force.max(self.instrument * drive.abs());
+        for guess_number in 0..GUESSES {
+            let scale = self.balance_scale(drive).max(self.force(&state).abs());
             if excess.abs() <= BALANCE * scale || excess == 0.0 {
                 break;
             }
@@ -149,10 +154,17 @@ impl Drive {
                 let secant = -excess * (indentation - other) / (excess - other_excess);
                 next = indentation + longer(shortest, secant, 8.0);
             }
+            if beyond.is_none() {
+                // Where the contact is about to jump, the force hardly changes, and short steps
+                // lead nowhere.
+                let lengthened = guess_number.saturating_sub(SHORT_GUESSES).min(30);
+                next = indentation + (next - indentation) * f64::from(1_u32 << lengthened);
+            }
             if let Some((limit, _)) = beyond {
                 let low = indentation.min(limit);
                 let high = indentation.max(limit);
-                if !(low < next && next < high) {
+                // Interpolation alone may approach the equilibrium from one side only.
+                if guess_number % 3 == 2 || !(low < next && next < high) {
                     next = 0.5 * (low + high);
                 }
                 if !(low < next && next < high) {
@@ -176,12 +188,16 @@ impl Drive {
         }
         // Where the contact jumps, no equilibrium is between the two last guesses. The body is then
         // beyond the jump.
+        let scale = self.balance_scale(drive).max(self.force(&state).abs());
         match beyond {
-            Some((limit, _)) if excess.abs() > BALANCE * self.largest_force => {
-                self.moved(from, limit, seconds)
-            }
+            Some((limit, _)) if excess.abs() > BALANCE * scale => self.moved(from, limit, seconds),
             _ => Ok(state),
         }
+    }
+
+    /// Returns the largest force in m, against which a force out of equilibrium is compared.
+    fn balance_scale(&self, drive: f64) -> f64 {
+        self.largest_force.max(self.instrument * drive.abs())
     }
 
     /// Returns the force of the contact minus the force of the instrument, in m.
@@ -208,7 +224,9 @@ impl Drive {
                 state.seconds = 0.0;
             }
             Phase::Apart => self.approach(from, &ramp, &mut state)?,
-            Phase::Deepest if to >= from.deepest => self.approach(from, &ramp, &mut state)?,
+            Phase::Deepest if to >= from.deepest - self.same_depth(from) => {
+                self.approach(from, &ramp, &mut state)?;
+            }
             Phase::Deepest => self.turn(from, &mut state)?,
             Phase::Turned(turned) if !turned.detached && to >= from.deepest => {
                 self.approach(from, &ramp, &mut state)?;
@@ -218,6 +236,12 @@ impl Drive {
         Ok(state)
     }
 
+    /// Returns the way in m by which the body may be above its largest indentation and still count
+    /// as being there. The equilibrium with the instrument is known to rounding only.
+    fn same_depth(&self, state: &State) -> f64 {
+        SAME_DEPTH * (state.deepest + self.rule.largest_stretch(state.load.length))
+    }
+
     /// Computes the load of a body that is at its largest indentation so far.
     fn approach(
         &self,
@@ -225,9 +249,10 @@ impl Drive {
         ramp: &Ramp,
         state: &mut State,
     ) -> Result<(), ContactError> {
-        let contact = self.approach.at(state.indentation)?;
+        let contact = self.approach.at(state.deepest)?;
         let before = &from.load;
         let mut load = Load::of_approach(&contact);
+        load.compression -= load.length * (state.deepest - state.indentation);
         // While springs attach, the fresh part v of all compressions grows as the compressions do,
         // and decays.
         let growth = load.compression - before.compression;

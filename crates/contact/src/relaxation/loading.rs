@@ -71,7 +71,12 @@ impl Drive {
         let difference = (force - self.force(&whole)).abs();
         let mean = 0.5 * (self.force(from) + force);
         let bend = (self.force(&middle) - mean).abs();
-        let is_accurate = difference.max(bend) <= tolerance.max(self.rounding());
+        let dips = !from.is_separated() && end.is_separated() && {
+            // The force may have fallen by this much before the contact was lost.
+            let way = (end.indentation - from.indentation).abs();
+            from.load.length * way > tolerance
+        };
+        let is_accurate = difference.max(bend) <= tolerance.max(self.rounding()) && !dips;
         if is_accurate || halvings == 0 {
             self.remember(&middle, &end);
             self.largest_force = self.largest_force.max(force.abs());
