@@ -159,7 +159,7 @@ pub(super) fn compute_stages(
 /// Function that returns true if a computation is to be stopped.
 type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Computes the adhesion force of a scene as a function of the preload.
+/// Computes the pull-off force of a scene as a function of the preload.
 pub(super) fn staircase_of(
     document: &Document,
     scene: &CheckedScene,

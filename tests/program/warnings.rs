@@ -128,7 +128,7 @@ fn the_help_lists_only_formats_that_exist() {
             &["preload", "jkr-sphere", "--where", "F_a = 2 uN"],
         ),
         (&["sensitivity"], &["jkr-sphere"]),
-        (&["line"], &["jkr-sphere"]),
+        (&["profile"], &["jkr-sphere"]),
         (&["check"], &[]),
         (&["sweep", "boundary"], &["none"]),
         (&["sweep", "plot"], &["none"]),

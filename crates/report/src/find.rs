@@ -18,7 +18,7 @@ use serde::Serialize;
 const MOST_LISTED: usize = 8;
 
 /// Report on a search for the value of one number of a scene, such as the preload, with which a
-/// result, such as the adhesion force, has a wanted value.
+/// result, such as the pull-off force, has a wanted value.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     pub title: &'a str,

@@ -15,7 +15,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
-const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
+const ROUGH: &str = "These errors leave out the error of the model: the pull-off force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
 /// If the best value lies at the end of the searched range, the report proposes a range whose end

@@ -32,7 +32,7 @@ mod sensitivity;
 mod sheet;
 mod spectrum_figure;
 mod spread;
-mod stages;
+
 mod status;
 mod study_figure;
 mod summary;
@@ -41,6 +41,7 @@ mod trust;
 mod warnings;
 mod words;
 mod work_precision;
+mod workload;
 
 pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
@@ -69,7 +70,6 @@ pub use section::{LineColumns, Part, Section, SectionContact};
 pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
-pub use stages::stages_text;
 pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
@@ -80,3 +80,4 @@ pub use warnings::{
 };
 pub use words::{counted, letter, percent};
 pub use work_precision::work_precision;
+pub use workload::parts_text;

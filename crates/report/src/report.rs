@@ -344,8 +344,8 @@ mod tests {
             let (scene, title) = (document.scene(), document.title());
             let mut simulation = Simulation::default();
             let mut sets = ContactSets::new(true);
-            let mut observe = |_, record: &_, leg: &_| {
-                sets.observe(record, leg);
+            let mut observe = |_, record: &_, stage: &_| {
+                sets.observe(record, stage);
                 Ok(())
             };
             let outcome = simulation.run(scene, &|| false, &mut observe).unwrap();

@@ -62,14 +62,14 @@ const QUANTITIES: [ComparedQuantity; 8] = [
         value: |outcome| outcome.figures.preload,
     },
     ComparedQuantity {
-        name: "adhesion force F_a",
+        name: "pull-off force F_a",
         unit: "N",
-        value: |outcome| outcome.figures.adhesion_force,
+        value: |outcome| outcome.figures.pull_off_force,
     },
     ComparedQuantity {
         name: "at first touch F_a(d=0)",
         unit: "N",
-        value: |outcome| outcome.first_touch_adhesion_force,
+        value: |outcome| outcome.first_touch_pull_off_force,
     },
     ComparedQuantity {
         name: "pull-off at",
@@ -160,7 +160,7 @@ impl ScenesReport<'_> {
     }
 
     /// Returns the rows with medians over random profiles, and a row with the quartiles of the
-    /// adhesion force; empty if no scene has several profiles.
+    /// pull-off force; empty if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         if self.scenes.iter().all(|scene| scene.ensemble.is_none()) {
             return Vec::new();
@@ -175,12 +175,12 @@ impl ScenesReport<'_> {
         }
         let mut quartiles = vec!["quartiles of F_a".to_owned()];
         for scene in self.scenes {
-            quartiles.push(match scene.quartiles(Quantity::AdhesionForce) {
+            quartiles.push(match scene.quartiles(Quantity::PullOffForce) {
                 Some([lower, _, upper]) => format_range((lower, upper), 2, "N"),
                 None => "-".to_owned(),
             });
         }
-        // The first row is the median of the adhesion force. The row of its quartiles is inserted
+        // The first row is the median of the pull-off force. The row of its quartiles is inserted
         // after it.
         rows.insert(1.min(rows.len()), quartiles);
         rows
@@ -306,7 +306,7 @@ mod tests {
         // The second scene has twice the work of adhesion, and the pull-off force of a sphere is
         // proportional to the work of adhesion.
         assert!(
-            text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"),
+            text.contains("pull-off force F_a       23.56 µN              47.12 µN (×2)\n"),
             "{text}"
         );
         let named: Vec<String> = report
