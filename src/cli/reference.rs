@@ -5,8 +5,8 @@ use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
-use asperity_report::{Format, ReferenceProgress, ReferenceReport, counted_texts};
+use super::scene::{ProfileArguments, SceneArguments, warn_beside};
+use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use clap::Args;
@@ -59,10 +59,7 @@ pub(super) fn reference(
         scene,
         reference: &found,
     };
-    if !holds_warnings(format) {
-        let profiles = found.profiles_for_warnings();
-        warn(&document, &counted_texts(&found.warnings, profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments.output.write(
         stdout,
         &report,

@@ -13,7 +13,7 @@ use asperity_data::{grouped, parse_quantity, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
     ComparedScene, ContactSets, EventsReport, Format, PreloadReport, Report, RunReport,
-    ScenesReport, check_measured_files, counted_texts, warning_texts,
+    ScenesReport, check_measured_files, counted_texts, outcome_warnings,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::{
@@ -583,15 +583,6 @@ fn estimated(
             Ok::<_, Infallible>(estimate(scene, &folder, outcome, control.stop()))
         },
     )
-}
-
-/// Returns the warnings about a result. If there are several random profiles, each warning states
-/// to how many of them it applies.
-fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
-    match ensemble {
-        Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
-        None => warning_texts(&outcome.warnings),
-    }
 }
 
 /// Writes the pull-off force as a function of the preload: for a single scene as a report, for

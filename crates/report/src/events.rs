@@ -4,7 +4,7 @@
 use crate::report::{Json, Report};
 use crate::run::{RunJson, RunReport};
 use crate::sheet::Sheet;
-use crate::warnings::warnings_section;
+use crate::warnings::{sentences_section, warning_texts};
 use crate::words::{counted, percent, whole_percent};
 use asperity_contact::motion::{Jump, JumpKind};
 use asperity_contact::{Direction, Event, Events, Mark, Patch};
@@ -158,11 +158,15 @@ impl EventsReport<'_> {
 }
 
 impl Report for EventsReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(&self.run.outcome.warnings)
+    }
+
     fn text(&self) -> Option<String> {
         let run = &self.run;
         let mut sheet = Sheet::default();
         sheet.paragraph(&run.scene.title);
-        warnings_section(&mut sheet, &run.outcome.warnings);
+        sentences_section(&mut sheet, &self.warnings());
         let profile = match run.outcome.line.seed {
             Some(seed) => format!(", profile of seed {seed}"),
             None => String::new(),

@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use asperity_data::{AxisScale, Table, format_quantity, format_range, format_rounded, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
@@ -132,6 +132,10 @@ impl<'a> PreloadReport<'a> {
 }
 
 impl Report for PreloadReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.results.all_warnings(), self.results.plan().lines)
+    }
+
     fn text(&self) -> Option<String> {
         let plan = self.results.plan();
         let mut sheet = Sheet::default();
@@ -152,7 +156,7 @@ impl Report for PreloadReport<'_> {
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
         }
-        counted_section(&mut sheet, &self.results.all_warnings(), plan.lines);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

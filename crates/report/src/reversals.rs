@@ -4,7 +4,7 @@
 use crate::preloads::{Unloading, preload_chart, preload_table, unloadings_table};
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{sentences_section, warning_texts};
 use asperity_data::{AxisScale, Table, Warning, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
@@ -41,6 +41,10 @@ pub struct ReversalReport<'a> {
 }
 
 impl Report for ReversalReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(self.warnings)
+    }
+
     fn text(&self) -> Option<String> {
         let reversals = &self.map.reversals;
         let mut sheet = Sheet::default();
@@ -64,7 +68,7 @@ impl Report for ReversalReport<'_> {
         sheet.heading("Map");
         sheet.quantity("step of indentations", self.map.step(), "m");
         sheet.quantity("largest Everett value", largest_everett(self.map), "N");
-        warnings_section(&mut sheet, self.warnings);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

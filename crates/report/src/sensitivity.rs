@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
 use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
@@ -357,6 +357,10 @@ pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
 }
 
 impl Report for SensitivityReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.sensitivity.warnings, self.sensitivity.profiles)
+    }
+
     fn text(&self) -> Option<String> {
         let sensitivity = self.sensitivity;
         let mut sheet = Sheet::default();
@@ -374,7 +378,7 @@ impl Report for SensitivityReport<'_> {
             sheet.table(&sensitivity_table(sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
-        counted_section(&mut sheet, &sensitivity.warnings, sensitivity.profiles);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

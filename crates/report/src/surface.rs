@@ -84,6 +84,20 @@ impl SurfaceReport {
 }
 
 impl Report for SurfaceReport {
+    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
+    /// attraction.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            let whose = if number == 0 { "" } else { "opposite face: " };
+            for warning in face.warnings() {
+                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
+            }
+        }
+        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
+        warnings
+    }
+
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         for (number, face) in self.faces.iter().enumerate() {
@@ -288,20 +302,6 @@ impl SurfaceReport {
             Some(analysis) if analysis.ends_inside => "the spectrum ends inside the scan",
             _ => "the last resolved wave; shorter ones are left out",
         }
-    }
-
-    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
-    /// attraction.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        for (number, face) in self.faces.iter().enumerate() {
-            let whose = if number == 0 { "" } else { "opposite face: " };
-            for warning in face.warnings() {
-                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
-            }
-        }
-        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
-        warnings
     }
 
     /// Returns the rows of the table of spectra. The measured spectra come first, and then the

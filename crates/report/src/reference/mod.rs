@@ -14,7 +14,7 @@ pub use words::{difference_words, model_sentence, model_words, omitted_waves};
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::counted_section;
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
 use asperity_contact::Move;
 use asperity_data::{Note, Remedy, Table, Wording, format_quantity, format_rounded, grouped};
@@ -293,13 +293,19 @@ impl ReferenceReport<'_> {
 }
 
 impl Report for ReferenceReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(
+            &self.reference.warnings,
+            self.reference.profiles_for_warnings(),
+        )
+    }
+
     fn text(&self) -> Option<String> {
         let reference = self.reference;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
-        let profiles = reference.profiles_for_warnings();
-        counted_section(&mut sheet, &reference.warnings, profiles);
+        sentences_section(&mut sheet, &self.warnings());
         if let Some(sentence) = self.compared_loading() {
             sheet.paragraph(&sentence);
         }
