@@ -169,7 +169,7 @@ impl ContactBuilder {
         let relaxing = relaxing(relaxation, loading_speed, edges)?;
         let foundation = Foundation {
             spacing: profile.spacing,
-            effective_modulus: modulus.pascals(),
+            modulus: modulus.pascals(),
             length: profile.length,
         };
         let rules =
@@ -305,8 +305,8 @@ impl Contact {
     }
 
     /// Returns the effective modulus E* in Pa.
-    pub fn effective_modulus(&self) -> f64 {
-        self.foundation.effective_modulus
+    pub fn modulus_in_pascals(&self) -> f64 {
+        self.foundation.modulus
     }
 
     /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).

@@ -6,11 +6,11 @@ use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
 use super::events::JumpCollector;
 use super::figures::Figures;
-use super::history::{CurvePoint, History, LegRecord};
-use super::leg::{Leg, PatchState};
+use super::history::{CurvePoint, History, StageRecord};
 use super::moving_body::{MovingBody, load_body};
 use super::profile::Profile;
 use super::relaxation::RelaxingBody;
+use super::stage::{PatchState, Stage};
 use super::target::Move;
 use asperity_data::Warning;
 
@@ -127,11 +127,11 @@ pub struct Cycle {
     figures: Figures,
     /// Points of the force curve of each stage at the additional indentations of [`LoadOptions`].
     points: Vec<Vec<CurvePoint>>,
-    /// Leg of the last stage. If there are no stages, the leg of the separated body. With
+    /// Stage of the last stage. If there are no stages, the stage of the separated body. With
     /// relaxation it is the elastic approach.
-    leg: Leg,
+    stage: Stage,
     /// Patches at the end of a loading with relaxation. `None` without relaxation: the patches then
-    /// follow from the leg.
+    /// follow from the stage.
     relaxed_patches: Option<Vec<PatchState>>,
 }
 
@@ -238,10 +238,10 @@ impl Contact {
         }
         let mut body = Body::new(self, samples as usize);
         let mut points = Vec::with_capacity(stages.len());
-        let history = load_body(&mut body, stages, |record, leg| {
-            points.push(points_between(record, leg, indentations)?);
+        let history = load_body(&mut body, stages, |record, motion| {
+            points.push(points_between(record, motion, indentations)?);
             if let Some(jumps) = &mut jumps {
-                jumps.observe(record, leg)?;
+                jumps.observe(record, motion)?;
             }
             if points.len() < stages.len() && !may_begin(points.len()) {
                 return Err(ContactError::Interrupted);
@@ -252,7 +252,7 @@ impl Contact {
             figures: Figures::of(&history),
             history,
             points,
-            leg: body.leg(),
+            stage: body.stage(),
             relaxed_patches: None,
         })
     }
@@ -273,7 +273,7 @@ impl Contact {
             let record = body
                 .advance(target)
                 .map_err(|reason| reason.in_stage(index, target))?;
-            history.legs.push(record);
+            history.stages.push(record);
         }
         history.contacts = body.patches();
         history.work = body.work();
@@ -281,7 +281,7 @@ impl Contact {
             figures: Figures::of(&history),
             history,
             points: Vec::new(),
-            leg: body.approach().clone(),
+            stage: body.approach().clone(),
             relaxed_patches: Some(body.patch_states()?),
         })
     }
@@ -304,7 +304,7 @@ impl Contact {
     ///     .build()?
     ///     .reversals(&turns, &[-1.0e-8, 0.0])?;
     /// for (reversal, force) in found.iter().zip([25.07e-9, 40.13e-9, 130.53e-9]) {
-    ///     assert!((reversal.adhesion_force().unwrap() - force).abs() < 0.01e-9);
+    ///     assert!((reversal.pull_off_force().unwrap() - force).abs() < 0.01e-9);
     ///     assert_eq!(reversal.forces.len(), 2);
     /// }
     /// # Ok::<(), asperity_contact::ContactError>(())
@@ -335,15 +335,15 @@ impl Contact {
 /// Returns the points of a stage at all `indentations` that the stage passes. The indentations are
 /// in m and in ascending order, and so are the returned points.
 fn points_between(
-    record: &LegRecord,
-    leg: &Leg,
+    record: &StageRecord,
+    stage: &Stage,
     indentations: &[f64],
 ) -> Result<Vec<CurvePoint>, ContactError> {
     let low = record.start().min(record.end());
     let high = record.start().max(record.end());
     let first = indentations.partition_point(|&indentation| indentation < low);
     let end = indentations.partition_point(|&indentation| indentation <= high);
-    leg.curve(&indentations[first..end.max(first)])
+    stage.curve(&indentations[first..end.max(first)])
 }
 
 /// Returns an error if a target is so large that a result might not be a finite number.
@@ -380,11 +380,11 @@ impl History {
     /// * The last unloading reaches separation or passes the smallest force.
     /// * Enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
-        let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
-        let springs = self.legs.iter().map(LegRecord::most_springs);
+        let reaches_ends = self.stages.iter().any(|stage| stage.reaches_ends);
+        let springs = self.stages.iter().map(StageRecord::most_springs);
         let most_springs = springs.max().unwrap_or(0);
         let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
-        warnings.extend(Branch::ends_in_contact(&self.legs));
+        warnings.extend(Branch::ends_in_contact(&self.stages));
         warnings
     }
 }
@@ -424,7 +424,7 @@ impl Cycle {
     /// unloading ends in contact before it has passed the smallest force.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
-        self.figures.adhesion_force
+        self.figures.pull_off_force
     }
 
     /// Returns the indentation in m at which the pull-off force acts; `None` if
@@ -458,22 +458,22 @@ impl Cycle {
 
     /// Returns all points of the force curve, stage after stage, in the order of the motion.
     pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
-        self.history.legs.iter().flat_map(|leg| &leg.curve)
+        self.history.stages.iter().flat_map(|record| &record.curve)
     }
 
     /// Returns the force curve of all stages as columns, one for each quantity.
     #[must_use]
     pub fn curve(&self) -> Curve {
         let mut curve = Curve::default();
-        let stiffness = self.leg.contact().loading_stiffness;
-        for (stage, leg) in self.history.legs.iter().enumerate() {
-            for point in &leg.curve {
+        let stiffness = self.stage.contact().loading_stiffness;
+        for (stage, record) in self.history.stages.iter().enumerate() {
+            for point in &record.curve {
                 curve.stage.push(stage);
                 curve.indentation.push(point.indentation);
                 curve.force.push(point.force);
                 curve.displacement.push(point.displacement(stiffness));
                 curve.contact_length.push(point.contact_length);
-                curve.patches.push(point.fragments);
+                curve.patches.push(point.patches);
                 curve.stored_energy.push(point.stored_energy);
             }
         }
@@ -488,11 +488,11 @@ impl Cycle {
         self.points.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the
+    /// Returns a [`StageRecord`] for each loading stage, with the force curve and the energies of the
     /// stage.
     #[must_use]
-    pub fn stages(&self) -> &[LegRecord] {
-        &self.history.legs
+    pub fn stages(&self) -> &[StageRecord] {
+        &self.history.stages
     }
 
     /// Returns a warning for each premise of the model that this loading does not meet. An example
@@ -525,7 +525,7 @@ impl Cycle {
     /// ```
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
-        let profile = self.leg.contact().profile();
+        let profile = self.stage.contact().profile();
         let mut warnings = self.history.warnings(profile);
         warnings.extend(profile.doubt());
         warnings
@@ -538,9 +538,9 @@ impl Cycle {
         if let Some(patches) = &self.relaxed_patches {
             return patches.clone();
         }
-        let last_stage = self.history.legs.last();
-        match last_stage.and_then(LegRecord::end_in_contact) {
-            Some(end) => self.leg.patch_states(end.indentation),
+        let last_stage = self.history.stages.last();
+        match last_stage.and_then(StageRecord::end_in_contact) {
+            Some(end) => self.stage.patch_states(end.indentation),
             None => Vec::new(),
         }
     }

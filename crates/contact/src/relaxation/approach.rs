@@ -5,7 +5,7 @@
 use crate::contact::Contact;
 use crate::contact_state::{ContactState, Grid};
 use crate::error::ContactError;
-use crate::leg::Leg;
+use crate::stage::Stage;
 
 /// Number of springs up to which the contact is computed at each indentation anew. Longer profiles
 /// are tabulated.
@@ -18,7 +18,7 @@ const JUMP: f64 = 1e-5;
 
 /// The elastic loading from separation, with the instantaneous modulus.
 pub struct Approach {
-    pub leg: Leg,
+    pub stage: Stage,
     /// Contacts at evenly spaced indentations from zero on.
     table: Vec<ContactState>,
     /// Largest indentation of the table in m.
@@ -30,7 +30,7 @@ pub struct Approach {
 impl Approach {
     pub fn new(contact: &Contact) -> Result<Self, ContactError> {
         Ok(Approach {
-            leg: Leg::approach(contact)?,
+            stage: Stage::approach(contact)?,
             table: Vec::new(),
             high: 0.0,
             largest: 0.0,
@@ -39,12 +39,12 @@ impl Approach {
 
     /// Prepares the contact for indentations up to `indentation` in m.
     pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
-        let is_short = self.leg.contact().gaps().len() < TABULATED_FROM;
+        let is_short = self.stage.contact().gaps().len() < TABULATED_FROM;
         if is_short || indentation <= self.high {
             return Ok(());
         }
         self.table = self
-            .leg
+            .stage
             .sample(Grid::new(0.0, indentation, INTERVALS))?;
         self.high = indentation;
         self.largest = 0.0;
@@ -59,7 +59,7 @@ impl Approach {
         let place = indentation / self.high * INTERVALS as f64;
         let is_inside = place > 1.0 && place < (INTERVALS - 2) as f64;
         if self.table.len() <= INTERVALS || !is_inside {
-            return self.leg.state(indentation);
+            return self.stage.state(indentation);
         }
         let below = place as usize;
         let growth = |index: usize| {
@@ -67,7 +67,7 @@ impl Approach {
         };
         let expected = 0.5 * (growth(below - 1) + growth(below + 1));
         if (growth(below) - expected).abs() > JUMP * self.largest {
-            return self.leg.state(indentation);
+            return self.stage.state(indentation);
         }
         let low = self.table[below];
         let high = self.table[below + 1];

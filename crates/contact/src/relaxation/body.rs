@@ -10,9 +10,9 @@ use crate::contact::Contact;
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::history::{
-    CurvePoint, Direction, Goal, LegRecord, Patch, Work, check_hold, plan,
+    CurvePoint, Direction, Goal, StageRecord, Patch, Work, check_hold, plan,
 };
-use crate::leg::{Leg, PatchState};
+use crate::stage::{Stage, PatchState};
 use crate::target::Move;
 
 /// Number of steps of a stage before they are divided.
@@ -34,7 +34,7 @@ pub struct RelaxingBody {
 }
 
 /// A motion to a target.
-struct Stage {
+struct Course {
     direction: Direction,
     goal: Goal,
     /// Displacement in m by which the drive moves in a step; negative on unloading.
@@ -99,8 +99,8 @@ impl RelaxingBody {
     }
 
     /// Returns the elastic approach, from which the relaxing contact takes its springs in contact.
-    pub fn approach(&self) -> &Leg {
-        &self.drive.approach.leg
+    pub fn approach(&self) -> &Stage {
+        &self.drive.approach.stage
     }
 
     fn point_of(&self, state: &State) -> CurvePoint {
@@ -130,7 +130,7 @@ impl RelaxingBody {
     /// Returns an error for a target that the contact cannot reach, and
     /// [`ContactError::NotRecovered`] for a loading after springs have detached. The body then stays
     /// in place.
-    pub fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+    pub fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         let before = self.state.clone();
         let moments = self.drive.history.len();
         let largest_force = self.drive.largest_force;
@@ -143,13 +143,13 @@ impl RelaxingBody {
         record
     }
 
-    fn try_to(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+    fn try_to(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         if let Move::Hold(seconds) = target {
             return self.hold(target, seconds);
         }
         let stiffness = self.drive.contact.loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
-            return Ok(LegRecord::still(target, self.point()));
+            return Ok(StageRecord::still(target, self.point()));
         };
         if direction == Direction::Loading && self.state.has_detached() {
             return Err(ContactError::NotRecovered);
@@ -158,14 +158,14 @@ impl RelaxingBody {
             && self.state.is_separated()
             && end < 0.0
         {
-            return Ok(LegRecord::free(target, self.state.indentation, end));
+            return Ok(StageRecord::free(target, self.state.indentation, end));
         }
         let mut states = vec![self.state.clone()];
         if self.state.is_separated() {
             self.touch(&mut states)?;
         }
         let step = self.step_of(direction, goal)?;
-        let stage = Stage {
+        let stage = Course {
             direction,
             goal,
             step,
@@ -218,7 +218,7 @@ impl RelaxingBody {
             }
             goal => goal,
         };
-        let leg = &self.drive.approach.leg;
+        let leg = &self.drive.approach.stage;
         let (end, _) = leg.reach(goal_of_elastic, from.min(leg.end()), &mut self.work)?;
         let elastic = leg.state(end)?;
         self.drive.approach.prepare(end)?;
@@ -242,7 +242,7 @@ impl RelaxingBody {
     }
 
     /// Moves the drive until the goal is reached.
-    fn run(&mut self, stage: &Stage, states: &mut Vec<State>) -> Result<(), ContactError> {
+    fn run(&mut self, stage: &Course, states: &mut Vec<State>) -> Result<(), ContactError> {
         let remaining = self.drive.remaining();
         let spring = self.drive.contact.foundation.spring_stiffness();
         let sign = match stage.direction {
@@ -301,7 +301,7 @@ impl RelaxingBody {
     }
 
     /// Returns the displacement of the drive in m at which the motion certainly ends.
-    fn end_of_drive(&self, stage: &Stage) -> Option<f64> {
+    fn end_of_drive(&self, stage: &Course) -> Option<f64> {
         match stage.goal {
             Goal::Displacement(end) => Some(end),
             Goal::Indentation(end) if self.drive.instrument.is_infinite() => Some(end),
@@ -312,7 +312,7 @@ impl RelaxingBody {
     /// Ends a motion at the goal, which the state with the index `index` is the first to pass.
     fn stop_at(
         &mut self,
-        stage: &Stage,
+        stage: &Course,
         states: &mut Vec<State>,
         index: usize,
         moments: usize,
@@ -352,10 +352,10 @@ impl RelaxingBody {
     }
 
     /// Keeps the drive in place for a time in s.
-    fn hold(&mut self, target: Move, seconds: f64) -> Result<LegRecord, ContactError> {
+    fn hold(&mut self, target: Move, seconds: f64) -> Result<StageRecord, ContactError> {
         check_hold(seconds)?;
         if self.state.is_separated() || seconds == 0.0 {
-            return Ok(LegRecord::still(target, self.point()));
+            return Ok(StageRecord::still(target, self.point()));
         }
         let mut states = vec![self.state.clone()];
         let step = Step {
@@ -381,12 +381,12 @@ impl RelaxingBody {
         target: Move,
         direction: Direction,
         states: Vec<State>,
-    ) -> Result<LegRecord, ContactError> {
+    ) -> Result<StageRecord, ContactError> {
         let curve: Vec<CurvePoint> = states.iter().map(|state| self.point_of(state)).collect();
-        let mut record = LegRecord {
+        let mut record = StageRecord {
             direction,
             seconds: states.iter().map(|state| state.seconds).collect(),
-            ..LegRecord::still(target, curve[0])
+            ..StageRecord::still(target, curve[0])
         };
         record.dashpot_energy = self.dashpot_energy(&states);
         let mut work = 0.0;
@@ -442,14 +442,14 @@ impl RelaxingBody {
         let deepest = states.iter().map(|state| state.deepest);
         let deepest = deepest.fold(f64::NEG_INFINITY, f64::max);
         states.iter().any(|state| !state.is_separated())
-            && self.drive.approach.leg.reaches_ends(deepest)
+            && self.drive.approach.stage.reaches_ends(deepest)
     }
 
     /// Returns the patches in contact, from left to right.
     pub fn patches(&self) -> Vec<Patch> {
         let mut patches = match &self.state.phase {
             Phase::Apart => Vec::new(),
-            Phase::Deepest => self.drive.approach.leg.patches(self.state.deepest),
+            Phase::Deepest => self.drive.approach.stage.patches(self.state.deepest),
             Phase::Turned(turned) => {
                 let patches = turned.patches.iter();
                 patches.map(StretchedPatch::range).collect()
@@ -477,7 +477,7 @@ impl RelaxingBody {
 }
 
 /// Returns true if a motion to a force ends because the contact is lost.
-fn is_lost(stage: &Stage, reached: &State) -> bool {
+fn is_lost(stage: &Course, reached: &State) -> bool {
     matches!(stage.goal, Goal::Force(_))
         && stage.direction == Direction::Unloading
         && reached.is_separated()

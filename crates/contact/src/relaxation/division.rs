@@ -4,7 +4,7 @@
 use crate::contact::Contact;
 use crate::error::ContactError;
 use crate::history::Patch;
-use crate::leg::Leg;
+use crate::stage::Stage;
 use asperity_data::resized;
 
 /// Number of springs from which on a profile is not divided.
@@ -16,7 +16,7 @@ pub struct Division {
     parts: usize,
     springs: usize,
     /// Elastic approach of the profile before the division.
-    coarse: Leg,
+    coarse: Stage,
 }
 
 impl Division {
@@ -34,7 +34,7 @@ impl Division {
         let division = Division {
             parts,
             springs,
-            coarse: Leg::approach(contact)?,
+            coarse: Stage::approach(contact)?,
         };
         let divided = contact.with_profile(contact.profile.divided(gaps, parts)?);
         Ok(Some((division, divided)))

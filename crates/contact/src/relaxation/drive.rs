@@ -275,7 +275,7 @@ impl Drive {
             Some(known) if known.moments == moments => known,
             _ => {
                 let (line, patches) = Line::new(&Turn {
-                    leg: &self.approach.leg,
+                    stage: &self.approach.stage,
                     relaxation: self.relaxation,
                     history: &self.history,
                     deepest: from.deepest,

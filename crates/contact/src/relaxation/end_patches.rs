@@ -8,7 +8,7 @@ use super::state::{Load, Phase, State};
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::history::{Direction, Patch};
-use crate::leg::PatchState;
+use crate::stage::PatchState;
 
 impl Drive {
     /// Returns the states of the patches in contact, from left to right.
@@ -17,7 +17,7 @@ impl Drive {
             Phase::Apart => Ok(Vec::new()),
             Phase::Deepest => {
                 let (line, patches) = Line::new(&Turn {
-                    leg: &self.approach.leg,
+                    stage: &self.approach.stage,
                     relaxation: self.relaxation,
                     history: &self.history,
                     deepest: state.deepest,

@@ -8,7 +8,7 @@ use super::patch::{Edge, StretchedPatch};
 use super::peaks::{Bound, Peak, PeakTree, bound_of};
 use crate::error::ContactError;
 use crate::history::Patch;
-use crate::leg::Leg;
+use crate::stage::Stage;
 use asperity_data::{gathered, resized};
 use std::ops::RangeInclusive;
 
@@ -29,7 +29,7 @@ pub struct Line {
 #[derive(Clone, Copy)]
 pub struct Turn<'a> {
     /// The elastic approach, which the relaxing contact shares.
-    pub leg: &'a Leg,
+    pub stage: &'a Stage,
     pub relaxation: Relaxation,
     pub history: &'a History,
     /// Largest indentation in m that the body has reached.
@@ -61,7 +61,7 @@ impl Turn<'_> {
                 outer: inner,
             };
         };
-        let gap = self.leg.contact().gaps()[outside];
+        let gap = self.stage.contact().gaps()[outside];
         let height = gap - inner.gap;
         let share = ((level - inner.gap) / height).clamp(0.0, 1.0);
         if !(share > 0.0) {
@@ -86,10 +86,10 @@ impl Turn<'_> {
 impl Line {
     /// Computes the memories of all springs in contact, and lists the patches.
     pub fn new(turn: &Turn<'_>) -> Result<(Self, Vec<StretchedPatch>), ContactError> {
-        let gaps = turn.leg.contact().gaps();
+        let gaps = turn.stage.contact().gaps();
         let remaining = turn.relaxation.remaining_share();
         let mut springs = resized(Vec::new(), gaps.len(), Spring::default())?;
-        let thresholds = turn.leg.thresholds();
+        let thresholds = turn.stage.thresholds();
         for (index, spring) in springs.iter_mut().enumerate() {
             let threshold = thresholds[index];
             if threshold <= turn.deepest {
@@ -112,7 +112,7 @@ impl Line {
             remaining,
             turned_at: turn.seconds,
         };
-        let states = turn.leg.patch_states(turn.deepest);
+        let states = turn.stage.patch_states(turn.deepest);
         let mut patches = Vec::with_capacity(states.len());
         for state in &states {
             let Patch { first, last } = state.springs;

@@ -145,7 +145,7 @@ impl State {
             force: stiffness * load.force(remaining),
             contact_length: foundation.contact_length(load.length),
             springs: load.springs,
-            fragments: load.patches,
+            patches: load.patches,
             stored_energy: 0.5 * stiffness * squares,
         }
     }

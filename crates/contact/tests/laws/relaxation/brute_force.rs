@@ -61,7 +61,7 @@ pub fn relaxing(body: &Body, motion: &Motion) -> Contact {
 
 /// Solver and brute force along the motion of one case.
 struct Compared {
-    records: [LegRecord; 3],
+    records: [StageRecord; 3],
     found: Vec<Found>,
     springs_released: f64,
     springs_dissipated: f64,
@@ -109,7 +109,7 @@ fn compared(number: u64, pulls: u32, tolerance: f64) -> Compared {
         records,
         springs_released: springs.released,
         springs_dissipated: springs.dissipated,
-        gained: Leg::approach(&contact).unwrap().released_energy(-1.0, motion.deepest),
+        gained: Stage::approach(&contact).unwrap().released_energy(-1.0, motion.deepest),
         scale,
         found,
     }
@@ -144,7 +144,7 @@ fn deviation(compared: &Compared) -> f64 {
 
 /// Deviations of the energies of dashpots and of detachment, as shares of the work of the loop.
 fn energy_deviations(compared: &Compared) -> [f64; 2] {
-    let of = |energy: fn(&LegRecord) -> f64| compared.records.iter().map(energy).sum::<f64>();
+    let of = |energy: fn(&StageRecord) -> f64| compared.records.iter().map(energy).sum::<f64>();
     let dashpots = of(|record| record.dashpot_energy);
     let released = of(|record| record.released_energy);
     let work = dashpots + released;
