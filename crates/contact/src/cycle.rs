@@ -234,7 +234,7 @@ impl Contact {
             return Err(ContactError::Interrupted);
         }
         if self.relaxing().is_some() {
-            return self.load_relaxing(stages, &mut may_begin);
+            return self.load_relaxing(stages, indentations, &mut may_begin);
         }
         let mut body = Body::new(self, samples as usize);
         let mut points = Vec::with_capacity(stages.len());
@@ -262,26 +262,23 @@ impl Contact {
     fn load_relaxing(
         &self,
         stages: &[Move],
+        indentations: &[f64],
         may_begin: &mut dyn FnMut(usize) -> bool,
     ) -> Result<Cycle, ContactError> {
         let mut body = RelaxingBody::new(self)?;
-        let mut history = History::default();
-        for (index, &target) in stages.iter().enumerate() {
-            if index > 0 && !may_begin(index) {
+        let mut points = Vec::with_capacity(stages.len());
+        let history = load_body(&mut body, stages, |record, _| {
+            points.push(record.points_at(indentations));
+            if points.len() < stages.len() && !may_begin(points.len()) {
                 return Err(ContactError::Interrupted);
             }
-            let record = body
-                .advance(target)
-                .map_err(|reason| reason.in_stage(index, target))?;
-            history.stages.push(record);
-        }
-        history.contacts = body.patches();
-        history.work = body.work();
+            Ok(())
+        })?;
         Ok(Cycle {
             figures: Figures::of(&history),
             history,
-            points: Vec::new(),
-            stage: body.approach().clone(),
+            points,
+            stage: body.stage(),
             relaxed_patches: Some(body.patch_states()?),
         })
     }
@@ -319,6 +316,9 @@ impl Contact {
         ends: &[Move],
         indentations: &[f64],
     ) -> Result<Vec<Reversal>, ContactError> {
+        if self.relaxing().is_some() {
+            return Err(ContactError::NotElastic);
+        }
         check_targets(ends)?;
         check_ascending(indentations)?;
         let mut reversals: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());

@@ -199,6 +199,23 @@ impl StageRecord {
         springs.max().unwrap_or(0)
     }
 
+    /// Returns points of the force curve at ascending indentations in m, by interpolation between
+    /// the points of the curve. Indentations that the stage does not pass are left out.
+    pub(super) fn points_at(&self, indentations: &[f64]) -> Vec<CurvePoint> {
+        let mut found = Vec::new();
+        for &indentation in indentations {
+            let passes = |pair: &&[CurvePoint]| {
+                let low = pair[0].indentation.min(pair[1].indentation);
+                let high = pair[0].indentation.max(pair[1].indentation);
+                low <= indentation && indentation <= high
+            };
+            if let Some(pair) = self.curve.windows(2).find(passes) {
+                found.push(pair[0].between(&pair[1], indentation));
+            }
+        }
+        found
+    }
+
     /// Returns the energy in J that the contact dissipates in this stage: the released energy, and
     /// the energy that relaxation dissipates.
     pub fn dissipated_energy(&self) -> f64 {
@@ -381,6 +398,24 @@ impl CurvePoint {
         }
     }
 
+    /// Returns the point at an indentation in m between this point and `other`, by interpolation.
+    pub(crate) fn between(&self, other: &CurvePoint, indentation: f64) -> Self {
+        let way = other.indentation - self.indentation;
+        if way == 0.0 {
+            return *other;
+        }
+        let share = (indentation - self.indentation) / way;
+        let between = |from: f64, to: f64| from + share * (to - from);
+        let nearest = if share < 0.5 { self } else { other };
+        CurvePoint {
+            indentation,
+            force: between(self.force, other.force),
+            contact_length: between(self.contact_length, other.contact_length),
+            stored_energy: between(self.stored_energy, other.stored_energy),
+            ..*nearest
+        }
+    }
+
     /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
     /// at this point of the force curve. k = `stiffness` is the stiffness of the instrument in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
@@ -417,6 +452,16 @@ impl Patch {
     /// middle, returns the left one.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
+    }
+
+    /// Returns one value for each of `springs` springs: true if the spring belongs to one of the
+    /// patches.
+    pub(super) fn of_ranges(patches: &[Patch], springs: usize) -> Vec<bool> {
+        let mut contact = vec![false; springs];
+        for patch in patches {
+            contact[patch.springs()].fill(true);
+        }
+        contact
     }
 
     /// Returns the contact patches from left to right. `contact` has one value for each spring,

@@ -5,6 +5,7 @@ use super::drive::Drive;
 use super::loading::Step;
 use super::memory::Moment;
 use super::patch::StretchedPatch;
+use super::recorder::Recorder;
 use super::state::{Phase, State};
 use crate::contact::Contact;
 use crate::detachment::DetachmentRule;
@@ -12,13 +13,15 @@ use crate::error::ContactError;
 use crate::history::{
     CurvePoint, Direction, Goal, StageRecord, Patch, Work, check_hold, plan,
 };
-use crate::stage::{Stage, PatchState};
+use crate::moving_body::MovingBody;
+use crate::stage::{PatchState, Stage};
 use crate::target::Move;
 
 /// Number of steps of a stage before they are divided.
 const STEPS: usize = 48;
-/// Largest number of states of one stage.
-const MOST_STATES: usize = 1 << 22;
+/// Largest number of steps of one stage. The length of steps is doubled again and again, so that
+/// no target within reach needs as many.
+const MOST_STEPS: usize = 1 << 12;
 /// Share of the largest force by which forces may deviate because of the steps.
 const TOLERANCE: f64 = 1e-3;
 
@@ -31,6 +34,10 @@ pub struct RelaxingBody {
     speed: f64,
     tolerance: f64,
     work: Work,
+    /// The profile before its division.
+    contact: Contact,
+    /// The springs in contact on the last stage.
+    stage: Stage,
 }
 
 /// A motion to a target.
@@ -71,6 +78,8 @@ impl RelaxingBody {
                 springs: contact.gaps().len() as u64,
                 ..Work::default()
             },
+            contact: contact.clone(),
+            stage: Stage::apart(contact, Direction::Unloading),
         })
     }
 
@@ -90,18 +99,6 @@ impl RelaxingBody {
         self.state.seconds
     }
 
-    /// Returns counts of the computing work.
-    pub fn work(&self) -> Work {
-        Work {
-            steps: self.drive.steps,
-            ..self.work
-        }
-    }
-
-    /// Returns the elastic approach, from which the relaxing contact takes its springs in contact.
-    pub fn approach(&self) -> &Stage {
-        &self.drive.approach.stage
-    }
 
     fn point_of(&self, state: &State) -> CurvePoint {
         let foundation = self.drive.contact.foundation;
@@ -124,13 +121,7 @@ impl RelaxingBody {
         point
     }
 
-    /// Moves the body to a target and returns the record of the stage.
-    ///
-    /// # Errors
-    /// Returns an error for a target that the contact cannot reach, and
-    /// [`ContactError::NotRecovered`] for a loading after springs have detached. The body then stays
-    /// in place.
-    pub fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
+    fn advance_or_stay(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         let before = self.state.clone();
         let moments = self.drive.history.len();
         let largest_force = self.drive.largest_force;
@@ -160,6 +151,7 @@ impl RelaxingBody {
         {
             return Ok(StageRecord::free(target, self.state.indentation, end));
         }
+        let mut recorder = Recorder::new(self.contact.gaps().len());
         let mut states = vec![self.state.clone()];
         if self.state.is_separated() {
             self.touch(&mut states)?;
@@ -170,8 +162,8 @@ impl RelaxingBody {
             goal,
             step,
         };
-        self.run(&stage, &mut states)?;
-        self.finish(target, direction, states)
+        self.run(&stage, &mut states, &mut recorder)?;
+        self.finish(target, direction, states, recorder)
     }
 
     /// Lets the body touch, at the displacement zero of the drive.
@@ -242,7 +234,12 @@ impl RelaxingBody {
     }
 
     /// Moves the drive until the goal is reached.
-    fn run(&mut self, stage: &Course, states: &mut Vec<State>) -> Result<(), ContactError> {
+    fn run(
+        &mut self,
+        stage: &Course,
+        states: &mut Vec<State>,
+        recorder: &mut Recorder,
+    ) -> Result<(), ContactError> {
         let remaining = self.drive.remaining();
         let spring = self.drive.contact.foundation.spring_stiffness();
         let sign = match stage.direction {
@@ -288,10 +285,11 @@ impl RelaxingBody {
                 goal_value(state) >= 0.0 || (state.is_separated() && !separates)
             });
             if let Some(index) = reached {
-                return self.stop_at(stage, states, index, moments, &goal_value);
+                return self.stop_at(stage, states, index, moments, &goal_value, recorder);
             }
+            self.record_all_but_last(states, recorder);
             steps += 1;
-            if states.len() > MOST_STATES {
+            if steps > MOST_STEPS {
                 return Err(ContactError::OutOfReach);
             }
             if steps % (STEPS / 2) == 0 && end_of_drive.is_none() {
@@ -317,6 +315,7 @@ impl RelaxingBody {
         index: usize,
         moments: usize,
         goal_value: &dyn Fn(&State) -> f64,
+        recorder: &Recorder,
     ) -> Result<(), ContactError> {
         let reached = states[index].clone();
         states.truncate(index);
@@ -328,7 +327,7 @@ impl RelaxingBody {
                 let smallest = forces.fold(f64::INFINITY, f64::min);
                 let spring = self.drive.contact.foundation.spring_stiffness();
                 return Err(ContactError::DetachesBefore {
-                    smallest: spring * smallest,
+                    smallest: recorder.smallest_force().min(spring * smallest),
                 });
             }
             states.push(reached);
@@ -345,6 +344,14 @@ impl RelaxingBody {
             reached
         } else {
             self.drive.reach(&from, reached, goal_value)?
+        };
+        let state = match stage.goal {
+            // The search ends at the indentation to rounding.
+            Goal::Indentation(indentation) => State {
+                indentation,
+                ..state
+            },
+            _ => state,
         };
         self.drive.remember(&from, &state);
         states.push(state);
@@ -363,93 +370,108 @@ impl RelaxingBody {
             seconds: seconds / STEPS as f64,
         };
         let tolerance = self.tolerance * self.drive.largest_force;
+        let mut recorder = Recorder::new(self.contact.gaps().len());
         for _ in 0..STEPS {
             self.drive.step(&mut states, step, tolerance)?;
+            self.record_all_but_last(&mut states, &mut recorder);
         }
-        let last = states.len() - 1;
-        let direction = if states[last].indentation < states[0].indentation {
+        let falls = states
+            .last()
+            .is_some_and(|last| last.indentation < self.state.indentation);
+        let direction = if falls {
             Direction::Unloading
         } else {
             Direction::Loading
         };
-        self.finish(target, direction, states)
+        self.finish(target, direction, states, recorder)
     }
 
-    /// Moves the body to the last one of `states`, and records the stage.
+    /// Records all states but the last one, from which the motion goes on.
+    fn record_all_but_last(&self, states: &mut Vec<State>, recorder: &mut Recorder) {
+        let kept = states.len() - 1;
+        for state in states.drain(..kept) {
+            self.record(&state, recorder);
+        }
+    }
+
+    fn record(&self, state: &State, recorder: &mut Recorder) {
+        let patches = match &state.phase {
+            Phase::Turned(_) => Some(self.patches_of(state)),
+            Phase::Apart | Phase::Deepest => None,
+        };
+        recorder.add(state, self.point_of(state), patches);
+    }
+
+    /// Moves the body to the last one of `states`, and returns the record of the stage.
     fn finish(
         &mut self,
         target: Move,
         direction: Direction,
         states: Vec<State>,
+        mut recorder: Recorder,
     ) -> Result<StageRecord, ContactError> {
-        let curve: Vec<CurvePoint> = states.iter().map(|state| self.point_of(state)).collect();
-        let mut record = StageRecord {
-            direction,
-            seconds: states.iter().map(|state| state.seconds).collect(),
-            ..StageRecord::still(target, curve[0])
-        };
-        record.dashpot_energy = self.dashpot_energy(&states);
-        let mut work = 0.0;
-        for (pair, points) in states.windows(2).zip(curve.windows(2)) {
-            let force = 0.5 * (points[0].force + points[1].force);
-            work += force * (pair[1].drive - pair[0].drive);
-            let attached = points[1].springs.saturating_sub(points[0].springs);
-            let detached = points[0].springs.saturating_sub(points[1].springs);
-            record.attached += attached;
-            record.detached += detached;
+        for state in &states {
+            self.record(state, &mut recorder);
         }
-        for &point in &curve {
-            if point.force > record.largest.force {
-                record.largest = point;
-            }
-            if point.force < record.smallest.force {
-                record.smallest = point;
-            }
-        }
-        let first = curve[0];
-        let last = curve[curve.len() - 1];
-        let bent = |point: CurvePoint| {
-            0.5 * point.force * (point.force / self.drive.contact.loading_stiffness)
+        let Some(last) = states.into_iter().next_back() else {
+            return Ok(StageRecord::still(target, self.point()));
         };
-        let stored = (last.stored_energy + bent(last)) - (first.stored_energy + bent(first));
-        record.released_energy = work - stored - record.dashpot_energy;
-        record.reaches_ends = self.reaches_ends(&states);
-        record.curve = curve;
+        self.stage = self.stage_of(direction, &last, &recorder)?;
+        let relaxation = self.drive.relaxation;
+        let mut record = recorder.record(&self.drive.contact, relaxation, target, direction);
+        record.reaches_ends = record.most_springs() > 0
+            && self.drive.approach.stage.reaches_ends(last.deepest);
         self.work.count(&record);
-        if let Some(last) = states.into_iter().next_back() {
-            self.state = last;
-        }
-        if self.state.is_separated() && !matches!(self.state.phase, Phase::Apart) {
+        self.state = last;
+        if self.state.is_separated() {
             self.state.indentation = self.state.drive;
         }
         Ok(record)
     }
 
-    /// Returns the energy in J that the dashpots dissipate between the first and the last state.
-    fn dashpot_energy(&self, states: &[State]) -> f64 {
-        let share = self.drive.relaxation.share();
-        let rate = share * self.drive.contact.foundation.spring_stiffness()
-            / self.drive.relaxation.time();
-        let mut energy = 0.0;
-        for pair in states.windows(2) {
-            let mean = 0.5 * (pair[0].load.fresh_squares + pair[1].load.fresh_squares);
-            energy += rate * mean * (pair[1].seconds - pair[0].seconds);
+    /// Returns the springs in contact at each indentation of a stage that ends in the state `last`.
+    fn stage_of(
+        &self,
+        direction: Direction,
+        last: &State,
+        recorder: &Recorder,
+    ) -> Result<Stage, ContactError> {
+        let approach = match &self.division {
+            Some(division) => division.approach(),
+            None => &self.drive.approach.stage,
+        };
+        let in_contact_before = |threshold: f64| {
+            let has_touched = !matches!(self.state.phase, Phase::Apart);
+            has_touched && threshold <= self.state.deepest
+        };
+        let mut thresholds = approach.thresholds();
+        let patches_before = Patch::of_ranges(&self.patches(), thresholds.len());
+        for (spring, threshold) in thresholds.iter_mut().enumerate() {
+            let detached_at = recorder.detached_at()[spring];
+            let attached_at = *threshold;
+            *threshold = if detached_at < f64::INFINITY {
+                detached_at
+            } else if patches_before[spring] {
+                f64::NEG_INFINITY
+            } else if in_contact_before(attached_at) || attached_at > last.deepest {
+                f64::INFINITY
+            } else {
+                attached_at
+            };
         }
-        energy
-    }
-
-    fn reaches_ends(&self, states: &[State]) -> bool {
-        let deepest = states.iter().map(|state| state.deepest);
-        let deepest = deepest.fold(f64::NEG_INFINITY, f64::max);
-        states.iter().any(|state| !state.is_separated())
-            && self.drive.approach.stage.reaches_ends(deepest)
+        let end = last.indentation;
+        Ok(Stage::of_thresholds(&self.contact, direction, end, thresholds))
     }
 
     /// Returns the patches in contact, from left to right.
     pub fn patches(&self) -> Vec<Patch> {
-        let mut patches = match &self.state.phase {
+        self.patches_of(&self.state)
+    }
+
+    fn patches_of(&self, state: &State) -> Vec<Patch> {
+        let mut patches = match &state.phase {
             Phase::Apart => Vec::new(),
-            Phase::Deepest => self.drive.approach.stage.patches(self.state.deepest),
+            Phase::Deepest => self.drive.approach.stage.patches(state.deepest),
             Phase::Turned(turned) => {
                 let patches = turned.patches.iter();
                 patches.map(StretchedPatch::range).collect()
@@ -481,4 +503,33 @@ fn is_lost(stage: &Course, reached: &State) -> bool {
     matches!(stage.goal, Goal::Force(_))
         && stage.direction == Direction::Unloading
         && reached.is_separated()
+}
+
+impl MovingBody for RelaxingBody {
+    /// Moves the body to a target and returns the record of the stage.
+    ///
+    /// # Errors
+    /// Returns an error for a target that the contact cannot reach, and
+    /// [`ContactError::NotRecovered`] for a loading after springs have detached. The body then stays
+    /// in place.
+    fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
+        self.advance_or_stay(target)
+    }
+
+    /// Returns the springs in contact at each indentation of the last stage. As with the stepwise
+    /// solver they are whole springs, and the forces of this [`Stage`] are without relaxation.
+    fn stage(&self) -> Stage {
+        self.stage.clone()
+    }
+
+    fn work(&self) -> Work {
+        Work {
+            steps: self.drive.steps,
+            ..self.work
+        }
+    }
+
+    fn curve_seconds(&self) -> f64 {
+        0.0
+    }
 }

@@ -40,6 +40,11 @@ impl Division {
         Ok(Some((division, divided)))
     }
 
+    /// Returns the elastic approach of the profile before the division.
+    pub fn approach(&self) -> &Stage {
+        &self.coarse
+    }
+
     /// Returns the number of springs that are in contact on the approach at an indentation in m.
     pub fn springs_of_approach(&self, indentation: f64) -> Result<u64, ContactError> {
         let state = self.coarse.state(indentation)?;

@@ -48,6 +48,7 @@ mod loading;
 mod memory;
 mod patch;
 mod peaks;
+mod recorder;
 mod state;
 
 pub use body::RelaxingBody;
