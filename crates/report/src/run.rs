@@ -221,7 +221,11 @@ impl<'a> RunJson<'a> {
 
 /// Returns the energy in J that relaxation dissipates; `None` without relaxation.
 fn relaxation_energy(scene: &Scene, outcome: &Outcome) -> Option<f64> {
-    let energies = outcome.history.stages.iter().map(|stage| stage.dashpot_energy);
+    let energies = outcome
+        .history
+        .stages
+        .iter()
+        .map(|stage| stage.dashpot_energy);
     scene.relaxes().then(|| energies.sum())
 }
 
