@@ -63,8 +63,11 @@ impl Turn<'_> {
         };
         let gap = self.stage.contact().gaps()[outside];
         let height = gap - inner.gap;
-        let share = ((level - inner.gap) / height).clamp(0.0, 1.0);
-        if !(share > 0.0) {
+        let mut share = 0.0;
+        if height > 0.0 {
+            share = ((level - inner.gap) / height).clamp(0.0, 1.0);
+        }
+        if share == 0.0 {
             return Edge {
                 spring: inside,
                 share: 0.0,

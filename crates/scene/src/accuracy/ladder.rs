@@ -238,6 +238,9 @@ impl Ladder<'_> {
             (Knob::SubCellSprings, Edges::SubCell),
             (Knob::GridSprings, Edges::Grid),
         ] {
+            if self.scene.relaxes() && edges == Edges::Grid {
+                continue;
+            }
             if let Ok(scene) = refined(self.scene, points, edges) {
                 settings.push(Setting {
                     knob,

@@ -190,7 +190,12 @@ pub(super) fn refined(
 ) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| {
         scene.numerics.points = points;
-        scene.numerics.edges = edges;
+        // Relaxation needs edges between springs.
+        scene.numerics.edges = if scene.relaxes() {
+            Edges::SubCell
+        } else {
+            edges
+        };
         scene.numerics.solver = Solver::Exact;
     })
 }
@@ -315,7 +320,7 @@ fn longest_contact(outcome: &Outcome) -> f64 {
 /// * the profile is longer than the contact.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
-    if scene.roughness.is_some() {
+    if scene.roughness.is_some() || scene.relaxes() {
         return None;
     }
     let limits = Limits::of(scene, outcome, work)?;
