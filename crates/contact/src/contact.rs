@@ -9,7 +9,7 @@ use super::foundation::Foundation;
 use super::history::{CurvePoint, Patch};
 use super::modulus::Modulus;
 use super::profile::Profile;
-use super::relaxation::Relaxation;
+use super::relaxation::law::Relaxation;
 use std::sync::{Arc, OnceLock};
 
 /// A rigid profile on an elastic half-space, with or without adhesion.

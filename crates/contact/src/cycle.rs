@@ -9,7 +9,7 @@ use super::figures::Figures;
 use super::history::{CurvePoint, History, StageRecord};
 use super::moving_body::{MovingBody, load_body};
 use super::profile::Profile;
-use super::relaxation::RelaxingBody;
+use super::relaxation::body::RelaxingBody;
 use super::stage::{PatchState, Stage};
 use super::target::Move;
 use asperity_data::Warning;

@@ -144,7 +144,8 @@ impl<'p> Recorder<'p> {
         let mut records = Vec::with_capacity(cells);
         for (loading, cell) in loadings.into_iter().zip(streak.cells.clone()) {
             let mut smooth = None;
-            if needs_touch_regime || needs_regime {
+            // The smooth body is computed as an elastic one.
+            if (needs_touch_regime || needs_regime) && !scene.relaxes() {
                 let figures = &loading.figures;
                 let simulation = &mut self.simulation;
                 smooth = simulation.smooth_pull_off_force(&scene, &governing, figures)?;

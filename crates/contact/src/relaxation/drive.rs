@@ -1,13 +1,14 @@
 //! Steps of the motion: the body moves by a step of the indentation, or the drive of an instrument
 //! moves by a step of its displacement.
 
-use super::Relaxation;
 use super::approach::Approach;
 use super::field::Field;
-use super::line::{Line, Turn};
+use super::law::Relaxation;
+use super::line::Line;
 use super::memory::{History, Moment, Ramp};
 use super::patch::StretchedPatch;
 use super::state::{Load, Phase, State, Turned};
+use super::turn::Turn;
 use crate::contact::Contact;
 use crate::detachment::{ContactRule, DetachmentRule};
 use crate::error::ContactError;
@@ -264,13 +265,14 @@ impl Drive {
         let known = match self.turned.take() {
             Some(known) if known.moments == moments => known,
             _ => {
-                let (line, patches) = Line::new(&Turn {
+                let (line, patches) = Turn {
                     stage: &self.approach.stage,
                     relaxation: self.relaxation,
                     history: &self.history,
                     deepest: from.deepest,
                     seconds: from.seconds,
-                })?;
+                }
+                .memories()?;
                 KnownTurn {
                     moments,
                     line: Arc::new(line),

@@ -2,9 +2,10 @@
 
 use super::drive::Drive;
 use super::field::Field;
-use super::line::{Line, Turn};
+use super::line::Line;
 use super::patch::StretchedPatch;
 use super::state::{Load, Phase, State};
+use super::turn::Turn;
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::history::{Direction, Patch};
@@ -16,13 +17,14 @@ impl Drive {
         match &state.phase {
             Phase::Apart => Ok(Vec::new()),
             Phase::Deepest => {
-                let (line, patches) = Line::new(&Turn {
+                let (line, patches) = Turn {
                     stage: &self.approach.stage,
                     relaxation: self.relaxation,
                     history: &self.history,
                     deepest: state.deepest,
                     seconds: state.seconds,
-                })?;
+                }
+                .memories()?;
                 Ok(self.states_of(&line, &patches, state))
             }
             Phase::Turned(turned) => Ok(self.states_of(&turned.line, &turned.patches, state)),

@@ -1,15 +1,9 @@
-//! The memories of all springs that are in contact when the body turns, and the patches at this
-//! moment.
+//! The memories of all springs that are in contact when the body turns.
 
-use super::Relaxation;
 use super::field::{Field, Spring, Sums};
-use super::memory::History;
-use super::patch::{Edge, StretchedPatch};
 use super::peaks::{Bound, Peak, PeakTree, bound_of};
 use crate::error::ContactError;
-use crate::history::Patch;
-use crate::stage::Stage;
-use asperity_data::{gathered, resized};
+use asperity_data::gathered;
 use std::ops::RangeInclusive;
 
 /// The profile with the memory of each spring that was in contact when the body turned.
@@ -25,108 +19,30 @@ pub struct Line {
     pub turned_at: f64,
 }
 
-/// The moment at which the body turns, and how it came there.
-#[derive(Clone, Copy)]
-pub struct Turn<'a> {
-    /// The elastic approach, which the relaxing contact shares.
-    pub stage: &'a Stage,
-    pub relaxation: Relaxation,
-    pub history: &'a History,
-    /// Largest indentation in m that the body has reached.
-    pub deepest: f64,
-    /// Time in s.
-    pub seconds: f64,
-}
-
-impl Turn<'_> {
-    /// Returns a place that attached at the indentation `threshold` in m, with its memory at the
-    /// time of the turn.
-    fn spring(&self, gap: f64, threshold: f64) -> Spring {
-        let attached = self.history.first_at(self.relaxation, threshold);
-        let age = (self.seconds - attached.seconds) / self.relaxation.time();
-        Spring {
-            gap,
-            memory: (threshold - gap - attached.memory) * (-age).exp(),
-        }
-    }
-
-    /// Returns the edge of a patch at the gap `level` in m. `inside` is the outermost spring of the
-    /// patch on this side, and `outside` the first spring beyond; `None` at the end of the profile.
-    fn edge(&self, line: &Line, inside: usize, outside: Option<usize>, level: f64) -> Edge {
-        let inner = line.springs[inside];
-        let Some(outside) = outside else {
-            return Edge {
-                spring: inside,
-                share: 0.5,
-                outer: inner,
-            };
-        };
-        let gap = self.stage.contact().gaps()[outside];
-        let height = gap - inner.gap;
-        let mut share = 0.0;
-        if height > 0.0 {
-            share = ((level - inner.gap) / height).clamp(0.0, 1.0);
-        }
-        if share == 0.0 {
-            return Edge {
-                spring: inside,
-                share: 0.0,
-                outer: inner,
-            };
-        }
-        let edge = self.spring(level.min(gap), self.deepest);
-        // The memory is straight from the spring to the edge, and the first spring beyond the edge
-        // is given the memory to which this straight line leads.
-        let memory = inner.memory + (edge.memory - inner.memory) / share;
-        Edge {
-            spring: inside,
-            share,
-            outer: Spring { gap, memory },
-        }
-    }
-}
-
 impl Line {
-    /// Computes the memories of all springs in contact, and lists the patches.
-    pub fn new(turn: &Turn<'_>) -> Result<(Self, Vec<StretchedPatch>), ContactError> {
-        let gaps = turn.stage.contact().gaps();
-        let remaining = turn.relaxation.remaining_share();
-        let mut springs = resized(Vec::new(), gaps.len(), Spring::default())?;
-        let thresholds = turn.stage.thresholds();
-        for (index, spring) in springs.iter_mut().enumerate() {
-            let threshold = thresholds[index];
-            if threshold <= turn.deepest {
-                *spring = turn.spring(gaps[index], threshold);
-            } else {
-                spring.gap = gaps[index];
-            }
-        }
-        let peaks = PeakTree::new(gaps.len(), |index| {
-            if thresholds[index] <= turn.deepest {
+    /// Creates the line. `springs` are the springs with their memories at the time `turned_at` in s.
+    /// `is_in_contact` is true for the index of a spring in contact, and `remaining` the share of
+    /// the modulus that remains.
+    pub fn new(
+        springs: Vec<Spring>,
+        is_in_contact: impl Fn(usize) -> bool,
+        remaining: f64,
+        turned_at: f64,
+    ) -> Result<Self, ContactError> {
+        let peaks = PeakTree::new(springs.len(), |index| {
+            if is_in_contact(index) {
                 bound_of(springs[index], remaining)
             } else {
                 Bound::NONE
             }
         })?;
-        let mut line = Line {
+        Ok(Line {
             sums: sums_before(&springs)?,
             springs,
             peaks,
             remaining,
-            turned_at: turn.seconds,
-        };
-        let states = turn.stage.patch_states(turn.deepest);
-        let mut patches = Vec::with_capacity(states.len());
-        for state in &states {
-            let Patch { first, last } = state.springs;
-            let level = state.most_stretched + turn.deepest;
-            let after = Some(last + 1).filter(|&next| next < gaps.len());
-            let left = turn.edge(&line, first, first.checked_sub(1), level);
-            let right = turn.edge(&line, last, after, level);
-            patches.push(StretchedPatch::new(&line, left, right));
-        }
-        line.springs.shrink_to_fit();
-        Ok((line, patches))
+            turned_at,
+        })
     }
 
     #[inline]

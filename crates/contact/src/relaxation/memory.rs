@@ -1,7 +1,7 @@
 //! The common memory J of all springs, and the history of the approach, from which each spring
 //! takes the time at which it attached.
 
-use super::Relaxation;
+use super::law::Relaxation;
 
 /// Lengths of time relative to the relaxation time, below which (1 − e^(−x))/x is computed as 1.
 const AT_ONCE: f64 = 1e-300;

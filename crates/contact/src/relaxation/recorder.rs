@@ -1,6 +1,6 @@
 //! The record of a stage, made from the states of the body one after the other.
 
-use super::Relaxation;
+use super::law::Relaxation;
 use super::state::State;
 use crate::contact::Contact;
 use crate::history::{CurvePoint, Direction, Patch, StageRecord};

@@ -25,7 +25,7 @@ pub fn case(number: u64) -> (Body, Body, Motion) {
     let points = 20 + (180.0 * random(&mut seed)) as usize;
     let hurst = 0.2 + 0.7 * random(&mut seed);
     let gaps = from_lowest(&self_affine(hurst, number + 77, points));
-    let divided = 400_usize.div_ceil(points) | 1;
+    let divided = 800_usize.div_ceil(points) | 1;
     let fine = subdivided(&gaps, divided);
     let foundation = Foundation::new(1.0 / points as f64, 1.0);
     let fine_foundation = Foundation::new(1.0 / fine.len() as f64, 1.0);
@@ -210,7 +210,7 @@ fn judge(numbers: impl Iterator<Item = u64>) {
 
 #[test]
 fn a_few_rough_lines_agree_with_brute_force() {
-    judge((0..40).step_by(8));
+    judge((0..40).step_by(16));
 }
 
 #[test]
