@@ -1,25 +1,20 @@
 //! A body that moves at a speed over a relaxing foundation, from target to target.
 
+use super::course::{Course, STEPS};
 use super::division::Division;
 use super::drive::Drive;
 use super::loading::Step;
 use super::memory::Moment;
-use super::patch::StretchedPatch;
-use super::recorder::Recorder;
+use super::recorder::{Recorded, Recorder};
 use super::state::{Phase, State};
+use super::view::View;
 use crate::contact::Contact;
-use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::history::{CurvePoint, Direction, Goal, Patch, StageRecord, Work, check_hold, plan};
 use crate::moving_body::MovingBody;
 use crate::stage::{PatchState, Stage};
 use crate::target::Move;
 
-/// Number of steps of a stage before they are divided.
-const STEPS: usize = 48;
-/// Largest number of steps of one stage. The length of steps is doubled again and again, so that
-/// no target within reach needs as many.
-const MOST_STEPS: usize = 1 << 12;
 /// Share of the largest force by which forces may deviate because of the steps.
 const TOLERANCE: f64 = 1e-3;
 
@@ -36,14 +31,6 @@ pub struct RelaxingBody {
     contact: Contact,
     /// The springs in contact on the last stage.
     stage: Stage,
-}
-
-/// A motion to a target.
-struct Course {
-    direction: Direction,
-    goal: Goal,
-    /// Displacement in m by which the drive moves in a step; negative on unloading.
-    step: f64,
 }
 
 impl RelaxingBody {
@@ -89,7 +76,7 @@ impl RelaxingBody {
 
     /// Returns the present point of the force curve.
     pub fn point(&self) -> CurvePoint {
-        self.point_of(&self.state)
+        self.view().point(&self.state)
     }
 
     /// Returns the time in s since first touch.
@@ -97,25 +84,12 @@ impl RelaxingBody {
         self.state.seconds
     }
 
-    fn point_of(&self, state: &State) -> CurvePoint {
-        let foundation = self.drive.contact.foundation;
-        let mut point = state.point(foundation, self.drive.remaining());
-        let Some(division) = &self.division else {
-            return point;
-        };
-        // The division has further springs, which do not count.
-        point.springs = match &state.phase {
-            Phase::Apart => 0,
-            Phase::Deepest => division
-                .springs_of_approach(state.indentation)
-                .unwrap_or(point.springs),
-            Phase::Turned(turned) => {
-                let patches = turned.patches.iter();
-                let springs = patches.map(|patch| division.whole(patch.range()).springs().len());
-                springs.sum::<usize>() as u64
-            }
-        };
-        point
+    fn view(&self) -> View<'_> {
+        View {
+            foundation: self.drive.contact.foundation,
+            remaining: self.drive.remaining(),
+            division: self.division.as_ref(),
+        }
     }
 
     fn advance_or_stay(&mut self, target: Move) -> Result<StageRecord, ContactError> {
@@ -148,19 +122,23 @@ impl RelaxingBody {
         {
             return Ok(StageRecord::free(target, self.state.indentation, end));
         }
-        let mut recorder = Recorder::new(self.contact.gaps().len());
         let mut states = vec![self.state.clone()];
         if self.state.is_separated() {
             self.touch(&mut states)?;
         }
-        let step = self.step_of(direction, goal)?;
-        let stage = Course {
-            direction,
-            goal,
-            step,
+        let view = View {
+            foundation: self.drive.contact.foundation,
+            remaining: self.drive.remaining(),
+            division: self.division.as_ref(),
         };
-        self.run(&stage, &mut states, &mut recorder)?;
-        self.finish(target, direction, states, recorder)
+        let mut recorder = Recorder::new(view, self.contact.gaps().len());
+        let drive = &mut self.drive;
+        let mut course = Course::new(drive, &self.state, direction, goal, &mut self.work)?;
+        course.speed = self.speed;
+        course.tolerance = self.tolerance;
+        course.run(&mut states, &mut recorder)?;
+        let recorded = recorder.finish(&states);
+        self.finish(target, direction, states, recorded)
     }
 
     /// Lets the body touch, at the displacement zero of the drive.
@@ -182,180 +160,6 @@ impl RelaxingBody {
         Ok(())
     }
 
-    /// Returns the way of the drive in one step, and prepares the approach for the way.
-    fn step_of(&mut self, direction: Direction, goal: Goal) -> Result<f64, ContactError> {
-        let contact = &self.drive.contact;
-        let spring = contact.foundation.spring_stiffness();
-        if direction == Direction::Unloading {
-            let rule = contact.rules().rule(direction);
-            let load = &self.state.load;
-            let pulled = rule.largest_stretch(load.length);
-            let tension = load.length * pulled / self.drive.instrument;
-            let bent = self.state.drive - self.state.indentation;
-            let lowest = match goal {
-                Goal::Indentation(end) => end,
-                Goal::Displacement(end) => end - bent.max(0.0),
-                Goal::Force(_) | Goal::Separation(_) => -pulled,
-            };
-            let way = (self.state.indentation - lowest) + bent.max(0.0) + tension;
-            return Ok(-way / STEPS as f64);
-        }
-        let from = self.state.indentation.max(0.0);
-        let goal_of_elastic = match goal {
-            Goal::Displacement(end) if self.drive.instrument.is_infinite() => {
-                Goal::Indentation(end)
-            }
-            goal => goal,
-        };
-        let leg = &self.drive.approach.stage;
-        let (end, _) = leg.reach(goal_of_elastic, from.min(leg.end()), &mut self.work)?;
-        let elastic = leg.state(end)?;
-        self.drive.approach.prepare(end)?;
-        let force = elastic.compression.abs();
-        self.drive.largest_force = self.drive.largest_force.max(match goal {
-            Goal::Force(force) => force.abs() / spring,
-            _ => self.drive.remaining() * force,
-        });
-        let drive_end = match goal {
-            Goal::Displacement(end) => end,
-            _ => end + elastic.compression / self.drive.instrument,
-        };
-        let way = (drive_end - self.state.drive).max(end - self.state.indentation);
-        if way > 0.0 {
-            return Ok(way / STEPS as f64);
-        }
-        // The elastic contact is already at the goal, which the relaxed one has yet to reach.
-        let scale = self.state.drive.abs().max(self.state.indentation.abs());
-        let small = scale.max(contact.profile.deepest()).max(f64::MIN_POSITIVE);
-        Ok(small * 1e-3 / STEPS as f64)
-    }
-
-    /// Moves the drive until the goal is reached.
-    fn run(
-        &mut self,
-        stage: &Course,
-        states: &mut Vec<State>,
-        recorder: &mut Recorder,
-    ) -> Result<(), ContactError> {
-        let remaining = self.drive.remaining();
-        let spring = self.drive.contact.foundation.spring_stiffness();
-        let sign = match stage.direction {
-            Direction::Loading => 1.0,
-            Direction::Unloading => -1.0,
-        };
-        let separates = matches!(stage.goal, Goal::Separation(_));
-        let goal_value = move |state: &State| match stage.goal {
-            Goal::Force(force) => sign * (state.load.force(remaining) - force / spring),
-            Goal::Indentation(end) => sign * (state.indentation - end),
-            Goal::Displacement(end) => sign * (state.drive - end),
-            Goal::Separation(_) => {
-                if state.is_separated() {
-                    0.0
-                } else {
-                    -1.0
-                }
-            }
-        };
-        let end_of_drive = self.end_of_drive(stage);
-        let mut step = stage.step;
-        let mut steps = 0;
-        if states.last().is_some_and(|state| goal_value(state) >= 0.0) {
-            return Ok(());
-        }
-        loop {
-            let Some(from) = states.last() else {
-                return Ok(());
-            };
-            let mut drive = from.drive + step;
-            if let Some(end) = end_of_drive
-                && (end - drive) * sign <= 0.25 * step.abs()
-            {
-                drive = end;
-            }
-            let seconds = (drive - from.drive).abs() / self.speed;
-            let first_new = states.len();
-            let tolerance = self.tolerance * self.drive.largest_force;
-            let moments = self.drive.history.len();
-            self.drive
-                .step(states, Step { drive, seconds }, tolerance)?;
-            let reached = (first_new..states.len()).find(|&index| {
-                let state = &states[index];
-                goal_value(state) >= 0.0 || (state.is_separated() && !separates)
-            });
-            if let Some(index) = reached {
-                return self.stop_at(stage, states, index, moments, &goal_value, recorder);
-            }
-            self.record_all_but_last(states, recorder);
-            steps += 1;
-            if steps > MOST_STEPS {
-                return Err(ContactError::OutOfReach);
-            }
-            if steps % (STEPS / 2) == 0 && end_of_drive.is_none() {
-                step *= 2.0;
-            }
-        }
-    }
-
-    /// Returns the displacement of the drive in m at which the motion certainly ends.
-    fn end_of_drive(&self, stage: &Course) -> Option<f64> {
-        match stage.goal {
-            Goal::Displacement(end) => Some(end),
-            Goal::Indentation(end) if self.drive.instrument.is_infinite() => Some(end),
-            _ => None,
-        }
-    }
-
-    /// Ends a motion at the goal, which the state with the index `index` is the first to pass.
-    fn stop_at(
-        &mut self,
-        stage: &Course,
-        states: &mut Vec<State>,
-        index: usize,
-        moments: usize,
-        goal_value: &dyn Fn(&State) -> f64,
-        recorder: &Recorder,
-    ) -> Result<(), ContactError> {
-        let reached = states[index].clone();
-        states.truncate(index);
-        let from = states[index - 1].clone();
-        if reached.is_separated() && goal_value(&reached) < 0.0 || is_lost(stage, &reached) {
-            if matches!(stage.goal, Goal::Force(_)) {
-                let remaining = self.drive.remaining();
-                let forces = states.iter().map(|state| state.load.force(remaining));
-                let smallest = forces.fold(f64::INFINITY, f64::min);
-                let spring = self.drive.contact.foundation.spring_stiffness();
-                return Err(ContactError::DetachesBefore {
-                    smallest: recorder.smallest_force().min(spring * smallest),
-                });
-            }
-            states.push(reached);
-            return Ok(());
-        }
-        // The moments after the goal are no part of the motion.
-        let seconds = from.seconds;
-        let mut kept = self.drive.history.len();
-        while kept > moments && self.drive.history.time_of(kept - 1) > seconds {
-            kept -= 1;
-        }
-        self.drive.forget(kept);
-        let state = if matches!(stage.goal, Goal::Separation(_)) || goal_value(&reached) == 0.0 {
-            reached
-        } else {
-            self.drive.reach(&from, reached, goal_value)?
-        };
-        let state = match stage.goal {
-            // The search ends at the indentation to rounding.
-            Goal::Indentation(indentation) => State {
-                indentation,
-                ..state
-            },
-            _ => state,
-        };
-        self.drive.remember(&from, &state);
-        states.push(state);
-        Ok(())
-    }
-
     /// Keeps the drive in place for a time in s.
     fn hold(&mut self, target: Move, seconds: f64) -> Result<StageRecord, ContactError> {
         check_hold(seconds)?;
@@ -368,11 +172,17 @@ impl RelaxingBody {
             seconds: seconds / STEPS as f64,
         };
         let tolerance = self.tolerance * self.drive.largest_force;
-        let mut recorder = Recorder::new(self.contact.gaps().len());
+        let view = View {
+            foundation: self.drive.contact.foundation,
+            remaining: self.drive.remaining(),
+            division: self.division.as_ref(),
+        };
+        let mut recorder = Recorder::new(view, self.contact.gaps().len());
         for _ in 0..STEPS {
             self.drive.step(&mut states, step, tolerance)?;
-            self.record_all_but_last(&mut states, &mut recorder);
+            recorder.add_all_but_last(&mut states);
         }
+        let recorded = recorder.finish(&states);
         let falls = states
             .last()
             .is_some_and(|last| last.indentation < self.state.indentation);
@@ -381,23 +191,7 @@ impl RelaxingBody {
         } else {
             Direction::Loading
         };
-        self.finish(target, direction, states, recorder)
-    }
-
-    /// Records all states but the last one, from which the motion goes on.
-    fn record_all_but_last(&self, states: &mut Vec<State>, recorder: &mut Recorder) {
-        let kept = states.len() - 1;
-        for state in states.drain(..kept) {
-            self.record(&state, recorder);
-        }
-    }
-
-    fn record(&self, state: &State, recorder: &mut Recorder) {
-        let patches = match &state.phase {
-            Phase::Turned(_) => Some(self.patches_of(state)),
-            Phase::Apart | Phase::Deepest => None,
-        };
-        recorder.add(state, self.point_of(state), patches);
+        self.finish(target, direction, states, recorded)
     }
 
     /// Moves the body to the last one of `states`, and returns the record of the stage.
@@ -406,17 +200,14 @@ impl RelaxingBody {
         target: Move,
         direction: Direction,
         states: Vec<State>,
-        mut recorder: Recorder,
+        recorded: Recorded,
     ) -> Result<StageRecord, ContactError> {
-        for state in &states {
-            self.record(state, &mut recorder);
-        }
         let Some(last) = states.into_iter().next_back() else {
             return Ok(StageRecord::still(target, self.point()));
         };
-        self.stage = self.stage_of(direction, &last, &recorder)?;
+        self.stage = self.stage_of(direction, &last, &recorded)?;
         let relaxation = self.drive.relaxation;
-        let mut record = recorder.record(&self.drive.contact, relaxation, target, direction);
+        let mut record = recorded.record(&self.drive.contact, relaxation, target, direction);
         record.reaches_ends =
             record.most_springs() > 0 && self.drive.approach.stage.reaches_ends(last.deepest);
         self.work.count(&record);
@@ -432,7 +223,7 @@ impl RelaxingBody {
         &self,
         direction: Direction,
         last: &State,
-        recorder: &Recorder,
+        recorded: &Recorded,
     ) -> Result<Stage, ContactError> {
         let approach = match &self.division {
             Some(division) => division.approach(),
@@ -445,7 +236,7 @@ impl RelaxingBody {
         let mut thresholds = approach.thresholds();
         let patches_before = Patch::of_ranges(&self.patches(), thresholds.len());
         for (spring, threshold) in thresholds.iter_mut().enumerate() {
-            let detached_at = recorder.detached_at()[spring];
+            let detached_at = recorded.detached_at()[spring];
             let attached_at = *threshold;
             *threshold = if detached_at < f64::INFINITY {
                 detached_at
@@ -472,20 +263,12 @@ impl RelaxingBody {
     }
 
     fn patches_of(&self, state: &State) -> Vec<Patch> {
-        let mut patches = match &state.phase {
+        let view = self.view();
+        match &state.phase {
             Phase::Apart => Vec::new(),
-            Phase::Deepest => self.drive.approach.stage.patches(state.deepest),
-            Phase::Turned(turned) => {
-                let patches = turned.patches.iter();
-                patches.map(StretchedPatch::range).collect()
-            }
-        };
-        if let Some(division) = &self.division {
-            for patch in &mut patches {
-                *patch = division.whole(*patch);
-            }
+            Phase::Deepest => view.whole(self.drive.approach.stage.patches(state.deepest)),
+            Phase::Turned(_) => view.turned_patches(state).unwrap_or_default(),
         }
-        patches
     }
 
     /// Returns the states of the patches in contact, from left to right. The force and the stretch
@@ -499,13 +282,6 @@ impl RelaxingBody {
         }
         Ok(patches)
     }
-}
-
-/// Returns true if a motion to a force ends because the contact is lost.
-fn is_lost(stage: &Course, reached: &State) -> bool {
-    matches!(stage.goal, Goal::Force(_))
-        && stage.direction == Direction::Unloading
-        && reached.is_separated()
 }
 
 impl MovingBody for RelaxingBody {

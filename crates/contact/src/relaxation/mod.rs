@@ -39,6 +39,7 @@
 mod approach;
 pub(crate) mod body;
 mod core;
+mod course;
 mod division;
 mod drive;
 mod end_patches;
@@ -52,3 +53,4 @@ mod peaks;
 mod recorder;
 mod state;
 mod turn;
+mod view;

@@ -2,61 +2,91 @@
 
 use super::law::Relaxation;
 use super::state::State;
+use super::view::View;
 use crate::contact::Contact;
 use crate::history::{CurvePoint, Direction, Patch, StageRecord};
 use crate::target::Move;
 
-/// Points of a stage, and the springs that detach on it.
-pub struct Recorder {
+/// Collects the points of a stage, and the springs that detach on it.
+pub struct Recorder<'a> {
+    view: View<'a>,
+    recorded: Recorded,
+    /// Patches at the last point at which the body was above its largest indentation.
+    patches: Option<Vec<Patch>>,
+}
+
+/// Points of a stage, and the springs that detached on it.
+pub struct Recorded {
     curve: Vec<CurvePoint>,
     seconds: Vec<f64>,
     /// Displacement of the drive in m at each point.
     drives: Vec<f64>,
     /// ∫ v² dx in m² at each point, where v is that part of a compression which has not relaxed.
     fresh_squares: Vec<f64>,
-    /// Patches at the last point that the body has been above its largest indentation.
-    patches: Option<Vec<Patch>>,
     /// Indentation in m at which each spring detached on this stage. Infinite otherwise.
     detached_at: Vec<f64>,
 }
 
-impl Recorder {
-    pub fn new(springs: usize) -> Self {
+impl<'a> Recorder<'a> {
+    /// Creates the recorder of a stage of a profile with `springs` springs.
+    pub fn new(view: View<'a>, springs: usize) -> Self {
         Recorder {
-            curve: Vec::new(),
-            seconds: Vec::new(),
-            drives: Vec::new(),
-            fresh_squares: Vec::new(),
+            view,
+            recorded: Recorded {
+                curve: Vec::new(),
+                seconds: Vec::new(),
+                drives: Vec::new(),
+                fresh_squares: Vec::new(),
+                detached_at: vec![f64::INFINITY; springs],
+            },
             patches: None,
-            detached_at: vec![f64::INFINITY; springs],
         }
     }
 
-    /// Adds a state and its point. `patches` are the patches of a body above its largest
-    /// indentation.
-    pub fn add(&mut self, state: &State, point: CurvePoint, patches: Option<Vec<Patch>>) {
+    fn add(&mut self, state: &State) {
+        let patches = self.view.turned_patches(state);
+        let recorded = &mut self.recorded;
         if let (Some(before), Some(after)) = (&self.patches, &patches) {
+            let indentation = recorded.curve.last().map_or(0.0, |point| point.indentation);
             for spring in lost(before, after) {
-                if let Some(detached_at) = self.detached_at.get_mut(spring) {
-                    *detached_at = self.curve.last().map_or(0.0, |point| point.indentation);
+                if let Some(detached_at) = recorded.detached_at.get_mut(spring) {
+                    *detached_at = indentation;
                 }
             }
         }
         if patches.is_some() {
             self.patches = patches;
         }
-        self.curve.push(point);
-        self.seconds.push(state.seconds);
-        self.drives.push(state.drive);
-        self.fresh_squares.push(state.load.fresh_squares);
+        recorded.curve.push(self.view.point(state));
+        recorded.seconds.push(state.seconds);
+        recorded.drives.push(state.drive);
+        recorded.fresh_squares.push(state.load.fresh_squares);
+    }
+
+    /// Adds all states but the last one, from which the motion goes on, and removes them.
+    pub fn add_all_but_last(&mut self, states: &mut Vec<State>) {
+        let kept = states.len() - 1;
+        for state in states.drain(..kept) {
+            self.add(&state);
+        }
+    }
+
+    /// Adds the last states of a stage, and returns what was recorded.
+    pub fn finish(mut self, states: &[State]) -> Recorded {
+        for state in states {
+            self.add(state);
+        }
+        self.recorded
     }
 
     /// Returns the smallest force so far in N.
     pub fn smallest_force(&self) -> f64 {
-        let forces = self.curve.iter().map(|point| point.force);
+        let forces = self.recorded.curve.iter().map(|point| point.force);
         forces.fold(f64::INFINITY, f64::min)
     }
+}
 
+impl Recorded {
     /// Returns the indentation in m at which each spring detached; infinite for a spring that did
     /// not detach.
     pub fn detached_at(&self) -> &[f64] {
