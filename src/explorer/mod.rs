@@ -11,6 +11,7 @@ pub mod advice;
 pub mod app;
 pub mod autosave;
 mod caption;
+mod cell_writer;
 mod close_up;
 pub mod command_line;
 pub mod commands;

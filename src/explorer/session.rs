@@ -4,6 +4,7 @@
 use super::action::{Action, Task};
 use super::app::App;
 use super::autosave::{Autosave, Kept};
+use super::cell_writer::{CellWriter, remove_ink_of_blanks};
 use super::commands::opening::begin;
 use super::config::Config;
 use super::opening::Opening;
@@ -19,7 +20,6 @@ use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;
-use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
 use std::io;
@@ -34,8 +34,14 @@ use std::time::{Duration, Instant};
 /// Largest frame rate over SSH in 1/s. It is low because each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Longest time for which a frame over SSH is delayed to include an answer of the solver.
+/// Longest time for which a frame over SSH is delayed to include an answer of the solver and the
+/// events that the solver lists after it.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
+
+/// Shortest time between two frames that show only progress of the studies, and the same over SSH.
+/// The last results of the studies are shown without this delay.
+const STUDY_TIME: Duration = Duration::from_millis(100);
+const REMOTE_STUDY_TIME: Duration = Duration::from_secs(1);
 
 /// Time without input after which unsaved changes are written to a file. While the explorer writes,
 /// it waits for the disk, which takes longer than a frame if the home folder is on another
@@ -114,7 +120,7 @@ pub fn open(
     // run: if the terminal is gone, it would write to standard error, and would panic if standard
     // error is gone too.
     let writer = FrameWriter::new(io::stdout());
-    let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
+    let mut terminal = ManuallyDrop::new(Terminal::new(CellWriter::new(writer))?);
     let appearance = chosen_appearance(&options);
     let mut app = begin(
         opening.into(),
@@ -150,7 +156,8 @@ pub fn open(
         draw,
         remote,
         frame_time: Duration::from_secs(1) / frame_rate,
-        changed: true,
+        change: Change::Other,
+        shown: now,
         due: now,
         asked: None,
         moved: now,
@@ -239,7 +246,7 @@ fn is_remote() -> bool {
         .any(|name| std::env::var_os(name).is_some())
 }
 
-type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
+type Screen = Terminal<CellWriter<FrameWriter<Stdout>>>;
 
 struct Session<'a> {
     runtime: Runtime,
@@ -251,8 +258,10 @@ struct Session<'a> {
     remote: bool,
     /// Shortest time between two frames.
     frame_time: Duration,
-    /// True if the state has changed since the last frame.
-    changed: bool,
+    /// What has changed since the last frame.
+    change: Change,
+    /// Time of the last frame.
+    shown: Instant,
     /// Earliest time of the next frame. Without this limit, a held key or a dragged mouse would
     /// fill a connection over SSH with frames that are outdated before they arrive.
     due: Instant,
@@ -269,6 +278,15 @@ struct Session<'a> {
     kept: (u64, u64),
     /// Time of the last input.
     touched: Instant,
+}
+
+/// What has changed since the last frame, from the least to the most urgent.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Change {
+    Nothing,
+    /// Only results of the studies.
+    Studies,
+    Other,
 }
 
 /// Reason why a session ends although the user has not ended it.
@@ -289,11 +307,12 @@ impl Session<'_> {
             if keeping.is_some_and(|deadline| Instant::now() >= deadline) {
                 self.keep_unsaved();
             }
-            if self.changed && Instant::now() >= self.next_frame() {
+            if self.change != Change::Nothing && Instant::now() >= self.next_frame() {
                 self.show()?;
-                self.changed = false;
+                self.change = Change::Nothing;
+                self.shown = Instant::now();
                 if self.remote {
-                    self.due = Instant::now() + self.frame_time;
+                    self.due = self.shown + self.frame_time;
                 }
             }
             let playing = self.runtime.app.is_playing();
@@ -337,8 +356,17 @@ impl Session<'_> {
 
     /// Returns the earliest time of the next frame. Over SSH, a frame after a key is delayed a
     /// little to include the answer of the solver. A frame without the answer would cost as many
-    /// bytes, and would delay the answer until the next frame is due.
+    /// bytes, and would delay the answer until the next frame is due. Frames that show only the
+    /// progress of the studies have more time between them.
     fn next_frame(&self) -> Instant {
+        if self.change == Change::Studies && !self.runtime.app.studies.are_all_done() {
+            let time = if self.remote {
+                REMOTE_STUDY_TIME
+            } else {
+                STUDY_TIME
+            };
+            return self.due.max(self.shown + time);
+        }
         match self.asked {
             Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
             _ => self.due,
@@ -352,7 +380,7 @@ impl Session<'_> {
         if playing {
             deadlines.push(self.moved + self.frame_time);
         }
-        if self.changed {
+        if self.change != Change::Nothing {
             deadlines.push(self.next_frame());
         }
         deadlines.extend(self.next_keeping());
@@ -402,7 +430,11 @@ impl Session<'_> {
             Incoming::Act(action) => Some(*action),
         };
         if let Some(action) = action {
-            self.changed = true;
+            let change = match action {
+                Action::Found(_) => Change::Studies,
+                _ => Change::Other,
+            };
+            self.change = self.change.max(change);
             self.act(action)?;
         }
         Ok(None)
@@ -423,7 +455,10 @@ impl Session<'_> {
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
         let app = &self.runtime.app;
-        self.terminal.draw(|frame| (self.draw)(frame, app))?;
+        self.terminal.draw(|frame| {
+            (self.draw)(frame, app);
+            remove_ink_of_blanks(frame.buffer_mut());
+        })?;
         Ok(())
     }
 
@@ -496,7 +531,7 @@ impl Session<'_> {
         let app = &mut self.runtime.app;
         if let Err(error) = autosave.keep(&app.edit.unsaved()) {
             self.autosave = None;
-            self.changed = true;
+            self.change = Change::Other;
             app.set_error(format!(
                 "unsaved changes are not kept for another session: {error}"
             ));

@@ -1,11 +1,11 @@
 //! The demo in a terminal, in real time.
 
 use super::Demo;
+use crate::explorer::cell_writer::CellWriter;
 use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
 use crate::explorer::{input, view};
 use crossterm::event::{Event, KeyEventKind};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
 use std::io;
 use std::mem::ManuallyDrop;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -18,7 +18,7 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;
-    let backend = CrosstermBackend::new(FrameWriter::new(io::stdout()));
+    let backend = CellWriter::new(FrameWriter::new(io::stdout()));
     let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
     let frame = Duration::from_secs_f64(frames_per_second.recip());
     let begun = Instant::now();

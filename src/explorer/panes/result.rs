@@ -45,10 +45,13 @@ fn panel(app: &App, size: Size) -> Panel {
     };
     let ensemble = app.studies.value::<Ensemble>();
     let mut lines = Vec::new();
-    if size.height >= WITH_STRIP
-        && let Some(ensemble) = ensemble
-    {
-        lines.extend(strip(app, outcome, ensemble, size.width.into()));
+    if size.height >= WITH_STRIP {
+        lines.extend(match ensemble {
+            Some(ensemble) => strip(app, outcome, ensemble, size.width.into()),
+            // The lines below stay in their places when the strip appears.
+            None if awaits_profiles(app) => vec![Line::default(); STRIP_ROWS + 1],
+            None => Vec::new(),
+        });
     }
     for result in results(app, outcome, ensemble) {
         lines.push(line_of_result(app, &result, size.width));
@@ -57,6 +60,11 @@ fn panel(app: &App, size: Size) -> Panel {
     panel.edge = edge(ensemble);
     panel.body = Body::Lines(lines);
     panel
+}
+
+/// Returns true if the scene has random profiles, which the explorer computes next.
+fn awaits_profiles(app: &App) -> bool {
+    Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1
 }
 
 /// Returns the number of profiles that are computed.
