@@ -19,12 +19,12 @@ mod completion;
 pub mod config;
 pub mod curve_options;
 #[cfg(unix)]
-mod decoder;
+pub mod decoder;
 pub mod demo;
 pub mod editor;
 pub mod events;
 pub mod ghost;
-mod input;
+pub mod input;
 pub mod keys;
 pub mod layout;
 mod manual_body;
