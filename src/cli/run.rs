@@ -9,7 +9,7 @@ use super::scene::{
     simulation_of, staircase_of, threads, warn,
 };
 use asperity_contact::motion::JumpCollector;
-use asperity_data::{grouped, parse_quantity, wrap};
+use asperity_data::{counted, parse_quantity, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
     ComparedScene, ContactSets, EventsReport, Format, PreloadReport, Report, RunReport,
@@ -249,7 +249,7 @@ impl RunArguments {
         let choice = watched(
             task,
             |springs: &u64, line: &mut ProgressLine| {
-                line.show(&format!("trying {} springs", grouped(*springs)), None)
+                line.show(&format!("trying {}", counted(*springs, "spring")), None)
             },
             |mut control| {
                 let folder = document.resolve("");

@@ -5,10 +5,10 @@ use crate::report::{Json, Report};
 use crate::run::{RunJson, RunReport};
 use crate::sheet::Sheet;
 use crate::warnings::warnings_section;
-use crate::words::{counted, percent, whole_percent};
+use crate::words::{percent, whole_percent};
 use asperity_contact::motion::{Jump, JumpKind};
 use asperity_contact::{Direction, Event, Events, Mark, Patch};
-use asperity_data::{Kind, Table, format_range, format_rounded, grouped};
+use asperity_data::{Kind, Table, counted, format_range, format_rounded, grouped};
 use serde::Serialize;
 
 /// Number of significant digits of the numbers in the list.

@@ -7,7 +7,7 @@ use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
 use crate::warnings::{counted_section, counted_texts};
 use asperity_data::{
-    Kind, Table, format_quantity, format_range, format_rounded, grouped, one_unit,
+    Kind, Table, counted, format_quantity, format_range, format_rounded, grouped, one_unit,
 };
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found, Quantity};
@@ -486,8 +486,8 @@ impl FindReport<'_> {
         let profiles = match found.answers.first().and_then(|answer| answer.seed) {
             Some(first) => {
                 let profiles = profiles_named(question.profiles(), first);
-                let springs = grouped(self.scene.numerics.points);
-                format!("{profiles}, {springs} springs.")
+                let springs = counted(self.scene.numerics.points, "spring");
+                format!("{profiles}, {springs}.")
             }
             None => Ensemble::FIXED.to_owned(),
         };

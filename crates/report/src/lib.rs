@@ -78,5 +78,5 @@ pub use trust::{error_rows, theory_rows};
 pub use warnings::{
     counted_record_texts, counted_section, counted_texts, warning_texts, warnings_section,
 };
-pub use words::{counted, letter, percent};
+pub use words::{letter, percent};
 pub use work_precision::work_precision;
