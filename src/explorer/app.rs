@@ -491,18 +491,19 @@ impl App {
         next.copied().unwrap_or(present)
     }
 
-    /// Returns the panes that the user can select, the most important first.
+    /// Returns the panes that the user can select, in their order on the screen: from top to bottom
+    /// on the left, and then on the right.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
             Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
-            Some(large) => vec![Pane::Force, large, Pane::Parameters],
+            Some(large) => vec![large, Pane::Force, Pane::Parameters],
             None => {
                 let mut panes = vec![
                     Pane::Force,
-                    Pane::Profile,
-                    Pane::Parameters,
-                    Pane::CloseUp,
                     Pane::Timeline,
+                    Pane::Profile,
+                    Pane::CloseUp,
+                    Pane::Parameters,
                 ];
                 if self.view.lists_events {
                     panes.push(Pane::Events);

@@ -3,6 +3,7 @@
 //! scene changes.
 
 use super::player::{At, Player};
+use super::snapshot::FollowedPath;
 use asperity_contact::{LegRecord, Move};
 use asperity_data::format_rounded;
 use asperity_scene::loading::loading_text;
@@ -82,6 +83,39 @@ impl ManualPath {
     pub fn continued(&self, count: usize, target: Move) -> Self {
         let mut moves: Vec<Move> = self.moves.iter().take(count).copied().collect();
         moves.push(target);
+        ManualPath {
+            start: self.start,
+            moves,
+        }
+    }
+
+    /// Returns the part of this path that ends at a position of the animation. `followed` is the
+    /// path as the body has followed it. Before the first move, the part is a path without moves
+    /// that starts at this position.
+    pub fn until(&self, player: Player, followed: &FollowedPath) -> Self {
+        let legs = &followed.legs;
+        let indentation = player.indentation(legs);
+        let Some(moves) = player.leg.checked_sub(followed.before) else {
+            // The stages before the start are those of the scene, the last one perhaps in part.
+            let is_whole_stage = player.leg < self.start.leg;
+            let at = match player.at {
+                At::End if !is_whole_stage => self.start.at,
+                At::PullOff => At::Indentation(indentation),
+                at => at,
+            };
+            return ManualPath::starting_at(Player { at, ..player });
+        };
+        let mut kept = moves;
+        let last = match player.at {
+            At::Start => None,
+            At::End => {
+                kept += 1;
+                None
+            }
+            At::Indentation(_) | At::PullOff => Some(Move::ToIndentation(indentation)),
+        };
+        let mut moves: Vec<Move> = self.moves.iter().take(kept).copied().collect();
+        moves.extend(last);
         ManualPath {
             start: self.start,
             moves,

@@ -13,11 +13,10 @@ use crate::explorer::snapshot::FollowedPath;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
-use asperity_data::{AxisScale, format_rounded, grouped, quantile};
+use asperity_data::{AxisScale, counted, format_rounded, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{
-    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, counted, force_figure, letter,
-    loop_chart,
+    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, letter, loop_chart,
 };
 
 use asperity_scene::text::quoted;
@@ -219,12 +218,9 @@ fn names_of_marks(app: &App) -> Vec<Name> {
 }
 
 /// Returns the loading stages whose marked points are shown: those of the scene or, under manual
-/// loading, the moves of the body.
+/// loading, those of the whole path with its way to the first move, as on the timeline.
 fn marked_legs(app: &App) -> &[LegRecord] {
-    match app.former_path() {
-        Some(followed) => followed.moves(),
-        None => app.legs(),
-    }
+    app.played_legs()
 }
 
 /// Returns the letters of the ghosts, which are written beside the curves, the newest first.
@@ -310,12 +306,7 @@ fn state(app: &App) -> Vec<String> {
             parts.push(format!("contact {} %", format_rounded(percent, 2, "1")));
         }
     }
-    let patches = if point.fragments == 1 {
-        "patch"
-    } else {
-        "patches"
-    };
-    parts.push(format!("{} {patches}", grouped(point.fragments)));
+    parts.push(counted(point.fragments, "patch"));
     let stiffness = outcome.governing.effective_modulus * point.contact_length;
     parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
     let radius = snapshot.contact_radius;
@@ -666,7 +657,10 @@ fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> Fo
 /// Returns the curve of the moves of the body under manual loading. If the scene has changed since,
 /// the former curve is drawn in a weaker colour until the new one is computed.
 fn path_loop<'a>(app: &App, followed: &'a FollowedPath) -> ForceLoop<'a> {
-    let path = ForceLoop::new(followed.moves());
+    let path = ForceLoop {
+        marks: Mark::all(&followed.legs),
+        ..ForceLoop::new(followed.moves())
+    };
     let stiffness = stiffness(app).filter(|stiffness| stiffness.is_finite());
     if app.is_current() {
         ForceLoop { stiffness, ..path }

@@ -8,8 +8,8 @@ use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
-use asperity_data::{format_range, format_rounded, grouped};
-use asperity_report::{counted, percent};
+use asperity_data::{counted, format_range, format_rounded, grouped};
+use asperity_report::percent;
 use asperity_scene::Outcome;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::layout::Size;
@@ -40,8 +40,14 @@ struct ResultLine {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
+    // Under manual loading, the body follows another loading than the one with these results.
+    let title = if app.edit.path.is_some() {
+        "Result of the scene's loop"
+    } else {
+        "Result"
+    };
     let Some(outcome) = app.outcome() else {
-        return Panel::of_text("Result".to_owned(), "computing…");
+        return Panel::of_text(title.to_owned(), "computing…");
     };
     let ensemble = app.studies.value::<Ensemble>();
     let mut lines = Vec::new();
@@ -56,7 +62,7 @@ fn panel(app: &App, size: Size) -> Panel {
     for result in results(app, outcome, ensemble) {
         lines.push(line_of_result(app, &result, size.width));
     }
-    let mut panel = Panel::of_text("Result".to_owned(), "");
+    let mut panel = Panel::of_text(title.to_owned(), "");
     panel.edge = edge(ensemble);
     panel.body = Body::Lines(lines);
     panel
@@ -64,7 +70,8 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Returns true if the scene has random profiles, which the explorer computes next.
 fn awaits_profiles(app: &App) -> bool {
-    Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1
+    let has_failed = app.studies.failure::<Ensemble>().is_some();
+    Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1 && !has_failed
 }
 
 /// Returns the number of profiles that are computed.
