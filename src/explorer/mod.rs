@@ -51,6 +51,7 @@ pub mod snapshot;
 pub mod solver;
 pub mod studies;
 mod terminal;
+pub mod terminal_input;
 mod text;
 mod text_line;
 pub mod theme;

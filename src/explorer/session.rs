@@ -14,11 +14,12 @@ use super::snapshot::SolvedScene;
 use super::solver::{Solve, SolverThread};
 use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
+use super::terminal_input::Input;
 use super::theme::{Appearance, Marker, Theme};
-use super::{autosave, input, terminal};
+use super::{autosave, input, terminal, theme};
+use asperity_plot::{Background, Colours};
 use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
-use crossterm::event::Event;
 use crossterm::queue;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
@@ -47,6 +48,10 @@ const REMOTE_STUDY_TIME: Duration = Duration::from_secs(1);
 /// it waits for the disk, which takes longer than a frame if the home folder is on another
 /// computer.
 const KEEPING_PAUSE: Duration = Duration::from_secs(1);
+
+/// Longest time for which the first frame is delayed to have the colours for the background that
+/// the terminal states.
+const BACKGROUND_TIME: Duration = Duration::from_millis(100);
 
 /// Largest number of input events that wait for the main loop. Further input waits in the terminal.
 const MOST_WAITING: usize = 64;
@@ -96,7 +101,7 @@ pub type Draw = fn(&mut Frame<'_>, &App);
 /// What a thread can send to the main loop of the session.
 enum Incoming {
     /// Input of the user; `None` if the input has ended.
-    Input(Option<Event>),
+    Input(Option<Input>),
     Signal(SystemSignal),
     /// Action that carries a result of the solver or of a background computation.
     Act(Box<Action>),
@@ -122,6 +127,10 @@ pub fn open(
     let writer = FrameWriter::new(io::stdout());
     let mut terminal = ManuallyDrop::new(Terminal::new(CellWriter::new(writer))?);
     let appearance = chosen_appearance(&options);
+    let asks_background = asks_background(&options, appearance);
+    if asks_background {
+        terminal::ask_background()?;
+    }
     let mut app = begin(
         opening.into(),
         (size.width, size.height),
@@ -158,7 +167,12 @@ pub fn open(
         frame_time: Duration::from_secs(1) / frame_rate,
         change: Change::Other,
         shown: now,
-        due: now,
+        due: if asks_background {
+            now + BACKGROUND_TIME
+        } else {
+            now
+        },
+        asks_background,
         asked: None,
         moved: now,
         inbox,
@@ -239,6 +253,21 @@ fn chosen_appearance(options: &Options) -> Appearance {
     }
 }
 
+/// Returns true if nothing but the terminal itself can say which background it has. Terminals that
+/// print the question instead of answering it are not asked.
+fn asks_background(options: &Options, appearance: Appearance) -> bool {
+    let is_chosen = options.theme.is_some() || options.config.theme.is_some();
+    let term = theme::variable("TERM").unwrap_or_default();
+    let is_old = ["dumb", "linux", "ansi", "vt"]
+        .iter()
+        .any(|name| term.starts_with(name));
+    cfg!(unix)
+        && appearance.theme == Theme::Neutral
+        && appearance.colours != Colours::Plain
+        && !is_chosen
+        && !is_old
+}
+
 fn is_remote() -> bool {
     let variables = ["SSH_CONNECTION", "SSH_TTY"];
     variables
@@ -265,6 +294,8 @@ struct Session<'a> {
     /// Earliest time of the next frame. Without this limit, a held key or a dragged mouse would
     /// fill a connection over SSH with frames that are outdated before they arrive.
     due: Instant,
+    /// True until the terminal has stated its background, if it was asked.
+    asks_background: bool,
     /// Time of the request that the solver has not answered yet; `None` if there is none.
     asked: Option<Instant>,
     /// Time of the last step of the animation.
@@ -426,7 +457,11 @@ impl Session<'_> {
                 Some(self.resize()?)
             }
             Incoming::Signal(SystemSignal::Resize) => Some(self.resize()?),
-            Incoming::Input(Some(event)) => input::action_of(event),
+            Incoming::Input(Some(Input::Event(event))) => input::action_of(event),
+            Incoming::Input(Some(Input::Background(background))) => {
+                self.adapt_to(background);
+                None
+            }
             Incoming::Act(action) => Some(*action),
         };
         if let Some(action) = action {
@@ -438,6 +473,21 @@ impl Session<'_> {
             self.act(action)?;
         }
         Ok(None)
+    }
+
+    /// Chooses the colours for the background that the terminal has stated, unless the user has
+    /// chosen others meanwhile.
+    fn adapt_to(&mut self, background: Background) {
+        if !std::mem::take(&mut self.asks_background) {
+            return;
+        }
+        let look = &mut self.runtime.app.view.appearance;
+        if look.theme == Theme::Neutral {
+            look.theme = Theme::for_background(background);
+        }
+        // The first frame needs to wait no longer.
+        self.due = Instant::now();
+        self.change = Change::Other;
     }
 
     fn resize(&self) -> io::Result<Action> {

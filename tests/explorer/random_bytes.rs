@@ -5,6 +5,7 @@ use super::random::{Explorer, scenes};
 use asperity::explorer::action::{Action, Task, WriteFailure};
 use asperity::explorer::decoder::Decoder;
 use asperity::explorer::input::action_of;
+use asperity::explorer::terminal_input::Input;
 use std::time::Duration;
 
 /// Events in a quick run and in a slow one.
@@ -78,9 +79,13 @@ impl Random {
 }
 
 /// Passes the decoded events on. Files outside the folder of the test are not written.
-fn act(explorer: &mut Explorer, events: Vec<crossterm::event::Event>) {
-    for action in events.into_iter().filter_map(action_of) {
-        explorer.act(action);
+fn act(explorer: &mut Explorer, decoded: Vec<Input>) {
+    for input in decoded {
+        if let Input::Event(event) = input
+            && let Some(action) = action_of(event)
+        {
+            explorer.act(action);
+        }
     }
     let mut refused = Vec::new();
     explorer.waiting.retain(|task| match task {

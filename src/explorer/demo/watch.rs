@@ -3,6 +3,7 @@
 use super::Demo;
 use crate::explorer::cell_writer::CellWriter;
 use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
+use crate::explorer::terminal_input::Input;
 use crate::explorer::{input, view};
 use crossterm::event::{Event, KeyEventKind};
 use ratatui::Terminal;
@@ -34,7 +35,9 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
         let due = begun + frame * frames;
         loop {
             match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
-                Ok(Some(Event::Key(key))) if key.kind == KeyEventKind::Press => return Ok(()),
+                Ok(Some(Input::Event(Event::Key(key)))) if key.kind == KeyEventKind::Press => {
+                    return Ok(());
+                }
                 Ok(Some(_)) => {}
                 Err(RecvTimeoutError::Timeout) => break,
                 Ok(None) | Err(RecvTimeoutError::Disconnected) => return Ok(()),

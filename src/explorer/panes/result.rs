@@ -9,7 +9,7 @@ use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
 use asperity_data::{counted, format_range, format_rounded, grouped};
-use asperity_report::percent;
+use asperity_report::{percent, theories_briefly};
 use asperity_scene::Outcome;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::layout::Size;
@@ -22,7 +22,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Result",
         "adhesion force of each random profile, ● on a linear axis from zero, ◆ this profile; │ is the median. Below it \
-         medians and quartiles over the profiles; key e shows the events instead",
+         medians and quartiles over the profiles, and which theories say that the bodies adhere without a preload \
+         (details: key A); key e shows the events instead",
     )],
     ..PaneRow::EMPTY
 };
@@ -234,6 +235,15 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
         results.push(ResultLine {
             name: "warnings",
             value: format!("{} (key A)", counted(warnings, "premise")),
+            range: String::new(),
+        });
+    }
+    if let Some(computed) = app.current()
+        && let Some(verdicts) = theories_briefly(&computed.scene, &computed.outcome)
+    {
+        results.push(ResultLine {
+            name: "theories",
+            value: verdicts,
             range: String::new(),
         });
     }
