@@ -74,7 +74,7 @@ mod measure {
             bar: EDIT,
         },
         Case {
-            what: "force of the first leg, small step",
+            what: "force of the first stage, small step",
             row: "force of stage",
             keys: ["h", "l"],
             bar: EDIT,
@@ -263,7 +263,7 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// Adhesion force of the shown profile and adhesion coefficient in the status line, one of
+    /// Pull-off force of the shown profile and adhesion coefficient in the status line, one of
     /// which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
         let row = rows

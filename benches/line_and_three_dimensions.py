@@ -27,7 +27,7 @@ def row(hurst, energy):
     command = [PROGRAM, "reference", SCENE, "--format", "json", *sets]
     found = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     of, budget = found["ratio"], found["budget"]
-    pressed, touched = of["adhesion_force"], of["first_touch_adhesion_force"]
+    pressed, touched = of["pull_off_force"], of["first_touch_pull_off_force"]
     cells = [hurst, energy, ratio(pressed), ratio(touched), ratio(of["dissipated_energy"])]
     cells += [ratio(of["loading"][-1]["indentation"]), f"{100 * budget['grid']:.0f} %"]
     return "| " + " | ".join(str(cell) for cell in cells) + " |"

@@ -12,7 +12,7 @@ mod peak;
 #[cfg(target_os = "linux")]
 fn main() {
     use asperity::scene::open;
-    use asperity::scene::stages::Workload;
+    use asperity::scene::workload::Workload;
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 

@@ -9,8 +9,8 @@
 //! `cargo test --benches`, it only checks that it runs.
 
 use asperity::contact::ClosedForm;
-use asperity::contact::motion::{Body, ContactTree, Leg, MovingBody};
-use asperity::contact::{Contact, Edges, LegRecord, Modulus, Move, Profile, Work};
+use asperity::contact::motion::{Body, ContactTree, MovingBody, Stage};
+use asperity::contact::{Contact, Edges, Modulus, Move, Profile, StageRecord, Work};
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};
 use asperity::surface::SelfAffine;
@@ -42,7 +42,7 @@ const LOAD: f64 = 0.4;
 fn main() {
     let options = Options::from_arguments(std::env::args().skip(1));
     println!(
-        "self-affine line, H = {}, modes up to N/4, {SAMPLES} samples on each leg; shortest of {} runs",
+        "self-affine line, H = {}, modes up to N/4, {SAMPLES} samples on each stage; shortest of {} runs",
         options.hurst, options.runs
     );
     println!(
@@ -210,7 +210,7 @@ struct Timed {
     whole: f64,
     /// All reversals from one tree and one loading.
     reversals: f64,
-    records: Vec<LegRecord>,
+    records: Vec<StageRecord>,
     work: Work,
 }
 
@@ -297,10 +297,10 @@ impl Lines {
 }
 
 /// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with
-/// the legs kept.
+/// the stages kept.
 struct Edits {
     simulation: Simulation,
-    legs: Vec<Leg>,
+    stages: Vec<Stage>,
     /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for
     /// another seed under each κ.
     kappa: [f64; 2],
@@ -312,7 +312,7 @@ impl Edits {
         let (kappa, seed) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
         let mut edits = Edits {
             simulation: Simulation::default(),
-            legs: Vec::new(),
+            stages: Vec::new(),
             kappa,
             seed,
         };
@@ -344,10 +344,10 @@ impl Edits {
 
     fn seconds(&mut self, scene: &CheckedScene) -> f64 {
         let clock = Instant::now();
-        self.legs.clear();
-        let legs = &mut self.legs;
-        let outcome = self.simulation.run(scene, &|| false, &mut |_, _, leg| {
-            legs.push(leg.clone());
+        self.stages.clear();
+        let stages = &mut self.stages;
+        let outcome = self.simulation.run(scene, &|| false, &mut |_, _, stage| {
+            stages.push(stage.clone());
             Ok(())
         });
         black_box(outcome.expect("a scene that can be computed"));
@@ -390,18 +390,18 @@ impl Timed {
         let contact = contact(tree, edges, work, rough);
         self.tree = self.tree.min(seconds_since(whole));
         let mut solver = Body::new(&contact, SAMPLES);
-        let legs = [
+        let stages = [
             Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT),
             Move::ToSeparation,
         ];
         let clock = Instant::now();
-        self.records = legs
-            .map(|leg| solver.advance(leg).expect("a reachable leg"))
+        self.records = stages
+            .map(|stage| solver.advance(stage).expect("a reachable stage"))
             .into();
-        let legs_seconds = seconds_since(clock);
+        let stages_seconds = seconds_since(clock);
         self.whole = self.whole.min(seconds_since(whole));
         self.curves = self.curves.min(solver.curve_seconds());
-        self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
+        self.passes = self.passes.min(stages_seconds - solver.curve_seconds());
         self.work = solver.work();
         drop(solver);
         self.measure_reversals(tree_of(contact), edges, work, rough)
@@ -536,7 +536,7 @@ impl Measured {
                 timed.print_outcome(rough, one.kappa);
             }
         }
-        println!("  edits: the whole outcome with F_a(d=0) and histogram, legs copied");
+        println!("  edits: the whole outcome with F_a(d=0) and histogram, stages copied");
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             row(&format!("of kappa, to {kappa}"), self.edits.kappa[index]);
             row(
@@ -562,13 +562,13 @@ impl Timed {
         let [loading, unloading] = &self.records[..] else {
             return;
         };
-        let ideal = ClosedForm::ideal_adhesion_force(
+        let ideal = ClosedForm::ideal_pull_off_force(
             rough.work_of_adhesion(kappa),
             EFFECTIVE_MODULUS,
             LENGTH,
         );
         println!(
-            "    under load {:.1} % in contact; adhesion force {:.2e} of the load, {:.2e} of the ideal",
+            "    under load {:.1} % in contact; pull-off force {:.2e} of the load, {:.2e} of the ideal",
             1e2 * loading.attached as f64 / rough.points as f64,
             -unloading.smallest.force / loading.largest.force,
             -unloading.smallest.force / ideal

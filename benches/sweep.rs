@@ -163,7 +163,7 @@ fn figure(size: &Size) -> Plan {
          axes: [Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: {}),
                 Linear(path: \"adhesion.kappa\", from: 1.25, to: 41.25, count: {})],
          preloads: [0.01, 0.1, 1.0], profiles: {},
-         record: [adhesion_coefficient, adhesion_force, first_touch_adhesion_share, regime])",
+         record: [adhesion_coefficient, pull_off_force, first_touch_adhesion_share, regime])",
         size.points,
         size.points / 8,
         size.hurst,
@@ -179,7 +179,7 @@ fn small(cells: u64) -> Plan {
         "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"1024\", \"roughness.modes\": \"(1, 128)\"}},
          axes: [List(path: \"roughness.hurst\", values: [0.3, 0.7]),
                 Linear(path: \"adhesion.kappa\", from: 0.2, to: 6.6, count: {})],
-         preloads: [0.1], record: [adhesion_coefficient, adhesion_force])",
+         preloads: [0.1], record: [adhesion_coefficient, pull_off_force])",
         cells / 2
     );
     Plan::parse(&text, "small", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"))
@@ -253,7 +253,7 @@ fn one_by_one(plan: &Plan) {
             };
             (*hurst, *seed) = (values[0], plan.seed_of(line));
             let unit =
-                scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
+                scene.material.modulus_in_pascals() * rms_height.unwrap_or(1.0) * scene.length;
             scene.loading = vec![Move::ToForce(values[2] * unit), Move::ToSeparation];
             let mut simulation = Simulation::new(PathBuf::new());
             let Ok(scene) = scene.checked() else { continue };

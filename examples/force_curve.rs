@@ -15,10 +15,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         set("loading_stiffness", "20"),
         set("numerics.points", "1024"),
     ])?;
-    let legs = run(&scene)?.history.legs;
-    let points = legs
+    let stages = run(&scene)?.history.stages;
+    let points = stages
         .iter()
-        .flat_map(|leg| displacements(leg, 20.0).zip(leg.curve.iter().map(|at| at.force)));
+        .flat_map(|stage| displacements(stage, 20.0).zip(stage.curve.iter().map(|at| at.force)));
     let before = (0..200).map(|index| (5.0e-9 * f64::from(index - 200), 0.0));
     let mut points: Vec<(f64, f64)> = before.chain(points).collect();
     points.dedup_by_key(|(displacement, _)| *displacement); // of a jump only its begin

@@ -1,4 +1,4 @@
-//! From the heights of an equivalent line to the adhesion force over the preload, F_a(F_n):
+//! From the heights of an equivalent line to the pull-off force over the preload, F_a(F_n):
 //! pull-off after each of several preloads, from one loading. The example `measured_map` begins
 //! with measured heights, which are not an equivalent line.
 //!
@@ -22,10 +22,10 @@ fn main() -> Result<(), asperity::Error> {
         .build()?;
     let preloads = [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0].map(|preload| 1.0e-6 * preload); // N
     let reversals = contact.reversals(&preloads.map(Move::ToForce), &[])?;
-    println!("preload F_n, µN   adhesion force F_a, µN   dissipated energy, fJ");
+    println!("preload F_n, µN   pull-off force F_a, µN   dissipated energy, fJ");
     let mut before = 0.0;
     for (preload, reversal) in preloads.iter().zip(reversals) {
-        let force = reversal.adhesion_force().unwrap_or(0.0);
+        let force = reversal.pull_off_force().unwrap_or(0.0);
         let [preload, shown] = [*preload, force].map(|force| 1.0e6 * force);
         println!(
             "{preload:>15.1} {shown:>24.4} {:>23.2}",

@@ -1,4 +1,4 @@
-//! A parameter study in memory: the median adhesion force over the Hurst exponent, 16 random
+//! A parameter study in memory: the median pull-off force over the Hurst exponent, 16 random
 //! profiles of each, on all cores.
 //!
 //! `cargo run --release --example hurst_study`
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         &scene,
         &[("roughness.hurst", &hursts)],
         16,
-        &[Quantity::AdhesionForce],
+        &[Quantity::PullOffForce],
     )?;
     let mut report = |records: &u64| {
         if *records == plan.records_in_all() {
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("H     F_a: lower quartile, median, upper quartile, µN");
     for (cell, hurst) in (0..).zip(&hursts) {
         let force = results
-            .statistics(cell, Quantity::AdhesionForce)
+            .statistics(cell, Quantity::PullOffForce)
             .ok_or("no profile pulls")?;
         let [low, median, high] = force.quartiles.map(|force| 1.0e6 * force);
         println!("{hurst:.1}   {low:>8.2} {median:>8.2} {high:>8.2}");

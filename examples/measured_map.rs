@@ -1,4 +1,4 @@
-//! From a measured map to the spread of the adhesion force, over random profiles and by the
+//! From a measured map to the spread of the pull-off force, over random profiles and by the
 //! uncertainty of the spectrum.
 //!
 //! `cargo run --release --example measured_map`
@@ -42,10 +42,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             * (force(&line.drawn(seed, 1.0 / 32.0), seed)? - forces[forces.len() - 1]))
             .powi(2);
     }
-    let all = Statistics::of(forces, Quantity::AdhesionForce.bounds()).ok_or("no profile pulls")?;
+    let all = Statistics::of(forces, Quantity::PullOffForce.bounds()).ok_or("no profile pulls")?;
     let by_fit = 1.0e6 * (changes / 16.0_f64).sqrt();
     println!(
-        "adhesion force: {}; standard deviation by the fit {by_fit:.1} µN",
+        "pull-off force: {}; standard deviation by the fit {by_fit:.1} µN",
         all.words("N")
     );
     assert!(all.range.0 > 0.0 && changes > 0.0);

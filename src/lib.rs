@@ -12,7 +12,7 @@
 //!
 //! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand. It explains
 //! why the springs may be independent, and where the rule of Hess comes from. It also computes the
-//! force loop of a sphere, and a profile of five springs whose adhesion force rises in steps with
+//! force loop of a sphere, and a profile of five springs whose pull-off force rises in steps with
 //! the preload. The examples on this page follow it.
 //!
 //! # A contact in five lines
@@ -67,12 +67,12 @@
 //! let forces = contact
 //!     .reversals(&preloads, &[])?
 //!     .into_iter()
-//!     .map(|found| found.adhesion_force());
+//!     .map(|found| found.pull_off_force());
 //! assert!(forces.is_sorted());
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`ProfileBuilder::run`] also computes κ, the Tabor number, the ideal adhesion force and the
+//! [`ProfileBuilder::run`] also computes κ, the Tabor number, the ideal pull-off force and the
 //! regime of adhesion.
 //!
 //! # A scene
@@ -87,7 +87,7 @@
 //! let outcome = asperity::run(&document)?;
 //! // Johnson, Kendall and Roberts: (3/2)πγR.
 //! let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
-//! assert!((outcome.figures.adhesion_force.unwrap() / expected - 1.0).abs() < 2e-3);
+//! assert!((outcome.figures.pull_off_force.unwrap() / expected - 1.0).abs() < 2e-3);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!

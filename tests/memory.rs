@@ -10,7 +10,7 @@ use asperity::contact::motion::{Body, ContactTree};
 use asperity::contact::{Contact, Modulus, Profile};
 use asperity::contact::{Edges, Move};
 use asperity::scene::Simulation;
-use asperity::scene::stages::Workload;
+use asperity::scene::workload::Workload;
 use asperity::scene::{Document, open};
 use asperity::surface::SelfAffine;
 use asperity::surface::lines::{Line, Synthesizer};
@@ -40,7 +40,7 @@ const SCENES: [Changed<'static>; 7] = [
     ),
     (
         "jkr-sphere",
-        &[("numerics.samples", "300000"), ("loading", LEGS)],
+        &[("numerics.samples", "300000"), ("loading", STAGES)],
     ),
     ("million-springs", &[("numerics.samples", "5000")]),
     (
@@ -52,7 +52,7 @@ const SCENES: [Changed<'static>; 7] = [
         &[("numerics.samples", "5000"), ("adhesion", "None")],
     ),
 ];
-const LEGS: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
+const STAGES: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
 
 #[test]
 fn a_plan_states_the_memory_that_a_run_takes() {

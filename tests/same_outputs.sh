@@ -112,7 +112,7 @@ outputs() {
     measured_files
     for scene in $("$asperity" presets list | awk '{ print $1 }'); do
         "$asperity" presets show "$scene" >"$scene.ron"
-        "$asperity" line "$scene" >"$scene.line.csv"
+        "$asperity" profile "$scene" >"$scene.line.csv"
         "$asperity" run "$scene" | without_times >"$scene.txt"
         "$asperity" run "$scene" --format json | without_seconds >"$scene.json"
         "$asperity" run "$scene" --format csv >"$scene.csv"
@@ -167,8 +167,8 @@ outputs() {
     recorded surface.continued.json "$asperity" surface profile.csv --continue-to 10nm --format json
     recorded surface.csv "$asperity" surface profile.csv --format csv
     recorded surface.svg "$asperity" surface profile.csv map.txt --format svg
-    recorded reference.rough "$asperity" reference "$examples/rough-square.ron" --grid 32 --maps 3 --profiles 8
-    recorded reference.two.json "$asperity" reference "$examples/rough-square.ron" --grid 32 --maps 2 --profiles 8 --format json
+    recorded reference.rough "$asperity" reference "$examples/rough-square.ron" --grid 32 --surfaces 3 --profiles 8
+    recorded reference.two.json "$asperity" reference "$examples/rough-square.ron" --grid 32 --surfaces 2 --profiles 8 --format json
     recorded reference.sphere "$asperity" reference jkr-sphere --grid 32
     "$asperity" check | without_times >check.txt || true
     for at in 0 1 3; do

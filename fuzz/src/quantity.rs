@@ -2,7 +2,7 @@
 
 use super::{assert_message, text};
 use asperity::data::{format_quantity, parse_quantity};
-use asperity::scene::fields::{FIELDS, LEG_FORCE, LEG_INDENTATION};
+use asperity::scene::fields::{FIELDS, STAGE_FORCE, STAGE_INDENTATION};
 
 /// The largest number allowed by any field.
 const LARGEST: f64 = 1.0e300;
@@ -15,7 +15,7 @@ pub fn quantity(bytes: &[u8]) {
     let text = text(bytes);
     let mut units: Vec<&str> = FIELDS
         .iter()
-        .chain([&LEG_FORCE, &LEG_INDENTATION])
+        .chain([&STAGE_FORCE, &STAGE_INDENTATION])
         .map(|one| one.unit)
         .collect();
     units.sort_unstable();

@@ -2,8 +2,8 @@
 
 use super::{assert_document, assert_errors, assert_place, text};
 use asperity::scene::fields::Effect;
-use asperity::scene::stages::Workload;
 use asperity::scene::text::LONGEST_TEXT;
+use asperity::scene::workload::Workload;
 use asperity::scene::{Document, Origin};
 
 const NAME: &str = "fuzzed.ron";

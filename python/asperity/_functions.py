@@ -46,7 +46,7 @@ Progress: TypeAlias = Callable[[int, int], object] | None
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
 #: Scene of a flat smooth body, in which form, roughness and modulus are replaced.
-_PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
+_PLAIN = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
 _DETRENDS = {"none": "Nothing", "nothing": "Nothing", "mean": "Mean", "tilt": "Tilt", "curvature": "Curvature"}
 _FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "TwoSpheres", "Table")
@@ -123,7 +123,7 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
     changes = []
     if "modulus" in contact:
         modulus = quantity(contact["modulus"], "Pa", "modulus")
-        changes += in_fields({"material": {"effective_modulus": modulus}})
+        changes += in_fields({"material": {"modulus": modulus}})
     if "stages" in contact:
         changes.append(("loading", _stages(contact["stages"])))
     changes += in_fields(others)
@@ -435,7 +435,7 @@ def load(
         return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
-        "material": {"effective_modulus": modulus},
+        "material": {"modulus": modulus},
         "adhesion": None if work == 0 else adhesion,
         "loading": stages,
         "loading_stiffness": loading_stiffness,
@@ -512,7 +512,7 @@ def preloads(
     progress: Progress = None,
     **fields: Any,
 ) -> Preloads:
-    """Computes the adhesion force after each of `count` preloads between two forces in N, with `log` at equal ratios.
+    """Computes the pull-off force after each of `count` preloads between two forces in N, with `log` at equal ratios.
 
     A profile of given heights is allowed, with a modulus: `preloads(profile, (0, "1 µN"), modulus="1 MPa", work="50 mJ/m²")`.
     """
@@ -548,7 +548,7 @@ def reference(
     /,
     *,
     grid: int = 64,
-    maps: int | None = None,
+    surfaces: int | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
     progress: Progress = None,
@@ -556,10 +556,10 @@ def reference(
 ) -> Reference:
     """Computes a scene in three dimensions on random squares of `grid` × `grid` cells, and on random profiles.
 
-    `maps` is the number of squares, by default 24 without and 12 with adhesion.
+    `surfaces` is the number of squares, by default 24 without and 12 with adhesion.
     """
     cells = whole(grid, "grid", 1, 2**16)
-    count = None if maps is None else whole(maps, "maps", 1, 10_000)
+    count = None if surfaces is None else whole(surfaces, "surfaces", 1, 10_000)
     found = Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
     warn_of(found._premises())
     return found
@@ -576,7 +576,7 @@ def study(
     axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any] | Quantity],
     /,
     *,
-    record: Sequence[str] | str = ("adhesion_force", "regime"),
+    record: Sequence[str] | str = ("pull_off_force", "regime"),
     profiles: int = 16,
     jobs: int | None = None,
     progress: Progress = None,
@@ -624,7 +624,7 @@ def surface(
     distances along a row and between rows. The options `reading` are those of `docs/surfaces.md`, such as `unit="um"`,
     `detrend="tilt"` and `periodic=True`. `tip_radius` in m gives the reliability cut-off.
 
-    With a `modulus` in Pa and a `work` of adhesion in J/m², the adhesion force of the equivalent line after a `preload` in N, by
+    With a `modulus` in Pa and a `work` of adhesion in J/m², the pull-off force of the equivalent line after a `preload` in N, by
     default turned at zero force, is computed on `profiles` random profiles, by default 16 for at most 131 072 springs.
     """
     figures = [_positive(tip_radius, "m", "tip_radius"), _positive(modulus, "Pa", "modulus")]

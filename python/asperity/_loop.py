@@ -58,7 +58,7 @@ class Loop:
     tabor: float | None
     #: Regime of adhesion turned at first touch, such as "pressure-sensitive".
     regime: str | None
-    #: Pull-off force over the ideal adhesion force, F_a/F_a,max.
+    #: Pull-off force over the ideal pull-off force, F_a/F_a,max.
     share: float | None
     #: Premises of the model that the loading does not meet, one sentence for each; empty if all hold.
     warnings: list[str]
@@ -77,7 +77,7 @@ class Loop:
         if not isinstance(self._source, _native.Scene):
             return None
         report = _native.run((self._source, 1, None, None), self._native)
-        error: float | None = json.loads(report.write("json"))["adhesion_force_error"]
+        error: float | None = json.loads(report.write("json"))["pull_off_force_error"]
         return error
 
     @cached_property

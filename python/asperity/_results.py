@@ -118,7 +118,7 @@ class Drawn(Result):
 class Outcome(Drawn):
     """A computed scene: forces, energies, regime and force curve, and the statistics over random profiles."""
 
-    _shown = (("adhesion_force", "N"), ("regime", ""))
+    _shown = (("pull_off_force", "N"), ("regime", ""))
 
     #: Force loop on the profile of the scene.
     loop: Loop
@@ -140,15 +140,15 @@ class Ensemble(Result):
 
     @property
     def median(self) -> float | None:
-        """Median of the adhesion force over the profiles in N."""
-        return None if self.adhesion_force is None else float(self.adhesion_force.median)
+        """Median of the pull-off force over the profiles in N."""
+        return None if self.pull_off_force is None else float(self.pull_off_force.median)
 
     @property
     def quartiles(self) -> list[float] | None:
-        """Lower and upper quartile of the adhesion force over the profiles in N."""
-        return None if self.adhesion_force is None else list(self.adhesion_force.quartiles)
+        """Lower and upper quartile of the pull-off force over the profiles in N."""
+        return None if self.pull_off_force is None else list(self.pull_off_force.quartiles)
 
-    def values(self, quantity: str = "adhesion_force") -> np.ndarray[Any, Any]:
+    def values(self, quantity: str = "pull_off_force") -> np.ndarray[Any, Any]:
         """Returns the values of a quantity on all profiles, in the order of their seeds; NaN for a profile without a value."""
         import numpy as np
 
@@ -166,7 +166,7 @@ class Found(Result):
 
 
 class Preloads(Drawn):
-    """Adhesion force over the preload."""
+    """Pull-off force over the preload."""
 
 
 class Reversals(Drawn):

@@ -7,7 +7,7 @@ import numpy as np
 import asperity as asp
 
 radius, modulus, work = "7.5 µm", "1 MPa", 0.05
-ball = {"form": asp.sphere(radius), "length": "24 µm", "numerics__points": 1024, "material": {"effective_modulus": 1e6}}
+ball = {"form": asp.sphere(radius), "length": "24 µm", "numerics__points": 1024, "material": {"modulus": 1e6}}
 folder, noise = Path("curves"), np.random.default_rng(1)
 folder.mkdir(exist_ok=True)
 body = asp.profile("24 µm", 4096, form=asp.sphere(radius))

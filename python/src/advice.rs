@@ -43,7 +43,7 @@ pub fn argument(remedy: &Remedy) -> String {
         Remedy::NoRoughnessErrors => "no height_error and hurst_error in options",
         Remedy::Grid(cells) => return format!("grid={cells}"),
         Remedy::FinerGrid => "grid refines the squares",
-        Remedy::Maps => "maps takes more of them",
+        Remedy::Surfaces => "surfaces takes more of them",
         Remedy::Tolerance => "more points",
         Remedy::Preload => "preload presses before",
         Remedy::Range => "range",
@@ -86,7 +86,7 @@ pub fn name(remedy: &Remedy) -> Option<&'static str> {
         }
         Remedy::RoughnessErrors | Remedy::NoRoughnessErrors => "height_error",
         Remedy::Grid(_) | Remedy::FinerGrid => "grid",
-        Remedy::Maps => "maps",
+        Remedy::Surfaces => "surfaces",
         Remedy::Preload => "preload",
         Remedy::Range => "range",
         Remedy::FewerThreads => "jobs",

@@ -5,8 +5,8 @@ use crate::computing::{Progress, computed};
 use crate::failure::Failure;
 use crate::quantity::{Array, array};
 use crate::scene::Scene;
-use asperity::contact::motion::{JumpCollector, Leg};
-use asperity::contact::{Events, Figures, LegRecord, Mark, NominalForm};
+use asperity::contact::motion::{JumpCollector, Stage};
+use asperity::contact::{Events, Figures, Mark, NominalForm, StageRecord};
 use asperity::data::Warning;
 use asperity::scene::Outcome;
 use asperity::scene::instrument::displacements;
@@ -153,7 +153,7 @@ type Marks = BTreeMap<&'static str, (f64, f64)>;
 /// Force loop of a profile or of a computed scene. The Python class `asperity.Loop` wraps it.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
-    stages: Vec<LegRecord>,
+    stages: Vec<StageRecord>,
     figures: Figures,
     /// Stiffness of the instrument, N/m.
     stiffness: f64,
@@ -237,9 +237,10 @@ impl Loop {
         let table = computed(py, None, |watch| {
             let scene = scene.document.scene();
             let mut jumps = JumpCollector::default();
-            let mut observe = |_: usize, record: &LegRecord, leg: &Leg| jumps.observe(record, leg);
+            let mut observe =
+                |_: usize, record: &StageRecord, stage: &Stage| jumps.observe(record, stage);
             let outcome = simulation.run(scene, &|| watch.stop(), &mut observe)?;
-            let events = jumps.events(&outcome.history.legs, 0.0, usize::MAX)?;
+            let events = jumps.events(&outcome.history.stages, 0.0, usize::MAX)?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
             Ok(npy(&events, outcome.line.first, stiffness))
         })?;
@@ -260,7 +261,7 @@ impl Loop {
             })?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
             Ok(Loop {
-                stages: outcome.history.legs.clone(),
+                stages: outcome.history.stages.clone(),
                 figures: outcome.figures,
                 stiffness,
                 title: scene.title.clone(),
@@ -279,7 +280,7 @@ impl Loop {
         for (number, stage) in self.stages.iter().enumerate() {
             for point in &stage.curve {
                 counts[0].push(number as i64);
-                counts[1].push(point.fragments as i64);
+                counts[1].push(point.patches as i64);
                 columns[0].push(point.indentation);
                 columns[1].push(point.force);
                 columns[3].push(point.contact_length);
@@ -299,7 +300,7 @@ impl Loop {
     /// marked points.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
         let mut figures = [
-            self.figures.adhesion_force,
+            self.figures.pull_off_force,
             self.figures.pull_off_indentation,
             self.figures.preload,
             self.figures.dissipated_energy,

@@ -23,12 +23,12 @@ pub fn press<'py>(
 ) -> PyResult<([Array<'py, f64>; 2], [f64; 5])> {
     let cells = heights.shape()[0];
     let heights = heights.as_slice()?.to_vec();
-    let (side, effective_modulus, force) = load;
+    let (side, modulus, force) = load;
     let found = computed(py, None, |watch| {
         let square = Square {
             heights: &heights,
             side,
-            effective_modulus,
+            modulus,
         };
         let boundary = if is_periodic {
             Boundary::Periodic

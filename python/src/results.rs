@@ -203,7 +203,7 @@ pub fn find(
     })
 }
 
-/// Computes the adhesion force of a scene as a function of the preload. `preloads` is a text in the
+/// Computes the pull-off force of a scene as a function of the preload. `preloads` is a text in the
 /// notation of `asperity run --preloads`.
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
@@ -269,17 +269,22 @@ pub fn reversals(
 }
 
 /// Compares the results of a scene on profiles (lines) with the results on square surfaces in three
-/// dimensions. `cells` is the number of grid cells along the side of a square surface, and `maps`
+/// dimensions. `cells` is the number of grid cells along the side of a square surface, and `surfaces`
 /// is the number of random square surfaces.
 #[pyfunction]
-pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
+pub fn reference(
+    py: Python<'_>,
+    call: Call,
+    cells: usize,
+    surfaces: Option<u64>,
+) -> PyResult<Report> {
     let lines = call.1;
     call.computed(py, |case| {
         let scene = case.document.scene();
-        let usual = ReferenceOptions::of(scene, maps);
+        let usual = ReferenceOptions::of(scene, surfaces);
         let options = ReferenceOptions {
             cells,
-            lines: lines.unwrap_or(usual.lines),
+            profiles: lines.unwrap_or(usual.profiles),
             ..usual
         };
         let mut squares = 0;
@@ -290,7 +295,7 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
             squares += 1;
             Some(squares)
         };
-        let found = case.watched(options.maps, done, |control| {
+        let found = case.watched(options.surfaces, done, |control| {
             Reference::of(scene, options, &mut case.simulation(), control)
         })?;
         Ok(Report::new(move |format| {

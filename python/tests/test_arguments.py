@@ -66,12 +66,12 @@ class EquivalentLines(InFolder):
             heights = asp.Profile(1e-7 * np.random.default_rng(points).random(points), 1e-7)
             contact = {"modulus": MODULUS, "work": 0.01}
             found = asp.preloads(heights, ("1 pN", "1 nN"), count=3, log=True, **contact).to_pandas()
-            for preload, force in zip(found.preload, found.adhesion_force, strict=True):
+            for preload, force in zip(found.preload, found.pull_off_force, strict=True):
                 loop = asp.load(heights, stages=[preload, "separation"], **contact)
                 self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
         last = asp.reversals(heights, (0, "1 nN"), count=4, **contact).to_pandas().iloc[-1]
         loop = asp.load(heights, stages=[f"{last.turning_indentation} m", "separation"], **contact)
-        self.assertAlmostEqual(last.adhesion_force / loop.pull_off, 1, delta=1e-9)
+        self.assertAlmostEqual(last.pull_off_force / loop.pull_off, 1, delta=1e-9)
         self.refused(asp.preloads, asp.Profile([0.0], 1e-6), (0, "1 µN"), field="heights", **contact)
         for function in [asp.run, asp.ensemble, asp.criteria, asp.reference]:
             self.refused(function, heights, field="scene", says="form and roughness are not known", **contact)
@@ -123,7 +123,7 @@ class EquivalentLines(InFolder):
         contact = {"modulus": MODULUS, "stages": "1 µN, separation"}
         for body in [surface, heights]:
             found = asp.study(body, {"adhesion.work": works}, profiles=1, work=1e-3, **contact).to_pandas()
-            for work, force in zip(works, found.adhesion_force, strict=True):
+            for work, force in zip(works, found.pull_off_force, strict=True):
                 loop = asp.load(body, work=work, **contact)
                 self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
         self.refused(asp.study, surface, {"roughness.rows": [1]}, profiles=1, work=1e-3, **contact)
@@ -168,17 +168,17 @@ class Contacts(InFolder):
         body = sphere()
         contact = {"modulus": "1 MPa", "work": "50 mJ/m²", "closing_work": "40 mJ/m²", "stages": "100 µN, separation"}
         loop = asp.load(body, **contact)
-        fields = {"material__effective_modulus": 1e6, "adhesion": {"work": 0.05, "closing_work": 0.04}, "loading": contact["stages"]}
+        fields = {"material__modulus": 1e6, "adhesion": {"work": 0.05, "closing_work": 0.04}, "loading": contact["stages"]}
         for given in [contact, fields, {**contact, "stages": [1e-4, "separation"]}]:
-            self.assertEqual(asp.run(body, profiles=1, **given).adhesion_force, loop.pull_off)
+            self.assertEqual(asp.run(body, profiles=1, **given).pull_off_force, loop.pull_off)
         self.assertEqual(asp.scene(body, **contact).text, asp.scene(body, **fields).text)
         preloads = asp.preloads(body, ("50 µN", "100 µN"), count=2, modulus="1 MPa", work=0.05, closing_work=0.04)
-        self.assertAlmostEqual(preloads.to_pandas().adhesion_force.iloc[-1] / loop.pull_off, 1, delta=1e-12)
+        self.assertAlmostEqual(preloads.to_pandas().pull_off_force.iloc[-1] / loop.pull_off, 1, delta=1e-12)
         # A work replaces κ, and the range of the attraction stays.
         near = asp.scene("pressure-sensitive", adhesion__range="1 nm")
         self.assertIn("adhesion: (work: 0.1, range: 1.0e-9)", asp.scene(near, work=0.1).text)
         self.assertIn("adhesion: None", asp.scene(near, work=0).text)
-        self.refused(asp.run, body, modulus=1e6, material__effective_modulus=2e6, field="modulus", says="not both")
+        self.refused(asp.run, body, modulus=1e6, material__modulus=2e6, field="modulus", says="not both")
         self.refused(asp.run, "jkr-sphere", work=1, adhesion__kappa=2, field="work", says="not both")
         self.refused(asp.run, "jkr-sphere", modulus="1 J", field="modulus", says="not a unit of pressure")
         self.refused(asp.run, "jkr-sphere", work=-1, field="adhesion.work")
@@ -204,7 +204,7 @@ class Surfaces(InFolder):
                 self.assertEqual(json.dumps(found[key]), json.dumps(printed[key]), key)
             self.assertEqual(found["adhesion"] is None, "work" not in options)
         array = asp.surface(rough_map(), spacing=1e-7, detrend="curvature", **options)
-        self.assertEqual(array.adhesion.adhesion_force, asp.surface("map.npy", unit="m", spacing=1e-7, detrend="curvature", **options).adhesion.adhesion_force)
+        self.assertEqual(array.adhesion.pull_off_force, asp.surface("map.npy", unit="m", spacing=1e-7, detrend="curvature", **options).adhesion.pull_off_force)
 
     def test_an_adhesion_needs_all_its_values(self):
         heights = rough_map()

@@ -71,9 +71,9 @@ class Loops(unittest.TestCase):
             np.save(file, np.c_[body.x, body.heights])
             saved = asp.profile("100 µm", 1024, roughness=asp.measured(file, as_line=True))
             np.testing.assert_array_equal(saved.gaps, body.gaps)
-            fields = {"material__effective_modulus": LOAD["modulus"], "adhesion": {"work": LOAD["work"]}}
+            fields = {"material__modulus": LOAD["modulus"], "adhesion": {"work": LOAD["work"]}}
             found = asp.preloads(saved, ("1 µN", "100 µN"), count=2, **fields).to_pandas()
-        for preload, force in zip(["1 µN", "100 µN"], found.adhesion_force, strict=True):
+        for preload, force in zip(["1 µN", "100 µN"], found.pull_off_force, strict=True):
             loop = asp.load(asp.Profile(body.heights, body.spacing), **{**LOAD, "stages": f"{preload}, separation"})
             self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
 
@@ -162,10 +162,10 @@ class Computations(unittest.TestCase):
         outcome = asp.run(SCENE, profiles=1)
         self.assertEqual([point["force"] for point in outcome.curve], list(outcome.loop.F))
         self.assertEqual(outcome.line["points"], len(outcome.profile))
-        self.assertEqual(outcome.loop.pull_off, outcome.adhesion_force)
+        self.assertEqual(outcome.loop.pull_off, outcome.pull_off_force)
         again = asp.Profile(outcome.profile.heights, outcome.profile.spacing)
-        loop = asp.load(again, modulus=outcome.effective_modulus, work=outcome.work_of_adhesion, stages="10 µN, separation")
-        self.assertAlmostEqual(loop.pull_off / outcome.adhesion_force, 1, delta=1e-9)
+        loop = asp.load(again, modulus=outcome.modulus, work=outcome.work_of_adhesion, stages="10 µN, separation")
+        self.assertAlmostEqual(loop.pull_off / outcome.pull_off_force, 1, delta=1e-9)
 
     def test_a_sphere_in_three_dimensions_is_that_of_hertz(self):
         at = (np.arange(128) + 0.5) / 128 - 0.5
@@ -234,7 +234,7 @@ class Computations(unittest.TestCase):
             import os, time, asperity as asp
             for work in [
                 lambda: asp.ensemble("{SCENE}", profiles=20_000),
-                lambda: asp.reference("rough-sphere", grid=128, maps=300),
+                lambda: asp.reference("rough-sphere", grid=128, surfaces=300),
                 lambda: asp.find("preload", "{SCENE}", "F_a/F_a,max = 20 %", profiles=100_000),
             ]:
                 print("begin", flush=True)

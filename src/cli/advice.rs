@@ -51,7 +51,7 @@ pub fn option(remedy: &Remedy) -> String {
         Remedy::NoRoughnessErrors => "no --height-error and --hurst-error",
         Remedy::Grid(cells) => return format!("--grid {cells}"),
         Remedy::FinerGrid => "--grid refines the squares",
-        Remedy::Maps => "--maps takes more of them",
+        Remedy::Surfaces => "--surfaces takes more of them",
         Remedy::Tolerance => "--tolerance",
         Remedy::Preload => "--preload presses before",
         Remedy::Range => "--range A..B",

@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, completions, cost, demo, explore, find, fit, line, plan, presets, reference, reversals,
-    run, sensitivity, surface, sweep,
+    check, completions, cost, demo, explore, find, fit, plan, presets, profile, reference,
+    reversals, run, sensitivity, surface, sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -50,24 +50,24 @@ pub enum Command {
     Find(find::FindArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(reversals::ReversalsArguments),
-    /// Change each number of a scene by 10 %: median adhesion force, dissipated energy
+    /// Change each number of a scene by 10 %: median pull-off force, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
     /// Fit a scene to measured force curves: work of adhesion, other parameters, errors
     Fit(fit::FitArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a picture
     Demo(demo::DemoArguments),
-    /// List the computing stages of a scene with their cost, and the skipped stages
+    /// List the parts of the computation of a scene with their cost, and the skipped parts
     Plan(plan::PlanArguments),
     /// Measure errors against computing time for each setting that affects accuracy
     Cost(cost::CostArguments),
-    /// Compare the line of a scene with random squares on a half-space in three dimensions
+    /// Compare random profiles with random square surfaces in three dimensions
     Reference(reference::ReferenceArguments),
     /// Compute a parameter study: many cells on many random profiles
     Sweep(sweep::SweepArguments),
     /// Check this build against closed forms, laws and numerically hard cases
     Check(check::CheckArguments),
     /// Write the rigid profile of a scene as a table: x and z in m
-    Line(line::LineArguments),
+    Profile(profile::ProfileTableArguments),
     /// Analyse measured surfaces: statistics, spectrum, equivalent line
     Surface(surface::SurfaceArguments),
     /// List, show and check scenes

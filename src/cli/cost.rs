@@ -19,7 +19,7 @@ Examples:
   asperity cost my-scene.ron --budget 30s -o my-scene.svg
   asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
 
-Errors are relative to the closed form of the adhesion force if the scene has one, else to the
+Errors are relative to the closed form of the pull-off force if the scene has one, else to the
 finest solution within the budget, whose own error is estimated and stated.";
 
 /// Largest time limit in s that the user may set for all measurements together.

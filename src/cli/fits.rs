@@ -7,12 +7,11 @@ use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
-use super::scene::{Overrides, holds_warnings, threads, warn};
+use super::scene::{Overrides, threads, warn_beside};
 use asperity_data::{
-    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
-    write_new,
+    Control, Remedied, check_writable, counted, grouped, on_threads, path_name, printable,
+    read_regular_text, write_new,
 };
-use asperity_data::{Remedied, counted};
 use asperity_experiment::{CurveOptions, Fit, Free, Parameter};
 use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
@@ -165,9 +164,7 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         )?,
     }
     stdout.flush()?;
-    if !holds_warnings(format) {
-        warn(&batch.document, &report.warning_texts());
-    }
+    warn_beside(&batch.document, &report, format);
     if let Some(failure) = report.failure() {
         return Err(CliError::message(failure));
     }

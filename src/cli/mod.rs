@@ -17,10 +17,10 @@ mod explore;
 mod find;
 mod fit;
 mod fits;
-mod line;
 mod output;
 mod plan;
 mod presets;
+mod profile;
 mod progress;
 mod reference;
 mod reversals;
@@ -197,7 +197,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),
         Some(Command::Check(arguments)) => check::check(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),
-        Some(Command::Line(arguments)) => line::line(arguments, stdout),
+        Some(Command::Profile(arguments)) => profile::profile(arguments, stdout),
         Some(Command::Surface(arguments)) => surface::surface(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),
         Some(Command::Completions(arguments)) => {

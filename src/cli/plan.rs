@@ -1,11 +1,11 @@
-//! `asperity plan`: lists the computing stages of a scene and their cost.
+//! `asperity plan`: lists the parts of the computation of a scene and their cost.
 
 use super::error::CliError;
 use super::output::AnswerFormat;
 use super::scene::{SceneArguments, warn};
-use asperity_report::stages_text;
+use asperity_report::parts_text;
 use asperity_scene::Scene;
-use asperity_scene::stages::Workload;
+use asperity_scene::workload::Workload;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -15,8 +15,8 @@ Examples:
   asperity plan pressure-sensitive
   asperity plan million-springs --set adhesion=None --format json
 
-A stage that a scene does not need is skipped. \"per stage\" counts the passes of each loading stage;
-springs are the most that all passes touch; memory is what a stage adds while it runs.";
+A part that a scene does not need is skipped. \"per stage\" counts the passes of each loading stage;
+springs are the most that all passes touch; memory is what a part adds while it runs.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -35,7 +35,7 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
     let plan = Workload::of(scene);
     arguments.format.write(
         stdout,
-        || stages_text(&plan),
+        || parts_text(&plan),
         &PlanJson { scene, plan: &plan },
     )
 }

@@ -5,8 +5,8 @@ use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
-use asperity_report::{Format, ReferenceProgress, ReferenceReport, counted_texts};
+use super::scene::{ProfileArguments, SceneArguments, warn_beside};
+use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use clap::Args;
@@ -15,7 +15,7 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity reference jkr-sphere --grid 128
-  asperity reference rough-sphere --maps 12
+  asperity reference rough-sphere --surfaces 12
   asperity reference my-scene.ron --format json | jq .budget
 
 Random squares with the spectrum of the scene are pressed on an elastic half-space and pulled off,
@@ -31,7 +31,7 @@ pub struct ReferenceArguments {
     pub grid: usize,
     /// Number of random squares; default: 24 without adhesion, 12 with
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=10_000))]
-    pub maps: Option<u64>,
+    pub surfaces: Option<u64>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
     #[command(flatten)]
@@ -44,11 +44,11 @@ pub(super) fn reference(
 ) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
-    let usual = ReferenceOptions::of(document.scene(), arguments.maps);
-    let lines = arguments.profiles.lines.map_or(usual.lines, u64::from);
+    let usual = ReferenceOptions::of(document.scene(), arguments.surfaces);
+    let profiles = arguments.profiles.lines.map_or(usual.profiles, u64::from);
     let options = ReferenceOptions {
         cells: arguments.grid,
-        lines,
+        profiles,
         ..usual
     };
     let found = compared(&document, options, arguments.profiles.threads())?;
@@ -59,10 +59,7 @@ pub(super) fn reference(
         scene,
         reference: &found,
     };
-    if !holds_warnings(format) {
-        let profiles = found.profiles_for_warnings();
-        warn(&document, &counted_texts(&found.warnings, profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments.output.write(
         stdout,
         &report,

@@ -85,7 +85,7 @@ pub(super) fn reversals(
     }
     let mut preloads = None;
     let mut staircase = None;
-    // Tables contain only the turning points and no adhesion forces, so that these need not be
+    // Tables contain only the turning points and no pull-off forces, so that these need not be
     // computed.
     if !format.is_table() {
         let largest = map
@@ -129,7 +129,7 @@ fn map_of(
     })
 }
 
-/// Computes the adhesion force of a scene after each of the given preloads.
+/// Computes the pull-off force of a scene after each of the given preloads.
 fn adhesion_at(document: &Document, preloads: &Axis) -> Result<Results, CliError> {
     let task = Task {
         name: Some(document.name()),

@@ -13,7 +13,7 @@ use asperity_data::{counted, parse_quantity, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
     ComparedScene, ContactSets, EventsReport, Format, PreloadReport, Report, RunReport,
-    ScenesReport, check_measured_files, counted_texts, warning_texts,
+    ScenesReport, check_measured_files, counted_texts, outcome_warnings,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::{
@@ -29,7 +29,7 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity run pressure-sensitive
-  asperity run my-scene.ron --set adhesion.work=0.1 --format json | jq .adhesion_force
+  asperity run my-scene.ron --set adhesion.work=0.1 --format json | jq .pull_off_force
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
   asperity run jkr.csv --set adhesion.work=0.1 -o other.npy
   asperity run jkr-sphere --tolerance 0.1%
@@ -80,14 +80,14 @@ pub struct RunArguments {
         verbatim_doc_comment
     )]
     pub draw: Option<Drawn>,
-    /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
+    /// Choose springs and edges for a pull-off force within T, as 1e-3 or 0.1%
     ///
     /// Doubles the springs until the error is small enough. The error is that from the closed
     /// form if there is one, else an estimate; without a pull-off it is that of the force curve.
     /// Replaces numerics.points and numerics.edges of the scene.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute the adhesion force for many preloads instead of the loading
+    /// Compute the pull-off force for many preloads instead of the loading
     ///
     /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at
     /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload.
@@ -311,7 +311,7 @@ impl RunArguments {
         }
     }
 
-    /// Returns the standard deviation in N of the adhesion force due to the uncertainty of a
+    /// Returns the standard deviation in N of the pull-off force due to the uncertainty of a
     /// measured spectrum; `None` if its computation would take long.
     fn fit_deviation(
         &self,
@@ -328,7 +328,7 @@ impl RunArguments {
         )
     }
 
-    /// Computes the adhesion force of a scene as a function of the preload. The staircase is
+    /// Computes the pull-off force of a scene as a function of the preload. The staircase is
     /// computed only if the figure shows it, or if there are preloads below zero.
     fn adhesion(
         &self,
@@ -348,7 +348,7 @@ impl RunArguments {
         Ok((results, staircase))
     }
 
-    /// Computes the adhesion force as a function of the preload on one or several random profiles.
+    /// Computes the pull-off force as a function of the preload on one or several random profiles.
     /// On a terminal, the number of computed profiles is shown meanwhile.
     fn adhesion_on_profiles(
         &self,
@@ -491,13 +491,13 @@ fn run_events(
     let mut simulation = simulation_of(document);
     let mut jumps = JumpCollector::default();
     let outcome = compute_stages(document, scene, |stop, after| {
-        simulation.run(scene, stop, &mut |stage, record, leg| {
-            jumps.observe(record, leg)?;
+        simulation.run(scene, stop, &mut |stage, record, motion| {
+            jumps.observe(record, motion)?;
             after(stage);
             Ok(())
         })
     })?;
-    let events = jumps.events(&outcome.history.legs, least_share, usize::MAX)?;
+    let events = jumps.events(&outcome.history.stages, least_share, usize::MAX)?;
     if !holds_warnings(format) {
         warn(document, &outcome_warnings(&outcome, None));
     }
@@ -585,16 +585,7 @@ fn estimated(
     )
 }
 
-/// Returns the warnings about a result. If there are several random profiles, each warning states
-/// to how many of them it applies.
-fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
-    match ensemble {
-        Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
-        None => warning_texts(&outcome.warnings),
-    }
-}
-
-/// Writes the adhesion force as a function of the preload: for a single scene as a report, for
+/// Writes the pull-off force as a function of the preload: for a single scene as a report, for
 /// several scenes as a figure with a panel for each scene.
 fn run_preloads(
     arguments: &RunArguments,
@@ -645,8 +636,8 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(has_patches);
         let outcome = compute_stages(document, scene, |stop, after| {
-            simulation.run(scene, stop, &mut |stage, record, leg| {
-                sets.observe(record, leg);
+            simulation.run(scene, stop, &mut |stage, record, motion| {
+                sets.observe(record, motion);
                 after(stage);
                 Ok(())
             })

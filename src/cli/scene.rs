@@ -4,7 +4,7 @@ use super::error::CliError;
 use super::progress::{ProgressLine, Task, watched};
 use crate::explorer::recognition::no_scene;
 use asperity_data::{Control, counted, parallel, printable};
-use asperity_report::Format;
+use asperity_report::{Format, Report};
 use asperity_scene::library::open_argument;
 use asperity_scene::{CheckedScene, Document, Outcome, RunError, Scene, Simulation};
 use asperity_study::{Axis, Ensemble, Staircase};
@@ -94,6 +94,14 @@ pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
+/// Writes the warnings of a report to standard error, unless its text or JSON states them. A table
+/// or a figure also has them, but not where the user sees them at once.
+pub(super) fn warn_beside(document: &Document, report: &impl Report, format: Format) {
+    if !holds_warnings(format) {
+        warn(document, &report.warnings());
+    }
+}
+
 /// Opens the scene that an argument of the command line names. If the argument is a measured file
 /// and not a scene, the error message names the commands that read such files.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
@@ -162,7 +170,7 @@ pub(super) fn compute_stages(
 /// Function that returns true if a computation is to be stopped.
 type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Computes the adhesion force of a scene as a function of the preload.
+/// Computes the pull-off force of a scene as a function of the preload.
 pub(super) fn staircase_of(
     document: &Document,
     scene: &CheckedScene,

@@ -3,9 +3,9 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{SceneArguments, holds_warnings, threads, warn};
+use super::scene::{SceneArguments, threads, warn_beside};
 use asperity_data::counted;
-use asperity_report::{Format, SensitivityReport, counted_texts};
+use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
 use asperity_study::Sensitivity;
 use clap::Args;
@@ -56,9 +56,7 @@ pub(super) fn sensitivity(
         scene,
         sensitivity: &found,
     };
-    if !holds_warnings(format) {
-        warn(&document, &counted_texts(&found.warnings, found.profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments
         .output
         .write(stdout, &report, format, Origin::Scene(&document, scene))

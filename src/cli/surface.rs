@@ -8,8 +8,8 @@ use super::scene::{MOST_LINES, holds_warnings, threads, warn_of};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
 use asperity_data::{Control, Remedied, Wording, parse_quantity, path_name, round_to, write_new};
-use asperity_report::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
-use asperity_scene::stages::equivalent_springs;
+use asperity_report::{Format, MeasuredFace, Report, SurfaceFile, SurfaceReport, named_from};
+use asperity_scene::workload::equivalent_springs;
 use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
 use asperity_study::trust::MeasuredAdhesion;
 use asperity_surface::lines::MeasuredOptions;
@@ -36,7 +36,7 @@ computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
-/// Number of random profiles on which the adhesion force is computed, if the user gives none.
+/// Number of random profiles on which the pull-off force is computed, if the user gives none.
 const LINES: u32 = 16;
 
 /// Arguments of `asperity surface`.
@@ -88,7 +88,7 @@ pub struct SurfaceArguments {
     /// Preload, such as 1mN; default: turned at zero force
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
-    /// Random profiles of the adhesion force; needs --work
+    /// Random profiles of the pull-off force; needs --work
     ///
     /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
     /// spread over profiles and the spread by the fit. Default: 16 up to 131 072 springs, else
@@ -206,7 +206,7 @@ pub struct SurfaceTask {
     pub work: Option<f64>,
     /// Preload in N; `None` for a loading that turns at zero force.
     pub preload: Option<f64>,
-    /// Number of random profiles on which the adhesion force is computed. With `None`, there are 16
+    /// Number of random profiles on which the pull-off force is computed. With `None`, there are 16
     /// profiles if each of them has at most 131 072 springs, otherwise none.
     pub profiles: Option<u32>,
     /// Number of threads. The results do not depend on this number.

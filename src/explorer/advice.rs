@@ -45,7 +45,7 @@ pub fn row(remedy: &Remedy) -> String {
         Remedy::NoRoughnessErrors => "no errors of the roughness",
         Remedy::Grid(cells) => return format!("{cells} cells"),
         Remedy::FinerGrid => "asperity reference refines the squares",
-        Remedy::Maps => "asperity reference takes more of them",
+        Remedy::Surfaces => "asperity reference takes more of them",
         Remedy::Tolerance => "the key %",
         Remedy::Preload => "a loading that presses before",
         Remedy::Range => "a range by asperity find",

@@ -19,7 +19,7 @@ use super::studies::Findings;
 use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
-use asperity_contact::{Events, LegRecord, Mark};
+use asperity_contact::{Events, Mark, StageRecord};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::{Format, LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
@@ -33,7 +33,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
-    /// True to show forces in units of the ideal adhesion force F_a,max, and lengths in units of
+    /// True to show forces in units of the ideal pull-off force F_a,max, and lengths in units of
     /// the rms height h or of the length L. False to show all values in SI units.
     pub normalised: bool,
 }
@@ -89,7 +89,7 @@ pub struct View {
     pub close_up: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
-    /// Scale of the preload axis in the pane of adhesion force against preload.
+    /// Scale of the preload axis in the pane of pull-off force against preload.
     pub preloads: AxisScale,
     /// True if the loops of random square surfaces on an elastic half-space are computed and shown.
     pub squares: bool,
@@ -589,9 +589,9 @@ impl App {
 
     pub fn drive(&self) -> Drive {
         match (&self.edit.path, self.play_of_path) {
-            (None, _) => Drive::Leg(self.play.leg),
+            (None, _) => Drive::Stage(self.play.stage),
             (Some(_), None) => Drive::Manual,
-            (Some(_), Some(player)) => Drive::Path(player.leg),
+            (Some(_), Some(player)) => Drive::Path(player.stage),
         }
     }
 
@@ -625,20 +625,20 @@ impl App {
 
     /// Returns the loading stages over which the animation moves: those of the path of manual
     /// loading, otherwise those of the scene.
-    pub fn played_legs(&self) -> &[LegRecord] {
+    pub fn played_stages(&self) -> &[StageRecord] {
         match self.former_path() {
-            Some(followed) => &followed.legs,
-            None => self.legs(),
+            Some(followed) => &followed.stages,
+            None => self.stages(),
         }
     }
 
-    /// Returns the position of the animation over [`Self::played_legs`].
+    /// Returns the position of the animation over [`Self::played_stages`].
     pub fn playhead(&self) -> Player {
         match (&self.edit.path, self.play_of_path) {
             (None, _) => self.play,
             (Some(_), Some(player)) => player,
             (Some(_), None) => Player {
-                leg: self.played_legs().len().saturating_sub(1),
+                stage: self.played_stages().len().saturating_sub(1),
                 at: At::End,
                 playing: false,
             },
@@ -650,8 +650,8 @@ impl App {
             self.play = player;
             return;
         }
-        let last = self.played_legs().len().saturating_sub(1);
-        let is_at_end = player.leg == last && player.at == At::End;
+        let last = self.played_stages().len().saturating_sub(1);
+        let is_at_end = player.stage == last && player.at == At::End;
         self.play_of_path = if is_at_end { None } else { Some(player) };
     }
 
@@ -675,8 +675,9 @@ impl App {
         self.solved.as_ref().map(|computed| &computed.outcome)
     }
 
-    pub fn legs(&self) -> &[LegRecord] {
-        self.outcome().map_or(&[], |outcome| &outcome.history.legs)
+    pub fn stages(&self) -> &[StageRecord] {
+        self.outcome()
+            .map_or(&[], |outcome| &outcome.history.stages)
     }
 
     /// Returns true if the instrument of the computed scene is compliant, so that it deflects under
@@ -688,7 +689,7 @@ impl App {
 
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
-        for (_, point) in Mark::all(self.legs()) {
+        for (_, point) in Mark::all(self.stages()) {
             largest = largest.max(point.force.abs());
         }
         if force.abs() < 1e-12 * largest {
@@ -698,23 +699,23 @@ impl App {
         }
     }
 
-    /// Returns true if forces are shown in units of the ideal adhesion force F_a,max. This is
+    /// Returns true if forces are shown in units of the ideal pull-off force F_a,max. This is
     /// possible only if a scene with a positive F_a,max is computed.
     pub fn is_normalised(&self) -> bool {
-        self.view.curve.normalised && self.ideal_adhesion_force().is_some()
+        self.view.curve.normalised && self.ideal_pull_off_force().is_some()
     }
 
-    /// Returns the ideal adhesion force F_a,max of the computed scene in N; `None` if no scene is
+    /// Returns the ideal pull-off force F_a,max of the computed scene in N; `None` if no scene is
     /// computed, or if the force is not above zero.
-    pub fn ideal_adhesion_force(&self) -> Option<f64> {
-        let force = self.outcome()?.ideal_adhesion_force?;
+    pub fn ideal_pull_off_force(&self) -> Option<f64> {
+        let force = self.outcome()?.ideal_pull_off_force?;
         if force > 0.0 { Some(force) } else { None }
     }
 
-    /// Returns a force (in N) of the computed scene as text, in N or in units of the ideal adhesion
+    /// Returns a force (in N) of the computed scene as text, in N or in units of the ideal pull-off
     /// force F_a,max.
     pub fn force_in_words(&self, force: f64) -> String {
-        match self.ideal_adhesion_force() {
+        match self.ideal_pull_off_force() {
             Some(ideal) if self.is_normalised() => {
                 format!("{} F_a,max", format_rounded(force / ideal, 3, "1"))
             }
@@ -722,16 +723,16 @@ impl App {
         }
     }
 
-    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force as text, for
-    /// the computed profile. Returns `None` if there is no adhesion force.
+    /// Returns the ratio F_a/F_a,max of the pull-off force to the ideal pull-off force as text, for
+    /// the computed profile. Returns `None` if there is no pull-off force.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
-        let force = self.outcome()?.figures.adhesion_force?;
-        Some(share_in_words(force / self.ideal_adhesion_force()?))
+        let force = self.outcome()?.figures.pull_off_force?;
+        Some(share_in_words(force / self.ideal_pull_off_force()?))
     }
 
     /// Returns the median over the random profiles of the ratio F_a/F_a,max as text. The ratio is
-    /// the adhesion force divided by the ideal adhesion force. Returns `None` until profiles are
-    /// computed, and if no profile has an adhesion force.
+    /// the pull-off force divided by the ideal pull-off force. Returns `None` until profiles are
+    /// computed, and if no profile has a pull-off force.
     pub fn median_share_in_words(&self) -> Option<String> {
         let ensemble = self.studies.value::<Ensemble>()?;
         let shares = ensemble.statistics(Quantity::AdhesionShare)?;
@@ -761,12 +762,12 @@ impl App {
     /// Returns the lowest and the highest indentation of the shown curves in m; `None` if there are
     /// no curves.
     pub fn indentations(&self) -> Option<(f64, f64)> {
-        indentations(self.legs())
+        indentations(self.stages())
     }
 
     /// Returns the indentation in m that the animation shows.
     pub fn indentation(&self) -> f64 {
-        self.playhead().indentation(self.played_legs())
+        self.playhead().indentation(self.played_stages())
     }
 }
 

@@ -212,6 +212,7 @@ impl Autosave {
 mod tests {
     use super::*;
     use asperity_scene::open as open_scene;
+    use std::time::Duration;
 
     #[test]
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
@@ -267,6 +268,12 @@ mod tests {
         let mut session = Autosave::new(folder, None);
         session.keep(&[&changed]).unwrap();
         drop(session);
+        // The clock of files is coarse, so a file written at once may have the same time.
+        let an_hour_ago = SystemTime::now() - Duration::from_secs(3600);
+        for entry in fs::read_dir(folder).unwrap() {
+            let older = File::options().write(true).open(entry.unwrap().path());
+            older.unwrap().set_modified(an_hour_ago).unwrap();
+        }
         let wrong = [
             ("a.ron", ""),
             ("b.ron", "("),

@@ -12,19 +12,19 @@ use asperity_report::event;
 /// body.
 pub fn caption(app: &App) -> Option<String> {
     let snapshot = app.present()?;
-    let (legs, index) = match snapshot.drive {
-        Drive::Leg(index) => (app.legs(), index),
-        Drive::Path(index) => (app.played_legs(), index),
+    let (stages, index) = match snapshot.drive {
+        Drive::Stage(index) => (app.stages(), index),
+        Drive::Path(index) => (app.played_stages(), index),
         Drive::Manual => return Some(caption_of_path(app)),
     };
-    let branches = Branch::all(legs);
+    let branches = Branch::all(stages);
     let mut branches = branches.iter();
     let branch = branches.find(|branch| branch.stages.contains(&index))?;
-    let has_motion = legs.get(index)?.curve.len() != 1;
+    let has_motion = stages.get(index)?.curve.len() != 1;
     if !has_motion {
         return None;
     }
-    event(legs, branch, snapshot.point).map(str::to_owned)
+    event(stages, branch, snapshot.point).map(str::to_owned)
 }
 
 /// Returns the words for the end of the path of manual loading. If the contact cannot follow all

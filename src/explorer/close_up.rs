@@ -3,7 +3,7 @@
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
 use asperity_contact::Patch;
-use asperity_contact::motion::Leg;
+use asperity_contact::motion::Stage;
 use asperity_report::{LineColumns, Part, SectionContact};
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use std::ops::Range;
 /// these springs.
 pub fn close_up(
     contact: &SectionContact<'_>,
-    leg: &Leg,
+    stage: &Stage,
     request: &SnapshotRequest,
     line: &mut LineColumns,
 ) -> CloseUp {
@@ -28,7 +28,7 @@ pub fn close_up(
     CloseUp {
         section: contact.section(part, line),
         boundaries: boundaries(contact, shown),
-        patch: number.and_then(|number| facts(contact, leg, number)),
+        patch: number.and_then(|number| facts(contact, stage, number)),
     }
 }
 
@@ -53,11 +53,11 @@ fn boundaries(contact: &SectionContact<'_>, shown: Range<usize>) -> Vec<(usize, 
     boundaries
 }
 
-fn facts(contact: &SectionContact<'_>, leg: &Leg, number: usize) -> Option<PatchFacts> {
+fn facts(contact: &SectionContact<'_>, stage: &Stage, number: usize) -> Option<PatchFacts> {
     Some(PatchFacts {
         number,
         patch: contact.patches[number],
-        state: leg.patch_state(contact.indentation, number)?,
+        state: stage.patch_state(contact.indentation, number)?,
     })
 }
 

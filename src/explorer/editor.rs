@@ -144,7 +144,7 @@ impl Editor {
     /// Selects the row of a stage of the loading. Does nothing if there is no such row.
     pub fn select_stage(&mut self, stage: usize) {
         let mut rows = self.parameters.iter();
-        if let Some(row) = rows.position(|parameter| parameter.leg == Some(stage)) {
+        if let Some(row) = rows.position(|parameter| parameter.stage == Some(stage)) {
             self.select(row);
         }
     }

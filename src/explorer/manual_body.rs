@@ -2,10 +2,10 @@
 //! exact motion, just as a scene with these stages as its loading does.
 
 use super::events::{LEAST_SHARE, MOST_LISTED};
-use asperity_contact::motion::{Body, JumpCollector, Leg, MovingBody};
-use asperity_contact::{Contact, ContactError, CurvePoint, Events, LegRecord, Move};
+use asperity_contact::motion::{Body, JumpCollector, MovingBody, Stage};
+use asperity_contact::{Contact, ContactError, CurvePoint, Events, Move, StageRecord};
 use asperity_data::format_quantity;
-use asperity_scene::stages::Reach;
+use asperity_scene::workload::Reach;
 
 /// Largest memory in bytes for the bodies after earlier stages. If they need more, the oldest ones
 /// are dropped, and computed again when they are needed.
@@ -16,7 +16,7 @@ pub struct ManualBody {
     reach: Reach,
     /// Largest memory in bytes for the bodies after earlier stages.
     bytes_kept: usize,
-    records: Vec<LegRecord>,
+    records: Vec<StageRecord>,
     /// Jumps of all stages.
     jumps: JumpCollector,
     /// Bodies after some of the stages, in the order of the stages. If there are any stages, the
@@ -44,7 +44,7 @@ impl ManualBody {
         }
     }
 
-    pub fn records(&self) -> &[LegRecord] {
+    pub fn records(&self) -> &[StageRecord] {
         &self.records
     }
 
@@ -57,8 +57,8 @@ impl ManualBody {
         self.present().point()
     }
 
-    pub fn leg(&self) -> Leg {
-        self.present().leg()
+    pub fn stage(&self) -> Stage {
+        self.present().stage()
     }
 
     fn present(&self) -> &Body {
@@ -111,7 +111,7 @@ impl ManualBody {
         let record = body.advance(target);
         let record = record.map_err(|error| error.in_words(target))?;
         self.jumps
-            .observe(&record, &body.leg())
+            .observe(&record, &body.stage())
             .map_err(|error| error.in_words(target))?;
         self.records.push(record);
         self.keep(body);
@@ -124,13 +124,13 @@ impl ManualBody {
             stages: self.records.len(),
             body,
         });
-        let bytes = self.kept.iter().map(|kept| kept.body.leg().bytes());
+        let bytes = self.kept.iter().map(|kept| kept.body.stage().bytes());
         let mut bytes: usize = bytes.sum();
         // The last stage is often replaced by a longer one. Therefore the body before it is always
         // kept.
         while bytes > self.bytes_kept && self.kept.len() > 2 {
             let oldest = self.kept.remove(0);
-            bytes -= oldest.body.leg().bytes();
+            bytes -= oldest.body.stage().bytes();
         }
     }
 
@@ -149,9 +149,9 @@ impl ManualBody {
         Ok(())
     }
 
-    /// Returns the leg of the stage with this index, counted from 0.
-    pub fn leg_of(&self, stage: usize) -> Result<Leg, ContactError> {
-        Ok(self.body_after(stage + 1)?.leg())
+    /// Returns the stage of the stage with this index, counted from 0.
+    pub fn stage_of(&self, stage: usize) -> Result<Stage, ContactError> {
+        Ok(self.body_after(stage + 1)?.stage())
     }
 
     /// Returns the body after the first `count` stages. If it is not kept, it is moved there again
@@ -195,17 +195,17 @@ mod tests {
     fn check(body: &mut ManualBody, stages: &[Move]) {
         assert_eq!(body.follow(stages, &|| false), Ok(None));
         let mut fresh = Body::new(&contact(), 64);
-        let mut legs = Vec::new();
-        let history = load_body(&mut fresh, stages, |_, leg| {
-            legs.push(leg.clone());
+        let mut motions = Vec::new();
+        let history = load_body(&mut fresh, stages, |_, motion| {
+            motions.push(motion.clone());
             Ok(())
         });
-        assert_eq!(body.records(), history.unwrap().legs);
+        assert_eq!(body.records(), history.unwrap().stages);
         assert_eq!(body.point(), fresh.point());
-        for (number, leg) in legs.iter().enumerate() {
-            let found = body.leg_of(number).unwrap();
+        for (number, motion) in motions.iter().enumerate() {
+            let found = body.stage_of(number).unwrap();
             let middle = 0.5 * (body.records()[number].start() + body.records()[number].end());
-            assert_eq!(found.point(middle), leg.point(middle));
+            assert_eq!(found.point(middle), motion.point(middle));
         }
     }
 

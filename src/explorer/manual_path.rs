@@ -4,7 +4,7 @@
 
 use super::player::{At, Player};
 use super::snapshot::FollowedPath;
-use asperity_contact::{LegRecord, Move};
+use asperity_contact::{Move, StageRecord};
 use asperity_data::format_rounded;
 use asperity_scene::loading::loading_text;
 
@@ -22,27 +22,27 @@ pub struct ManualPath {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathStart {
     /// Index of the loading stage.
-    pub leg: usize,
+    pub stage: usize,
     pub at: At,
 }
 
 impl PathStart {
     /// Returns the position of the animation at this start. If the scene has changed, the position
-    /// is limited to the loading stages `legs` of the changed scene.
-    fn player(self, legs: &[LegRecord]) -> Player {
+    /// is limited to the loading stages `stages` of the changed scene.
+    fn player(self, records: &[StageRecord]) -> Player {
         let player = Player {
-            leg: self.leg,
+            stage: self.stage,
             at: self.at,
             playing: false,
         };
-        player.within(legs)
+        player.within(records)
     }
 
     /// Returns the indentation in m at this start.
-    pub fn indentation(self, legs: &[LegRecord]) -> f64 {
-        let player = self.player(legs);
-        let indentation = player.indentation(legs);
-        if player.leg == 0 {
+    pub fn indentation(self, records: &[StageRecord]) -> f64 {
+        let player = self.player(records);
+        let indentation = player.indentation(records);
+        if player.stage == 0 {
             // The animation begins above first touch, but the body begins at first touch.
             indentation.max(0.0)
         } else {
@@ -51,18 +51,18 @@ impl PathStart {
     }
 
     /// Returns the loading stages that lead from separation to this start. `loading` is the loading
-    /// of the scene, and `legs` are the records of its stages. The list is empty if the contact has
+    /// of the scene, and `stages` are the records of its stages. The list is empty if the contact has
     /// not begun.
-    pub fn stages(self, loading: &[Move], legs: &[LegRecord]) -> Vec<Move> {
-        let Player { leg, at, .. } = self.player(legs);
-        let mut stages: Vec<Move> = loading.iter().take(leg).copied().collect();
-        let indentation = self.player(legs).indentation(legs);
-        let is_above_touch = leg == 0 && indentation <= 0.0;
+    pub fn stages(self, loading: &[Move], records: &[StageRecord]) -> Vec<Move> {
+        let Player { stage, at, .. } = self.player(records);
+        let mut stages: Vec<Move> = loading.iter().take(stage).copied().collect();
+        let indentation = self.player(records).indentation(records);
+        let is_above_touch = stage == 0 && indentation <= 0.0;
         match at {
             At::Start => {}
             At::Indentation(_) if is_above_touch => {}
             At::Indentation(_) | At::PullOff => stages.push(Move::ToIndentation(indentation)),
-            At::End => stages.extend(loading.get(leg)),
+            At::End => stages.extend(loading.get(stage)),
         }
         stages
     }
@@ -72,7 +72,7 @@ impl ManualPath {
     pub fn starting_at(player: Player) -> Self {
         ManualPath {
             start: PathStart {
-                leg: player.leg,
+                stage: player.stage,
                 at: player.at,
             },
             moves: Vec::new(),
@@ -93,11 +93,10 @@ impl ManualPath {
     /// path as the body has followed it. Before the first move, the part is a path without moves
     /// that starts at this position.
     pub fn until(&self, player: Player, followed: &FollowedPath) -> Self {
-        let legs = &followed.legs;
-        let indentation = player.indentation(legs);
-        let Some(moves) = player.leg.checked_sub(followed.before) else {
+        let indentation = player.indentation(&followed.stages);
+        let Some(moves) = player.stage.checked_sub(followed.before) else {
             // The stages before the start are those of the scene, the last one perhaps in part.
-            let is_whole_stage = player.leg < self.start.leg;
+            let is_whole_stage = player.stage < self.start.stage;
             let at = match player.at {
                 At::End if !is_whole_stage => self.start.at,
                 At::PullOff => At::Indentation(indentation),

@@ -10,7 +10,7 @@ pub enum Pane {
     Timeline,
     Profile,
     CloseUp,
-    /// Accuracy of the adhesion force: errors and computing times, the sources of the errors, and
+    /// Accuracy of the pull-off force: errors and computing times, the sources of the errors, and
     /// the verdicts of other theories.
     Trust,
     Spectrum,
@@ -21,7 +21,7 @@ pub enum Pane {
     /// map of a study.
     Map,
     Parameters,
-    /// The main results: adhesion forces of the random profiles, shares, energies, errors.
+    /// The main results: pull-off forces of the random profiles, shares, energies, errors.
     Result,
     /// The list of jumps and marks of the loading.
     Events,

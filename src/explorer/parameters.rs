@@ -66,7 +66,7 @@ pub struct Parameter {
     /// Name of the group to which the row belongs. It is the path of the first row of this group.
     pub group: &'static str,
     /// Index of the loading stage; `None` if the row is not a loading stage.
-    pub leg: Option<usize>,
+    pub stage: Option<usize>,
     /// Value of the parameter in the notation of the scene file.
     pub written: String,
     /// Value as the user sees it. The text is empty if the value follows from other values and must
@@ -103,7 +103,7 @@ impl Parameter {
             field,
             path: path.to_owned(),
             group: group_of(path),
-            leg: None,
+            stage: None,
             written: String::new(),
             shown: String::new(),
             effect: effect_of(path),
@@ -113,8 +113,8 @@ impl Parameter {
 
     /// Returns the name of the parameter. For a loading stage, the number of the stage is added.
     pub fn name(&self) -> String {
-        match self.leg {
-            Some(leg) => format!("{} {}", self.field.name, leg + 1),
+        match self.stage {
+            Some(stage) => format!("{} {}", self.field.name, stage + 1),
             None => self.field.name.to_owned(),
         }
     }
@@ -132,7 +132,7 @@ impl Parameter {
             Setting::CurveOption(_) => !matches!(self.field.range, Range::Choice(_)),
             // A stage without a number takes one as well: it is then replaced by a stage with this
             // number.
-            _ => self.leg.is_some() || !is_text,
+            _ => self.stage.is_some() || !is_text,
         }
     }
 
@@ -427,7 +427,7 @@ fn stage_rows(loading: &[Move]) -> Vec<Parameter> {
 fn stage_row(index: usize, stage: Move) -> Parameter {
     let Some((field, value)) = target_field(stage) else {
         return Parameter {
-            leg: Some(index),
+            stage: Some(index),
             written: stage_in_ron(&stage),
             shown: loading_text(&[stage], format_quantity),
             effect: Some(Effect::Unloading),
@@ -435,7 +435,7 @@ fn stage_row(index: usize, stage: Move) -> Parameter {
         };
     };
     Parameter {
-        leg: Some(index),
+        stage: Some(index),
         written: ron_float(value),
         shown: format_quantity(value, field.unit),
         effect: Some(Effect::Unloading),
@@ -492,7 +492,7 @@ fn first_name(written: &str) -> &str {
         "work" => "by work of adhesion",
         "kappa" => "by κ",
         "elastic_energy_ratio" => "by e_el/γ",
-        "effective_modulus" => "by E*",
+        "modulus" => "by E*",
         "youngs_modulus" | "poisson_ratio" => "by E and ν",
         other => other,
     }

@@ -87,7 +87,7 @@ impl Focus {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
     /// Loading stage of the scene, given by its index.
-    Leg(usize),
+    Stage(usize),
     /// Manual loading: the body is at the end of its path.
     Manual,
     /// The animation plays the path of manual loading, and is in the stage with this index.

@@ -6,9 +6,9 @@ use super::events::ListedEvents;
 use super::manual_path::ManualPath;
 use super::request::{Drive, Focus, LineView, SnapshotRequest};
 use asperity_contact::motion::PatchState;
-use asperity_contact::{CurvePoint, LegRecord, Move, Patch};
+use asperity_contact::{CurvePoint, Move, Patch, StageRecord};
 use asperity_report::{LineColumns, Part, Section, SectionContact};
-use asperity_scene::stages::{LineFacts, Reach};
+use asperity_scene::workload::{LineFacts, Reach};
 use asperity_scene::{CheckedScene, Outcome};
 use std::sync::{Arc, Weak};
 
@@ -125,7 +125,7 @@ pub struct FollowedPath {
     pub path: Arc<ManualPath>,
     /// Records of the stages from separation to the present state: first the stages that lead to
     /// the start of the path, then one stage for each move.
-    pub legs: Vec<LegRecord>,
+    pub stages: Vec<StageRecord>,
     /// Number of stages that lead to the start of the path.
     pub before: usize,
     /// Reason why the contact cannot follow the next move; `None` if it has followed all moves.
@@ -135,17 +135,17 @@ pub struct FollowedPath {
 impl FollowedPath {
     /// Returns the loading history from separation to the present state.
     pub fn loading(&self) -> Vec<Move> {
-        self.legs.iter().map(|leg| leg.target).collect()
+        self.stages.iter().map(|stage| stage.target).collect()
     }
 
     /// Returns the number of moves that the body has followed.
     pub fn count(&self) -> usize {
-        self.legs.len().saturating_sub(self.before)
+        self.stages.len().saturating_sub(self.before)
     }
 
     /// Returns the records of the moves that the body has followed.
-    pub fn moves(&self) -> &[LegRecord] {
-        self.legs.get(self.before..).unwrap_or_default()
+    pub fn moves(&self) -> &[StageRecord] {
+        self.stages.get(self.before..).unwrap_or_default()
     }
 }
 
@@ -206,7 +206,7 @@ pub enum Reply {
     Progress {
         generation: u64,
         /// Number of loading stages that have been computed.
-        legs: usize,
+        stages: usize,
     },
     Failed {
         generation: u64,

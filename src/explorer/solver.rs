@@ -1,5 +1,5 @@
 //! The solver of the explorer, which answers the newest request. It holds the simulation of the
-//! newest scene and the legs of its loading (a leg is a motion of the body in one direction). The
+//! newest scene and the stages of its loading (a stage is a motion of the body in one direction). The
 //! solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
@@ -12,11 +12,11 @@ use super::snapshot::{
     ContactSnapshot, FollowedPath, Probe, Reply, SolvedScene, SpringsInContact, profile_part,
 };
 use crate::explorer::advice;
-use asperity_contact::motion::{JumpCollector, Leg};
-use asperity_contact::{ContactError, CurvePoint, Events, LegRecord};
+use asperity_contact::motion::{JumpCollector, Stage};
+use asperity_contact::{ContactError, CurvePoint, Events, StageRecord};
 use asperity_data::Remedied;
 use asperity_report::{LineColumns, SectionContact};
-use asperity_scene::stages::{AfterLeg, Reach};
+use asperity_scene::workload::{AfterStage, Reach};
 use asperity_scene::{CheckedScene, Observer, Outcome, RunError, Simulation};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -24,7 +24,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Largest memory in bytes for the legs of a scene. Legs beyond this limit are computed again when
+/// Largest memory in bytes for the stages of a scene. Stages beyond this limit are computed again when
 /// the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
 
@@ -33,7 +33,7 @@ pub type Solve = fn(
     &mut Simulation,
     &CheckedScene,
     &dyn Fn() -> bool,
-    &mut AfterLeg<'_>,
+    &mut AfterStage<'_>,
 ) -> Result<Outcome, RunError>;
 
 pub struct Solver {
@@ -51,8 +51,8 @@ struct Newest {
     /// The scene, with the observers that the explorer needs; `None` if its computation failed.
     scene: Option<CheckedScene>,
     solved: Option<Arc<SolvedScene>>,
-    /// Legs of the loading; `None` for each leg that did not fit into memory.
-    legs: Vec<Option<Leg>>,
+    /// Stages of the loading; `None` for each stage that did not fit into memory.
+    stages: Vec<Option<Stage>>,
     manual: Option<Manual>,
     /// Events that were listed last for this scene.
     listed: Option<Arc<ListedEvents>>,
@@ -68,32 +68,32 @@ struct Manual {
     followed: Arc<FollowedPath>,
 }
 
-/// Legs of a loading. Only as many legs are stored as the memory limit allows.
+/// Stages of a loading. Only as many stages are stored as the memory limit allows.
 #[derive(Default)]
-struct KeptLegs {
-    legs: Vec<Option<Leg>>,
-    /// Memory in bytes that all legs so far would need if all of them were stored.
+struct KeptStages {
+    stages: Vec<Option<Stage>>,
+    /// Memory in bytes that all stages so far would need if all of them were stored.
     bytes: usize,
-    /// Largest force and indentation to which the contact of the first leg can be pressed.
+    /// Largest force and indentation to which the contact of the first stage can be pressed.
     reach: Reach,
 }
 
-impl KeptLegs {
-    fn add(&mut self, leg: &Leg) {
-        if self.legs.is_empty() {
-            self.reach = Reach::of(leg.contact());
+impl KeptStages {
+    fn add(&mut self, motion: &Stage) {
+        if self.stages.is_empty() {
+            self.reach = Reach::of(motion.contact());
         }
         let is_kept = self.bytes <= BYTES_KEPT;
-        self.legs
-            .push(if is_kept { Some(leg.clone()) } else { None });
-        self.bytes += leg.bytes();
+        self.stages
+            .push(if is_kept { Some(motion.clone()) } else { None });
+        self.bytes += motion.bytes();
     }
 }
 
 /// State of the contact for a snapshot.
 struct ShownState {
     drive: Drive,
-    leg: Leg,
+    stage: Stage,
     point: CurvePoint,
 }
 
@@ -207,18 +207,18 @@ impl Solver {
     /// Lists the events of the loading of a scene, or returns the reason why they cannot be listed.
     /// Returns `None` if the explorer waits for a newer scene.
     fn events_of_loading(&self, solved: &SolvedScene) -> Option<Result<Events, String>> {
-        let records = &solved.outcome.history.legs;
+        let records = &solved.outcome.history.stages;
         let mut jumps = JumpCollector::default();
-        for (record, leg) in records.iter().zip(&self.newest.legs) {
+        for (record, motion) in records.iter().zip(&self.newest.stages) {
             if self.awaited.load(Ordering::Relaxed) != solved.generation {
                 return None;
             }
-            let Some(leg) = leg else {
+            let Some(motion) = motion else {
                 let why = "the jumps of so many springs and stages do not fit into memory; fewer \
                            points N list them";
                 return Some(Err(why.to_owned()));
             };
-            if let Err(error) = jumps.observe(record, leg) {
+            if let Err(error) = jumps.observe(record, motion) {
                 return Some(Err(why_no_events(error)));
             }
         }
@@ -239,16 +239,16 @@ impl Solver {
         };
         let observed = scene.observing(Observer::HeightHistogram);
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
-        let mut kept = KeptLegs::default();
+        let mut kept = KeptStages::default();
         let outcome = (self.solve)(
             &mut self.simulation,
             &observed,
             &stop,
-            &mut |stage, _, leg| {
-                kept.add(leg);
+            &mut |stage, _, motion| {
+                kept.add(motion);
                 report(Reply::Progress {
                     generation,
-                    legs: stage + 1,
+                    stages: stage + 1,
                 });
                 Ok(())
             },
@@ -263,7 +263,7 @@ impl Solver {
             generation,
             scene: Some(observed),
             solved: Some(Arc::new(solved)),
-            legs: kept.legs,
+            stages: kept.stages,
             ..Newest::default()
         };
         Ok(())
@@ -286,11 +286,11 @@ impl Solver {
             }
             return self.continue_path(manual.body, &solved, path);
         }
-        let Some(leg) = self.newest.legs.iter().flatten().next() else {
+        let Some(motion) = self.newest.stages.iter().flatten().next() else {
             return Ok(());
         };
         let samples = solved.scene.numerics.samples as usize;
-        let body = ManualBody::new(leg.contact(), samples);
+        let body = ManualBody::new(motion.contact(), samples);
         self.continue_path(body, &solved, path)
     }
 
@@ -303,14 +303,14 @@ impl Solver {
     ) -> Result<(), ContactError> {
         let mut stages = path
             .start
-            .stages(&solved.scene.loading, &solved.outcome.history.legs);
+            .stages(&solved.scene.loading, &solved.outcome.history.stages);
         let before = stages.len();
         stages.extend(&path.moves);
         let stop = || self.awaited.load(Ordering::Relaxed) != solved.generation;
         let stopped = body.follow(&stages, &stop)?;
         let followed = FollowedPath {
             path,
-            legs: body.records().to_vec(),
+            stages: body.records().to_vec(),
             before,
             stopped,
         };
@@ -325,26 +325,30 @@ impl Solver {
     /// has not begun.
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let state = match request.drive {
-            Drive::Leg(number) => self.state_of_loading(number, request.at)?,
+            Drive::Stage(number) => self.state_of_loading(number, request.at)?,
             Drive::Manual => self.state_at_end_of_path()?,
             Drive::Path(number) => self.state_on_path(number, request.at)?,
         };
-        let ShownState { drive, leg, point } = state;
+        let ShownState {
+            drive,
+            stage: motion,
+            point,
+        } = state;
         let newest = &mut self.newest;
         let line = newest.solved.as_deref()?.outcome.line;
         let patches = if point.springs == 0 {
             Vec::new()
         } else {
-            leg.patches(point.indentation)
+            motion.patches(point.indentation)
         };
-        let gaps = leg.contact().gaps();
+        let gaps = motion.contact().gaps();
         let contact = SectionContact {
             gaps,
             summit: line.summit,
             indentation: point.indentation,
             patches: &patches,
         };
-        let close_up = close_up(&contact, &leg, request, &mut newest.close_up);
+        let close_up = close_up(&contact, &motion, request, &mut newest.close_up);
         let part = profile_part(request, gaps.len());
         let probe = request
             .crosshair
@@ -355,7 +359,7 @@ impl Solver {
             line,
             focus: request.focus,
             point,
-            contact_radius: leg.contact().contact_radius(&patches, point),
+            contact_radius: motion.contact().contact_radius(&patches, point),
             profile: contact.section(part, &mut newest.profile),
             close_up,
             probe,
@@ -364,7 +368,7 @@ impl Solver {
                 .as_ref()
                 .map(|manual| Arc::clone(&manual.followed)),
             springs: SpringsInContact {
-                gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
+                gaps: Arc::downgrade(motion.contact().profile().shared_gaps()),
                 patches,
             },
         })
@@ -374,13 +378,13 @@ impl Solver {
     /// this number, the nearest stage is used.
     fn state_of_loading(&mut self, number: usize, at: At) -> Option<ShownState> {
         let solved = self.newest.solved.clone()?;
-        let legs = &solved.outcome.history.legs;
-        let player = position(legs, number, at);
-        let leg = self.leg(player.leg)?;
+        let records = &solved.outcome.history.stages;
+        let player = position(records, number, at);
+        let motion = self.stage(player.stage)?;
         Some(ShownState {
-            drive: Drive::Leg(player.leg),
-            point: point_at(&player, legs, &leg)?,
-            leg,
+            drive: Drive::Stage(player.stage),
+            point: point_at(&player, records, &motion)?,
+            stage: motion,
         })
     }
 
@@ -388,7 +392,7 @@ impl Solver {
         let body = &self.newest.manual.as_ref()?.body;
         Some(ShownState {
             drive: Drive::Manual,
-            leg: body.leg(),
+            stage: body.stage(),
             point: body.point(),
         })
     }
@@ -397,51 +401,51 @@ impl Solver {
     /// loading.
     fn state_on_path(&self, number: usize, at: At) -> Option<ShownState> {
         let Manual { body, followed } = self.newest.manual.as_ref()?;
-        if followed.legs.is_empty() {
+        if followed.stages.is_empty() {
             return self.state_at_end_of_path();
         }
-        let player = position(&followed.legs, number, at);
-        let leg = body.leg_of(player.leg).ok()?;
+        let player = position(&followed.stages, number, at);
+        let motion = body.stage_of(player.stage).ok()?;
         Some(ShownState {
-            drive: Drive::Path(player.leg),
-            point: point_at(&player, &followed.legs, &leg)?,
-            leg,
+            drive: Drive::Path(player.stage),
+            point: point_at(&player, &followed.stages, &motion)?,
+            stage: motion,
         })
     }
 
-    /// Returns a leg of the loading. If the leg is not stored in memory, it is computed again.
-    fn leg(&mut self, number: usize) -> Option<Leg> {
-        if self.newest.legs.get(number)?.is_none() {
+    /// Returns a stage of the loading. If the stage is not stored in memory, it is computed again.
+    fn stage(&mut self, number: usize) -> Option<Stage> {
+        if self.newest.stages.get(number)?.is_none() {
             let scene = self.newest.scene.take()?;
-            let computed = self.leg_of(&scene, number);
+            let computed = self.stage_of(&scene, number);
             self.newest.scene = Some(scene);
-            // Of the legs that do not fit into memory, only the one computed last is stored.
+            // Of the stages that do not fit into memory, only the one computed last is stored.
             let kept = match &computed {
-                Some(leg) => BYTES_KEPT / leg.bytes().max(1),
+                Some(motion) => BYTES_KEPT / motion.bytes().max(1),
                 None => 0,
             };
-            for leg in self.newest.legs.iter_mut().skip(kept + 1) {
-                *leg = None;
+            for motion in self.newest.stages.iter_mut().skip(kept + 1) {
+                *motion = None;
             }
-            self.newest.legs[number] = computed;
+            self.newest.stages[number] = computed;
         }
-        self.newest.legs[number].clone()
+        self.newest.stages[number].clone()
     }
 
-    /// Computes the leg of one loading stage. For this purpose, the scene is computed from the
+    /// Computes the stage of one loading stage. For this purpose, the scene is computed from the
     /// beginning to the end of this stage.
-    fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
+    fn stage_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Stage> {
         let mut found = None;
-        // When the leg has been found, an error ends the computation. This error is ignored.
+        // When the stage has been found, an error ends the computation. This error is ignored.
         let _ = (self.solve)(
             &mut self.simulation,
             scene,
             &|| false,
-            &mut |stage, _, leg| {
+            &mut |stage, _, motion| {
                 if stage < wanted {
                     return Ok(());
                 }
-                found = Some(leg.clone());
+                found = Some(motion.clone());
                 Err(ContactError::Interrupted)
             },
         );
@@ -460,34 +464,34 @@ fn why_no_events(error: ContactError) -> String {
 }
 
 /// Returns true if nothing is in contact at the end of a stage.
-fn is_separated(leg: Option<&LegRecord>) -> bool {
-    match leg.and_then(|leg| leg.curve.last()) {
+fn is_separated(stage: Option<&StageRecord>) -> bool {
+    match stage.and_then(|record| record.curve.last()) {
         Some(end) => end.springs == 0,
         None => false,
     }
 }
 
 /// Returns the position of an animation over these stages that is nearest to the given position.
-fn position(legs: &[LegRecord], number: usize, at: At) -> Player {
+fn position(records: &[StageRecord], number: usize, at: At) -> Player {
     let player = Player {
-        leg: number,
+        stage: number,
         at,
         playing: false,
     };
-    player.within(legs)
+    player.within(records)
 }
 
-/// Returns the point of the force curve at a position of an animation. `leg` is the motion in the
+/// Returns the point of the force curve at a position of an animation. `stage` is the motion in the
 /// stage of this position.
-fn point_at(player: &Player, legs: &[LegRecord], leg: &Leg) -> Option<CurvePoint> {
-    let record = legs.get(player.leg);
+fn point_at(player: &Player, records: &[StageRecord], motion: &Stage) -> Option<CurvePoint> {
+    let record = records.get(player.stage);
     // After a separation nothing is in contact, although the animation still shows the indentation
     // of the last contact. Therefore the end of the curve, and not the indentation, gives the
     // point.
     if player.at == At::End && is_separated(record) {
         return record.and_then(|record| record.curve.last().copied());
     }
-    leg.point(player.indentation(legs)).ok()
+    motion.point(player.indentation(records)).ok()
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {

@@ -2,7 +2,7 @@
 //! playhead (the position of the animation) are, and how high the tick of each jump is.
 
 use super::player::{At, Player, start_of};
-use asperity_contact::{Direction, Event, LegRecord};
+use asperity_contact::{Direction, Event, StageRecord};
 use asperity_data::format_rounded;
 use std::ops::Range;
 
@@ -38,12 +38,12 @@ pub struct Tick {
 
 impl Timeline {
     /// Distributes the loading stages over a number of columns.
-    pub fn new(legs: &[LegRecord], columns: usize) -> Self {
+    pub fn new(records: &[StageRecord], columns: usize) -> Self {
         let mut ways = Vec::new();
-        for (number, leg) in legs.iter().enumerate() {
+        for (number, record) in records.iter().enumerate() {
             ways.push(Way {
-                start: start_of(legs, number),
-                end: leg.end(),
+                start: start_of(records, number),
+                end: record.end(),
             });
         }
         let lengths: Vec<f64> = ways.iter().map(|way| (way.end - way.start).abs()).collect();
@@ -154,11 +154,11 @@ fn distributed(ways: &[f64], columns: usize) -> Vec<Range<usize>> {
 /// Returns the position of the animation that shows an event. A jump is shown by the state just
 /// after it. On loading, this is the state at the indentation of the jump, because a spring is in
 /// contact at its own threshold; on unloading, it is the state at the next smaller number.
-pub fn position_of(legs: &[LegRecord], event: &Event) -> Player {
-    let is_unloading = legs
+pub fn position_of(records: &[StageRecord], event: &Event) -> Player {
+    let is_unloading = records
         .get(event.stage)
-        .is_some_and(|leg| leg.direction == Direction::Unloading);
-    let end = legs.get(event.stage).map(LegRecord::end);
+        .is_some_and(|record| record.direction == Direction::Unloading);
+    let end = records.get(event.stage).map(StageRecord::end);
     let at = match event.jump {
         None if event.instrument_loss.is_some() => At::End,
         Some(_) if is_unloading => {
@@ -172,7 +172,7 @@ pub fn position_of(legs: &[LegRecord], event: &Event) -> Player {
         _ => At::Indentation(event.indentation),
     };
     Player {
-        leg: event.stage,
+        stage: event.stage,
         at,
         playing: false,
     }
@@ -180,13 +180,13 @@ pub fn position_of(legs: &[LegRecord], event: &Event) -> Player {
 
 /// Returns the number of events that the animation has passed at a position. Events are in the
 /// order of the motion.
-pub fn passed(legs: &[LegRecord], events: &[Event], player: Player) -> usize {
-    events.partition_point(|event| has_passed(legs, event, player))
+pub fn passed(records: &[StageRecord], events: &[Event], player: Player) -> usize {
+    events.partition_point(|event| has_passed(records, event, player))
 }
 
-fn has_passed(legs: &[LegRecord], event: &Event, player: Player) -> bool {
-    if event.stage != player.leg {
-        return event.stage < player.leg;
+fn has_passed(records: &[StageRecord], event: &Event, player: Player) -> bool {
+    if event.stage != player.stage {
+        return event.stage < player.stage;
     }
     match player.at {
         At::Start => return false,
@@ -196,10 +196,10 @@ fn has_passed(legs: &[LegRecord], event: &Event, player: Player) -> bool {
     if event.instrument_loss.is_some() {
         return false;
     }
-    let indentation = player.indentation(legs);
-    let is_unloading = legs
+    let indentation = player.indentation(records);
+    let is_unloading = records
         .get(event.stage)
-        .is_some_and(|leg| leg.direction == Direction::Unloading);
+        .is_some_and(|record| record.direction == Direction::Unloading);
     match (is_unloading, event.jump) {
         (false, _) => event.indentation <= indentation,
         (true, Some(_)) => event.indentation > indentation,
@@ -208,8 +208,8 @@ fn has_passed(legs: &[LegRecord], event: &Event, player: Player) -> bool {
 }
 
 /// Returns the index of the next event after a position of the animation.
-pub fn next(legs: &[LegRecord], events: &[Event], player: Player) -> Option<usize> {
-    let next = passed(legs, events, player);
+pub fn next(records: &[StageRecord], events: &[Event], player: Player) -> Option<usize> {
+    let next = passed(records, events, player);
     if next < events.len() {
         Some(next)
     } else {
@@ -219,11 +219,11 @@ pub fn next(legs: &[LegRecord], events: &[Event], player: Player) -> Option<usiz
 
 /// Returns the index of the event before a position of the animation. If the position shows an
 /// event, the event before it is returned.
-pub fn previous(legs: &[LegRecord], events: &[Event], player: Player) -> Option<usize> {
-    let before = passed(legs, events, player).checked_sub(1)?;
-    let shown = position_of(legs, &events[before]);
-    let is_shown = shown.leg == player.leg
-        && (shown.at == player.at || shown.indentation(legs) == player.indentation(legs));
+pub fn previous(records: &[StageRecord], events: &[Event], player: Player) -> Option<usize> {
+    let before = passed(records, events, player).checked_sub(1)?;
+    let shown = position_of(records, &events[before]);
+    let is_shown = shown.stage == player.stage
+        && (shown.at == player.at || shown.indentation(records) == player.indentation(records));
     if is_shown {
         before.checked_sub(1)
     } else {

@@ -59,7 +59,7 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     {
         return OPTIONS[index].with_unit(measured, typed);
     }
-    match parameter.leg {
+    match parameter.stage {
         Some(_) if parameter.field.unit.is_empty() => in_unit(typed, &unit_of_force(app)),
         _ => parameter
             .field
@@ -96,7 +96,7 @@ struct Quantity {
 pub fn target(app: &App, typed: &str) -> Option<Move> {
     let typed = typed.trim();
     if app.is_normalised()
-        && let Some(ideal) = app.ideal_adhesion_force()
+        && let Some(ideal) = app.ideal_pull_off_force()
         && let Ok(share) = parse_quantity(typed, "1")
     {
         return Some(Move::ToForce(share * ideal));
@@ -118,14 +118,14 @@ fn typed_move(app: &App, typed: &str) -> Option<Quantity> {
 fn typed_value(app: &App, typed: &str) -> Option<Quantity> {
     let parameter = app.edit.parameter()?;
     let typed = with_unit(app, parameter, typed);
-    let Some(leg) = parameter.leg else {
+    let Some(index) = parameter.stage else {
         let written = parameter.field.read_typed(&typed).ok()?;
         return Some(Quantity {
             unit: parameter.field.unit,
             in_words: parameter.field.quantities(&written, format_quantity)?,
         });
     };
-    let (kind, _) = StageKind::of(app.edit.document.scene().loading.get(leg)?);
+    let (kind, _) = StageKind::of(app.edit.document.scene().loading.get(index)?);
     let stage = read_stage(&typed, Some(kind)).ok()?;
     let (field, _) = target_field(stage)?;
     Some(Quantity {

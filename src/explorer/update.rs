@@ -92,7 +92,7 @@ fn replied(app: &mut App, reply: Reply) {
     match reply {
         Reply::Solved(computed, snapshot) => {
             app.progress = None;
-            app.play = app.play.within(&computed.outcome.history.legs);
+            app.play = app.play.within(&computed.outcome.history.stages);
             app.solved = Some(computed);
             if let Some(snapshot) = snapshot {
                 movement::shown(app, snapshot);
@@ -101,7 +101,7 @@ fn replied(app: &mut App, reply: Reply) {
         }
         Reply::Shown(snapshot) => movement::shown(app, snapshot),
         Reply::Listed(events) => app.events = Some(events),
-        Reply::Progress { legs, .. } => app.progress = app.progress.map(|_| legs),
+        Reply::Progress { stages, .. } => app.progress = app.progress.map(|_| stages),
         Reply::Failed { error, .. } => {
             app.progress = None;
             app.set_error(error);

@@ -12,7 +12,7 @@ use asperity::explorer::solver::Solve;
 use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::scene::Simulation;
-use asperity::scene::stages::Timings;
+use asperity::scene::workload::Timings;
 use asperity_plot::Colours;
 use asperity_report::SceneSpectra;
 use std::any::Any;

@@ -2,11 +2,11 @@
 
 use asperity::scene::Document;
 
-/// A rough line under weak adhesion, pressed until several fragments touch, then pulled off.
+/// A rough line under weak adhesion, pressed until several patches touch, then pulled off.
 const ROUGH: &str = r#"(
     version: 1,
     title: "Rough line",
-    notice: "Several fragments.",
+    notice: "Several patches.",
     material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5), // soft
     length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (8, 256), seed: 1),
@@ -40,7 +40,7 @@ fn based_on_rough(name: &str, fields: &[(&str, &str)]) -> Document {
     )
 }
 
-/// A rough line under weak adhesion, with several fragments.
+/// A rough line under weak adhesion, with several patches.
 pub fn rough() -> Document {
     Document::parse(ROUGH, "rough-line").unwrap_or_else(|errors| panic!("{errors}"))
 }

@@ -21,7 +21,7 @@ pub const PLAN: &str = r#"(
     ],
     preloads: [0.01, 0.1, 1.0],
     profiles: 12,
-    record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+    record: [first_touch_adhesion_share, adhesion_coefficient, pull_off_force, regime],
 )"#;
 
 /// Creates the study of a plan in a folder, computed and merged.

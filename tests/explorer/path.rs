@@ -132,7 +132,7 @@ fn scenes() -> Vec<Document> {
 fn paused(document: &Document, share: f64) -> Driver {
     let mut driver = Driver::start(document.clone());
     driver.press("Space");
-    let stages = driver.app.legs().len();
+    let stages = driver.app.stages().len();
     let stage = ((share * stages as f64) as usize).min(stages - 1);
     for _ in 0..stage {
         driver.press(">");
@@ -208,19 +208,19 @@ fn judge(driver: &Driver) {
         && let Ok(run) = exact(loading.clone())
     {
         let history = run.expect("the path can be run").history;
-        assert_eq!(history.legs, followed.legs, "{loading:?}");
-        let end = history.legs.last().unwrap().curve.last().unwrap();
+        assert_eq!(history.stages, followed.stages, "{loading:?}");
+        let end = history.stages.last().unwrap().curve.last().unwrap();
         if app.play_of_path.is_none() {
             assert_eq!(app.present().expect("the end is shown").point, *end);
         }
     }
     let path = app.edit.path.as_ref().unwrap();
-    let moves: Vec<Move> = followed.moves().iter().map(|leg| leg.target).collect();
+    let moves: Vec<Move> = followed.moves().iter().map(|stage| stage.target).collect();
     assert_eq!(moves, path.moves[..followed.count()]);
     // The next move is refused by a fresh run, too.
     match (&followed.stopped, path.moves.get(followed.count())) {
         (None, None) => {}
-        (Some(why), Some(next)) if followed.legs.len() >= followed.before => {
+        (Some(why), Some(next)) if followed.stages.len() >= followed.before => {
             let mut loading = loading;
             loading.push(*next);
             let refused = exact(loading).map_or(true, |run| run.is_err());
@@ -302,7 +302,10 @@ fn no_move_and_no_edit_is_lost() {
         driver.text();
         // Everything can be undone, and then done again.
         let last = state(&driver);
-        let shown = driver.app.followed().map(|followed| followed.legs.clone());
+        let shown = driver
+            .app
+            .followed()
+            .map(|followed| followed.stages.clone());
         let entries = driver.app.edit.past.len();
         let mut states = vec![last.clone()];
         for _ in 0..entries {
@@ -318,7 +321,10 @@ fn no_move_and_no_edit_is_lost() {
             assert_eq!(state(&driver), expected);
         }
         assert_eq!(
-            driver.app.followed().map(|followed| followed.legs.clone()),
+            driver
+                .app
+                .followed()
+                .map(|followed| followed.stages.clone()),
             shown
         );
     });

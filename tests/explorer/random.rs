@@ -79,7 +79,7 @@ fn mouse() -> impl Strategy<Value = Mouse> {
 
 fn value() -> impl Strategy<Value = String> {
     const VALUES: &str = "0;1;-1;2;64;1e-7;1e400;NaN;inf;50m;2.5 MPa;10 µm;None;();;(work: 0.05);(kappa: 3.0);\
-        Punch(radius: 1.0e-5);Cone(angle: 0.1);Stepwise(step: 1.0e-9);(effective_modulus: 2.0e6);(1, 8);(9, 2);[];[ToTouch];\
+        Punch(radius: 1.0e-5);Cone(angle: 0.1);Stepwise(step: 1.0e-9);(modulus: 2.0e6);(1, 8);(9, 2);[];[ToTouch];\
         [ToForce(1.0e-5), ToForce(-1.0)];[ToIndentation(-1.0e-7)];10 µN, 0 N, separation;\
         [ToTouch, ToForce(1.0e-5), ToZeroForce, ToSeparation, ToTouch];Measured(file: \"nowhere.csv\");[;\";1 /*;𝟙;\
         18446744073709551616";
@@ -303,7 +303,7 @@ impl Explorer {
         }
         assert!(app.edit.parameter().is_some());
         assert!(
-            (0.0..=1.0).contains(&app.play.share(app.legs())),
+            (0.0..=1.0).contains(&app.play.share(app.stages())),
             "{:?}",
             app.play
         );
@@ -324,7 +324,7 @@ impl Explorer {
             .as_ref()
             .is_some_and(|computed| computed.generation == app.edit.generation)
         {
-            assert!(app.play.leg < app.legs().len(), "{:?}", app.play);
+            assert!(app.play.stage < app.stages().len(), "{:?}", app.play);
             assert!(!app.is_computing());
         }
         if let Some(prompt) = &app.prompt {

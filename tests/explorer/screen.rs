@@ -9,7 +9,6 @@ mod edit;
 mod effects;
 mod failures;
 mod files;
-mod fragments;
 mod library;
 mod look;
 mod manual;
@@ -20,6 +19,7 @@ mod mouse;
 mod palette;
 mod panes;
 mod parameters;
+mod patches;
 mod play;
 pub mod preloads;
 mod profiles;
@@ -71,8 +71,8 @@ fn mid_retraction(document: Document) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space >");
     driver.elapse(3.0);
-    assert_eq!((driver.app.play.leg, driver.app.play.playing), (1, false));
-    while driver.app.play.share(driver.app.legs()) < 0.5 {
+    assert_eq!((driver.app.play.stage, driver.app.play.playing), (1, false));
+    while driver.app.play.share(driver.app.stages()) < 0.5 {
         steps(&mut driver, "Right");
     }
     driver

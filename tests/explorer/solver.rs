@@ -72,15 +72,15 @@ impl Served {
         }
     }
 
-    /// A snapshot of the last scene at an indentation of a leg.
+    /// A snapshot of the last scene at an indentation of a stage.
     fn shown(
         &self,
-        leg: usize,
+        stage: usize,
         indentation: f64,
         snapshot: SnapshotRequest,
     ) -> Arc<ContactSnapshot> {
         let snapshot = SnapshotRequest {
-            drive: Drive::Leg(leg),
+            drive: Drive::Stage(stage),
             at: At::Indentation(indentation),
             ..snapshot
         };
@@ -97,7 +97,7 @@ impl Served {
 
 /// A request for a snapshot at the start of the animation.
 const SNAPSHOT: SnapshotRequest = SnapshotRequest {
-    drive: Drive::Leg(0),
+    drive: Drive::Stage(0),
     at: At::Start,
     profile_columns: 100,
     profile: LineView::WHOLE,
@@ -145,19 +145,19 @@ fn seed(document: &Document, seed: u64) -> Document {
 }
 
 #[test]
-fn a_scene_is_computed_leg_by_leg_and_then_whole() {
+fn a_scene_is_computed_stage_by_stage_and_then_whole() {
     within(30, || {
         let served = Served::start();
         served.compute(7, &rough());
         for done in 1..=2 {
             assert!(
-                matches!(served.report(), Reply::Progress { generation: 7, legs } if legs == done)
+                matches!(served.report(), Reply::Progress { generation: 7, stages } if stages == done)
             );
         }
         let Reply::Solved(computed, Some(shown)) = served.report() else {
             panic!("not computed")
         };
-        assert_eq!((shown.generation, shown.drive), (7, Drive::Leg(0)));
+        assert_eq!((shown.generation, shown.drive), (7, Drive::Stage(0)));
         let rough = rough();
         let scene = rough
             .scene()
@@ -194,7 +194,7 @@ fn of_all_that_wait_only_the_newest_is_done() {
         // A request has the whole path, so no move is lost with the requests that are left out.
         let moved = |count: usize| {
             let start = PathStart {
-                leg: 0,
+                stage: 0,
                 at: At::End,
             };
             let moves = [Move::ToForce(1.0e-5), Move::ToForce(1.5e-5)];
@@ -307,7 +307,7 @@ fn scenes() -> Vec<(&'static str, Document)> {
             rough().set("numerics.edges", "SubCell").unwrap(),
         ),
         ("rough", rough()),
-        ("several legs", rough().set("loading", several).unwrap()),
+        ("several stages", rough().set("loading", several).unwrap()),
         ("rough sphere", changed(&rough(), &sphere)),
         ("smooth", smooth()),
         ("no adhesion", without_adhesion()),
@@ -337,9 +337,9 @@ fn a_moment_at_a_sample_is_the_sample() {
         for (name, document) in scenes() {
             let served = Served::start();
             let computed = served.computed(1, &document);
-            for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
+            for (stage, record) in computed.outcome.history.stages.iter().enumerate() {
                 for sample in some(&record.curve) {
-                    let shown = served.shown(leg, sample.indentation, SNAPSHOT).point;
+                    let shown = served.shown(stage, sample.indentation, SNAPSHOT).point;
                     if record.most_springs() == 0 {
                         assert_eq!((shown.springs, shown.force), (0, 0.0), "{name}");
                         continue;
@@ -351,7 +351,7 @@ fn a_moment_at_a_sample_is_the_sample() {
                         .filter(|one| one.indentation == sample.indentation);
                     assert!(
                         same.clone().any(|one| near(one, &shown)),
-                        "{name}, leg {leg}: {shown:?}, not {:?}",
+                        "{name}, stage {stage}: {shown:?}, not {:?}",
                         same.collect::<Vec<_>>()
                     );
                 }
@@ -361,17 +361,17 @@ fn a_moment_at_a_sample_is_the_sample() {
 }
 
 /// True if two points are the same except for the rounding of their sums: edges between springs are
-/// summed in different orders on a leg and at a snapshot.
+/// summed in different orders on a stage and at a snapshot.
 fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-13 * a.abs().max(b.abs()).max(1e-12);
     one.indentation == other.indentation
-        && (one.springs, one.fragments) == (other.springs, other.fragments)
+        && (one.springs, one.patches) == (other.springs, other.patches)
         && same(one.force, other.force)
         && same(one.contact_length, other.contact_length)
 }
 
 /// Contact patches, from one column for each spring.
-fn fragments(snapshot: &ContactSnapshot) -> Vec<Patch> {
+fn patches(snapshot: &ContactSnapshot) -> Vec<Patch> {
     Patch::of_springs(
         snapshot
             .profile
@@ -387,7 +387,7 @@ fn picture_counts_and_boundaries_say_the_same() {
         for (name, document) in scenes() {
             let served = Served::start();
             let computed = served.computed(1, &document);
-            for (leg, record) in computed.outcome.history.legs.iter().enumerate() {
+            for (stage, record) in computed.outcome.history.stages.iter().enumerate() {
                 for sample in some(&record.curve).step_by(4) {
                     let springs = document.scene().numerics.points as usize;
                     let line = computed.outcome.line;
@@ -398,10 +398,10 @@ fn picture_counts_and_boundaries_say_the_same() {
                         close_up_springs: Some(springs),
                         ..SNAPSHOT
                     };
-                    let shown = served.shown(leg, sample.indentation, request);
-                    let found = fragments(&shown);
+                    let shown = served.shown(stage, sample.indentation, request);
+                    let found = patches(&shown);
                     let held: usize = found.iter().map(|patch| patch.springs().len()).sum();
-                    assert_eq!(shown.point.fragments, found.len() as u64, "{name}");
+                    assert_eq!(shown.point.patches, found.len() as u64, "{name}");
                     assert_eq!(shown.point.springs, held as u64, "{name}");
                     let ends: Vec<usize> = found
                         .iter()
@@ -429,12 +429,12 @@ fn picture_counts_and_boundaries_say_the_same() {
                             "{name}"
                         );
                     }
-                    let fragment = shown
+                    let patch = shown
                         .close_up
                         .patch
                         .map(|facts| (facts.number, facts.patch));
-                    assert_eq!(fragment.is_some(), !found.is_empty(), "{name}");
-                    if let Some((number, springs)) = fragment {
+                    assert_eq!(patch.is_some(), !found.is_empty(), "{name}");
+                    if let Some((number, springs)) = patch {
                         assert_eq!(found[number], springs, "{name}");
                     }
                     // In contact the surface follows the line, elsewhere it lies at its level.

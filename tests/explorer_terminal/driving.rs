@@ -20,7 +20,7 @@ pub const HIDE_CURSOR: &[u8] = b"\x1b[?25l";
 pub const SCENE: &str = r#"(
     version: 1,
     title: "Rough line",
-    material: (effective_modulus: 2.0e6), // soft
+    material: (modulus: 2.0e6), // soft
     length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (8, 256), seed: 1),
     adhesion: (kappa: 8.0),
@@ -64,7 +64,7 @@ pub fn row_with(terminal: &Terminal, text: &str) -> String {
         .unwrap_or_else(|| panic!("no {text}:\n{}", terminal.text()))
 }
 
-/// The adhesion force of the shown profile as on the screen: a number and its unit.
+/// The pull-off force of the shown profile as on the screen: a number and its unit.
 pub fn headline(rows: &[String]) -> Option<String> {
     let of_profile = |row: &'_ String| {
         row.split_once("this profile ")
@@ -80,7 +80,7 @@ pub fn headline(rows: &[String]) -> Option<String> {
     Some(words.join(" ").trim_end_matches(',').to_owned())
 }
 
-/// Waits for another adhesion force than this one, and returns it.
+/// Waits for another pull-off force than this one, and returns it.
 #[track_caller]
 pub fn wait_for_another(terminal: &mut Terminal, force: &str) -> String {
     terminal.wait("other force", |rows| {

@@ -75,7 +75,7 @@ fn nothing_happens_while_nothing_happens() {
     terminal.wait_without("Press or pull to");
     terminal.send("\x1b");
     terminal.wait_without("manual loading");
-    // Played to its end the animation stops by itself: to the last leg, near its end, and on.
+    // Played to its end the animation stops by itself: to the last stage, near its end, and on.
     terminal.send(">");
     terminal.settle();
     terminal.send(&".".repeat(110));

@@ -119,7 +119,7 @@ fn suspended_and_continued_it_is_as_it_was() {
         terminal.send("q");
         wait_for_shell(&mut terminal);
         assert!(
-            terminal.text().contains("adhesion force F_a"),
+            terminal.text().contains("pull-off force F_a"),
             "{}",
             terminal.text()
         );

@@ -129,7 +129,7 @@ fn left_behind(terminal: &Terminal) -> String {
 }
 
 /// Asserts that each row below the title of a scene is the beginning of a row of the summary of
-/// `asperity run`, where the adhesion force has its error.
+/// `asperity run`, where the pull-off force has its error.
 fn assert_rows_of(left: &str, summary: &str) {
     let place = left
         .find("Rough line")
@@ -186,8 +186,8 @@ fn a_changed_scene_asks_before_it_is_left_and_its_summary_stays_to_be_read() {
     assert_rows_of(&left, &wanted);
     // The status line has the digits that are of use.
     let printed = left
-        .split_once("adhesion force F_a")
-        .expect("an adhesion force")
+        .split_once("pull-off force F_a")
+        .expect("a pull-off force")
         .1;
     let printed = parse_quantity(printed.lines().next().unwrap(), "N").unwrap();
     assert_eq!(format_rounded(printed, 3, "N"), force, "{left}");

@@ -55,7 +55,7 @@ fn a_whole_loop_is_played_over_a_slow_line() {
         "{bytes} bytes in {} frames and {seconds:.2} s: {rate:.0} B/s",
         frames.len()
     );
-    assert!(seconds > 11.0, "a leg takes six seconds: {seconds} s");
+    assert!(seconds > 11.0, "a stage takes six seconds: {seconds} s");
     assert!(rate < MOST_BYTES, "{rate} B/s");
     assert!(frames.len() > 60, "it plays: {} frames", frames.len());
     assert!(

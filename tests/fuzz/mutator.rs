@@ -2,7 +2,7 @@
 
 use asperity::scene::fields::{FIELDS, Range};
 
-/// Fragments that trip readers of numbers and of nested text, separated by blanks; others have
+/// Patches that trip readers of numbers and of nested text, separated by blanks; others have
 /// blanks in them.
 const NASTY: &str = "NaN inf -inf -0.0 1e999 1e-999 1e308 -1e308 5e-324 18446744073709551615 18446744073709551616 -1 0 \
     268435456 1e99999999999 0x7f 1_000 None Some( ) ( [ ] { } , : = \" ' \\ \\u{1b} r#\" \"# // /* */ # \

@@ -185,7 +185,7 @@ fn skewness(exponent: u32) -> f64 {
         "--set",
         &sets[1],
     ];
-    let lines = json(&run)["ensemble"]["lines"].clone();
+    let lines = json(&run)["ensemble"]["per_profile"].clone();
     let squares = lines
         .as_array()
         .unwrap()
@@ -194,7 +194,7 @@ fn skewness(exponent: u32) -> f64 {
     (squares.sum::<f64>() / 32.0).sqrt()
 }
 
-/// Largest over smallest ratio of the mean adhesion force to the preload, from 0.5 to 40 µN.
+/// Largest over smallest ratio of the mean pull-off force to the preload, from 0.5 to 40 µN.
 fn variation_of_the_coefficient(kappa: u32) -> f64 {
     let set = format!("adhesion.kappa={kappa}");
     let preloads = [
@@ -207,7 +207,7 @@ fn variation_of_the_coefficient(kappa: u32) -> f64 {
     ];
     let run = json(&[&["run", "pressure-sensitive", "--set", &set], &preloads[..]].concat());
     let ratio = |row: &serde_json::Value| {
-        row["adhesion_force"]["mean"].as_f64().unwrap() / row["preload"].as_f64().unwrap()
+        row["pull_off_force"]["mean"].as_f64().unwrap() / row["preload"].as_f64().unwrap()
     };
     let (low, high) = range(
         &run["mean"]

@@ -2,14 +2,14 @@
 
 use super::program::json;
 
-/// Adhesion force, N, of a scene with these overrides.
-fn adhesion_force(scene: &str, sets: &[&str]) -> f64 {
+/// Pull-off force, N, of a scene with these overrides.
+fn pull_off_force(scene: &str, sets: &[&str]) -> f64 {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     let arguments: Vec<&str> = ["run", scene, "--format", "json"]
         .into_iter()
         .chain(sets)
         .collect();
-    json(&arguments)["adhesion_force"].as_f64().unwrap()
+    json(&arguments)["pull_off_force"].as_f64().unwrap()
 }
 
 const FINEST: [&str; 2] = ["numerics.points=262144", "numerics.edges=SubCell"];
@@ -21,7 +21,7 @@ fn tolerances_are_kept_under_half_and_twice_the_load() {
     let loads = ["5e-6", "1e-5", "2e-5"];
     let force = |load: &str, numerics: [&str; 2]| {
         let loading = format!("loading=[ToForce({load}), ToSeparation]");
-        adhesion_force("pressure-sensitive", &[&loading, numerics[0], numerics[1]])
+        pull_off_force("pressure-sensitive", &[&loading, numerics[0], numerics[1]])
     };
     let finest = loads.map(|load| force(load, FINEST));
     // As docs/accuracy.md states them.
@@ -43,7 +43,10 @@ fn tolerances_are_kept_under_half_and_twice_the_load() {
             (&points.into(), &edges.into())
         );
         assert_eq!(
-            (&run["line"]["points"], &run["scene"]["numerics"]["points"]),
+            (
+                &run["profile"]["points"],
+                &run["scene"]["numerics"]["points"]
+            ),
             (&points.into(), &points.into())
         );
         let chosen = [
@@ -79,9 +82,9 @@ fn a_preload_near_a_step_is_named_and_others_have_a_small_error() {
             &loading,
         ]);
         let number = |key: &str| run[key].as_f64().unwrap();
-        let (force, error) = (number("adhesion_force"), number("adhesion_force_error"));
-        let fine = adhesion_force("pressure-sensitive", &[&loading, FINEST[0]]);
-        assert_eq!(run["adhesion_force_near_step"], is_near, "{load}");
+        let (force, error) = (number("pull_off_force"), number("pull_off_force_error"));
+        let fine = pull_off_force("pressure-sensitive", &[&loading, FINEST[0]]);
+        assert_eq!(run["pull_off_force_near_step"], is_near, "{load}");
         let is_small = if is_near {
             error > 4e-5
         } else {

@@ -13,7 +13,7 @@ use asperity::explorer::panes::row;
 use asperity::scene::Document;
 use asperity::scene::Regime;
 use asperity::scene::Simulation;
-use asperity::scene::fields::{FIELDS, Field, LEG_FORCE, Range};
+use asperity::scene::fields::{FIELDS, Field, Range, STAGE_FORCE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -212,7 +212,7 @@ fn the_readme_is_short_and_lists_all_pages() {
 /// a³ = (9/8)πγR²/E*, of a sphere with γ = E* R on a profile of length 12 R.
 fn errors_of_a_sphere(points: u32, edges: &str) -> [f64; 2] {
     let text = format!(
-        "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5), \
+        "(version: 1, material: (modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5), \
          adhesion: (work: 0.5), loading: [ToIndentation(0.75), ToSeparation], \
          numerics: (points: {points}, edges: {edges}))"
     );
@@ -222,7 +222,7 @@ fn errors_of_a_sphere(points: u32, edges: &str) -> [f64; 2] {
         .unwrap();
     let figures = outcome.figures;
     let a = (9.0 / 8.0 * PI * 0.5 * 0.25).cbrt();
-    let force = figures.adhesion_force.unwrap() / (1.5 * PI * 0.25);
+    let force = figures.pull_off_force.unwrap() / (1.5 * PI * 0.25);
     let indentation =
         figures.pull_off_indentation.unwrap() / (a * a / 0.5 - (2.0 * PI * a * 0.5).sqrt());
     [force, indentation].map(|share| (share - 1.0).abs())
@@ -270,7 +270,8 @@ fn pictures_are_those_of_their_commands() {
         let file = format!("docs/examples/{file}");
         std::fs::write(folder.path().join(&file), read(&file)).unwrap();
     }
-    let sphere = "asperity run jkr-sphere --set \"material=(effective_modulus:1e6)\" -o docs/learn/sphere.svg";
+    let sphere =
+        "asperity run jkr-sphere --set \"material=(modulus:1e6)\" -o docs/learn/sphere.svg";
     let protocols = "asperity run docs/examples/turned-at-first-touch.ron docs/examples/turned-at-zero-force.ron \
                      -o docs/learn/protocols.svg";
     let of_particles = |scene, file| {
@@ -493,13 +494,13 @@ fn the_tour_shows_a_staircase() {
     let mut force = "1.0e-5".to_owned();
     let forces = [0, 1, 2, 3].map(|step| {
         if step > 0 {
-            force = LEG_FORCE.stepped(&force, 1, false).unwrap();
+            force = STAGE_FORCE.stepped(&force, 1, false).unwrap();
         }
         let pressed = scene.set("loading.0.0", &force).unwrap();
         let outcome = Simulation::default()
             .run(pressed.scene(), &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
-        (1e6 * outcome.figures.adhesion_force.unwrap()).round()
+        (1e6 * outcome.figures.pull_off_force.unwrap()).round()
     });
     assert_eq!(forces, [17.0, 17.0, 17.0, 66.0]);
 }

@@ -20,7 +20,7 @@ fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     let edges = if uniform() < 0.5 { "Grid" } else { "SubCell" };
     let (hurst, seed) = (0.1 + 0.8 * uniform(), (1.0e6 * uniform()) as u64);
     let text = format!(
-        "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: Cone(angle: 0.05), \
+        "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4, form: Cone(angle: 0.05), \
          roughness: SelfAffine(hurst: {hurst:?}, rms_height: 1.0e-7, modes: (1, {last}), seed: {seed}), \
          adhesion: (work: 0.03), loading: [ToZeroForce, ToSeparation], \
          numerics: (points: 256, edges: {edges}, samples: 2))"
@@ -66,7 +66,7 @@ fn of_any_form(edges: &str, uniform: &mut dyn FnMut() -> f64) -> Document {
     };
     let (hurst, seed) = (0.1 + 0.85 * hurst, between(1.0, 1.0e6) as u64);
     let text = format!(
-        "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, {form}\
+        "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4, {form}\
          roughness: SelfAffine(hurst: {hurst}, rms_height: 1.0e-7, modes: ({first}, {last}), seed: {seed}), \
          adhesion: ({adhesion}), loading: [{turn}, ToSeparation], \
          numerics: (points: {points}, edges: {edges}, samples: 2))"
@@ -109,9 +109,9 @@ fn judged(
         let truth = asperity::run(&finest.unwrap())
             .unwrap()
             .figures
-            .adhesion_force
+            .pull_off_force
             .filter(|force| *force > 0.0);
-        let (Some(truth), Some(force)) = (truth, outcome.figures.adhesion_force) else {
+        let (Some(truth), Some(force)) = (truth, outcome.figures.pull_off_force) else {
             continue;
         };
         let Some(stated) = estimate(document.scene(), Path::new(""), &outcome, &|| false) else {

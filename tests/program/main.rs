@@ -31,4 +31,5 @@ mod surfaces;
 mod sweep;
 mod sweep_boundary;
 mod sweep_plot;
+mod vocabulary;
 mod warnings;

@@ -1,4 +1,4 @@
-//! Each claim in the notice of a built-in scene, and the discretisation error of its adhesion
+//! Each claim in the notice of a built-in scene, and the discretisation error of its pull-off
 //! force.
 
 use asperity::scene::Regime;
@@ -39,10 +39,10 @@ fn with(document: &Document, fields: &[(&str, &str)]) -> Document {
 }
 
 fn force(outcome: &Outcome) -> f64 {
-    outcome.figures.adhesion_force.unwrap()
+    outcome.figures.pull_off_force.unwrap()
 }
 
-/// Adhesion force of a scene under another force of its first loading stage, N.
+/// Pull-off force of a scene under another force of its first loading stage, N.
 fn pressed(document: &Document, load: f64) -> f64 {
     force(&run(&with(
         document,
@@ -68,7 +68,7 @@ fn three_regimes_depend_on_the_preload_as_stated() {
     );
     let outcome = run(&ideal);
     assert_eq!(outcome.regime, Some(Regime::PressureInsensitive));
-    assert_eq!(outcome.first_touch_adhesion_force, Some(force(&outcome)));
+    assert_eq!(outcome.first_touch_pull_off_force, Some(force(&outcome)));
     assert!(
         [1e-7, 2e-6, 1e-4, 1e-2]
             .iter()
@@ -86,7 +86,7 @@ fn three_regimes_depend_on_the_preload_as_stated() {
     );
     let outcome = run(&sensitive);
     assert_eq!(outcome.regime, Some(Regime::PressureSensitive));
-    assert!(outcome.first_touch_adhesion_force.unwrap() < 1e-3 * force(&outcome));
+    assert!(outcome.first_touch_pull_off_force.unwrap() < 1e-3 * force(&outcome));
 
     let none = "less than 0.1 % of the preload, and a higher preload does not change it";
     let none = scene("non-adhesive", &[none]);
@@ -126,7 +126,7 @@ fn two_profiles_differ_in_their_hurst_exponent_alone() {
 #[test]
 fn patches_have_lengths_of_their_own() {
     let outcome = run(&scene(
-        "fragment-closeup",
+        "patch-closeup",
         &["each contact patch has a length of its own"],
     ));
     let lengths: BTreeSet<usize> = outcome
@@ -160,7 +160,7 @@ fn smooth_bodies_keep_their_pull_off_force() {
     let claim = "A flat punch detaches as a whole, at the force √(8πa³E*γ), after any preload";
     let punch = scene("kendall-punch", &[claim]);
     let outcome = run(&punch);
-    let exact = (8.0 * PI * 2e-5_f64.powi(3) * outcome.governing.effective_modulus * 0.05).sqrt();
+    let exact = (8.0 * PI * 2e-5_f64.powi(3) * outcome.governing.modulus * 0.05).sqrt();
     for found in [
         force(&outcome),
         pressed(&punch, 1e-6),
@@ -168,10 +168,10 @@ fn smooth_bodies_keep_their_pull_off_force() {
     ] {
         assert!((found / exact - 1.0).abs() < 1e-3, "{found}");
     }
-    let unloading = &outcome.history.legs.last().unwrap().curve;
+    let unloading = &outcome.history.stages.last().unwrap().curve;
     let springs: BTreeSet<u64> = unloading.iter().map(|point| point.springs).collect();
     assert!(
-        springs.len() == 2 && unloading.iter().all(|point| point.fragments <= 1),
+        springs.len() == 2 && unloading.iter().all(|point| point.patches <= 1),
         "all springs or none: {springs:?}"
     );
 
@@ -222,8 +222,8 @@ fn jumps(scene: &Document) -> usize {
     let stiffness = scene.scene().loading_stiffness.unwrap();
     let pull_off = force(&outcome);
     let mut count = 0;
-    for leg in &outcome.history.legs {
-        let curve = DisplacementCurve::new(leg.direction, &leg.curve, stiffness);
+    for stage in &outcome.history.stages {
+        let curve = DisplacementCurve::new(stage.direction, &stage.curve, stiffness);
         for ends in curve.jumps() {
             let change = (ends[1].force - ends[0].force).abs();
             count += usize::from(change > 0.05 * pull_off);
@@ -269,12 +269,12 @@ fn roughness_weakens_a_sphere_and_waves_strengthen_it() {
 
 #[test]
 fn adhesion_at_zero_force_ends_at_an_elastic_energy() {
-    let keeps = "keeps 58 % of the ideal adhesion force; at e_el/γ = 2.5 it keeps 0.17 %";
+    let keeps = "keeps 58 % of the ideal pull-off force; at e_el/γ = 2.5 it keeps 0.17 %";
     let below = scene(
         "elastic-energy-below",
         &["would take twice the work of adhesion, e_el/γ = 2", keeps],
     );
-    let keeps = "keeps 0.17 % of the ideal adhesion force instead of 58 %";
+    let keeps = "keeps 0.17 % of the ideal pull-off force instead of 58 %";
     let above = scene(
         "elastic-energy-above",
         &["at e_el/γ = 2.5 instead of 2", keeps],
@@ -288,7 +288,7 @@ fn adhesion_at_zero_force_ends_at_an_elastic_energy() {
             / outcome.governing.work_of_adhesion.unwrap();
         assert!((energies / ratio - 1.0).abs() < 1e-12, "{energies}");
         assert_eq!(
-            two_digits(100.0 * force(&outcome) / outcome.ideal_adhesion_force.unwrap()),
+            two_digits(100.0 * force(&outcome) / outcome.ideal_pull_off_force.unwrap()),
             share
         );
     }
@@ -313,15 +313,15 @@ fn a_million_springs_have_a_shortest_wave_of_four() {
 }
 
 #[test]
-fn adhesion_forces_are_within_one_per_cent() {
+fn pull_off_forces_are_within_one_per_cent() {
     for preset in presets() {
         let document = scene(preset.name, &[]);
         let outcome = run(&document);
         let estimate = estimate(document.scene(), Path::new(""), &outcome, &|| false);
         let estimate = estimate.unwrap_or_else(|| panic!("{}: no estimate", preset.name));
-        let pulls = outcome.figures.adhesion_force.is_some();
+        let pulls = outcome.figures.pull_off_force.is_some();
         assert_eq!(
-            estimate.target == Target::AdhesionForce,
+            estimate.target == Target::PullOffForce,
             pulls,
             "{}",
             preset.name

@@ -52,7 +52,7 @@ fn a_process_that_is_killed_while_it_writes_leaves_a_whole_file_or_none() {
 fn a_reader_may_leave_at_any_time() {
     for arguments in [
         // More than a pipe holds, and less.
-        &["line", "pressure-sensitive"][..],
+        &["profile", "pressure-sensitive"][..],
         &[
             "run",
             "jkr-sphere",

@@ -139,7 +139,7 @@ fn lines_of_python_read_tables() {
          one = pandas.read_csv('lines.csv', comment='#', keep_default_na=True).fillna('-')\n\
          other = pandas.DataFrame(numpy.load('lines.npy')).replace('', numpy.nan).astype(object).fillna('-')\n\
          assert len(one) == 3 and list(one.columns) == list(other.columns)\n\
-         assert (one['adhesion_force'] == '-').all() and (one['regime'] == '-').all()\n\
+         assert (one['pull_off_force'] == '-').all() and (one['regime'] == '-').all()\n\
          assert (one.to_numpy() == other.to_numpy()).all(), (one, other)",
     );
 }

@@ -5,11 +5,11 @@ use super::program::{json, number, rows, table, text};
 use serde_json::Value;
 
 /// Keys of `run --format json` and of two of its parts.
-const KEYS: &str = "program command scene line kappa elastic_energy elastic_energy_ratio regime regime_after_zero_force \
-    ideal_adhesion_force first_touch_adhesion_force zero_force_adhesion_force preload preload_indentation adhesion_force \
-    adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve contacts work timings";
-const LINE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
-const CURVE_KEYS: &str = "leg,indentation,force,contact_length,fragments,stored_energy";
+const KEYS: &str = "program command scene profile modulus work kappa elastic_energy elastic_energy_ratio regime regime_after_zero_force \
+    ideal_pull_off_force first_touch_pull_off_force zero_force_pull_off_force preload preload_indentation pull_off_force \
+    adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve patches_at_end counts timings";
+const PROFILE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
+const CURVE_KEYS: &str = "stage,indentation,force,contact_length,patches,stored_energy";
 
 fn array(value: &Value) -> &Vec<Value> {
     value
@@ -39,7 +39,7 @@ fn every_scene_gives_the_documented_json() {
     for scene in presets.chain([
         sensitive(&[
             "loading=[ToForce(1e-5)]",
-            "observe=[Fragments, HeightHistogram]",
+            "observe=[Patches, HeightHistogram]",
         ]),
         sensitive(&[
             "adhesion=None",
@@ -63,10 +63,8 @@ fn every_scene_gives_the_documented_json() {
         };
         let (written, plan) = (run("run", "json"), run("plan", "json"));
         let object: Value = serde_json::from_str(&written).unwrap();
-        assert!(
-            KEYS.split(' ').all(|key| object.get(key).is_some()),
-            "{scene:?}: {written}"
-        );
+        let missing = KEYS.split(' ').find(|key| object.get(key).is_none());
+        assert_eq!(missing, None, "{scene:?}");
         assert!(
             object["command"]
                 .as_str()
@@ -75,22 +73,19 @@ fn every_scene_gives_the_documented_json() {
             "{scene:?}"
         );
         assert!(
-            LINE_KEYS
+            PROFILE_KEYS
                 .split(' ')
-                .all(|key| object["line"].get(key).is_some()),
+                .all(|key| object["profile"].get(key).is_some()),
             "{}",
-            object["line"]
+            object["profile"]
         );
-        let spacing = number(&object["line"]["spacing"]);
+        let spacing = number(&object["profile"]["spacing"]);
         for point in array(&object["curve"]) {
             assert!(
                 CURVE_KEYS.split(',').all(|key| point[key].is_number()),
                 "{scene:?}: {point}"
             );
-            let (length, patches) = (
-                number(&point["contact_length"]),
-                number(&point["fragments"]),
-            );
+            let (length, patches) = (number(&point["contact_length"]), number(&point["patches"]));
             assert!(
                 length >= 0.0 && (patches > 0.0 || length == 0.0),
                 "{scene:?}: {point}"
@@ -100,13 +95,9 @@ fn every_scene_gives_the_documented_json() {
         // last spring.
         let (end, contacts) = (
             array(&object["curve"]).last().unwrap(),
-            array(&object["contacts"]),
+            array(&object["patches_at_end"]),
         );
-        assert_eq!(
-            contacts.len() as f64,
-            number(&end["fragments"]),
-            "{scene:?}"
-        );
+        assert_eq!(contacts.len() as f64, number(&end["patches"]), "{scene:?}");
         let springs: f64 = contacts
             .iter()
             .map(|run| number(&run[1]) - number(&run[0]) + 1.0)
@@ -137,13 +128,13 @@ fn every_scene_gives_the_documented_json() {
 /// The plan counts the work that the run has done.
 fn assert_plan(plan: &Value, run: &Value, scene: &str) {
     let stage = |name: &str| {
-        array(&plan["stages"])
+        array(&plan["parts"])
             .iter()
-            .find(|stage| stage["stage"] == name)
+            .find(|stage| stage["part"] == name)
             .unwrap()
     };
     let runs = |name: &str| stage(name)["runs"].as_bool().unwrap();
-    let work = |key: &str| run["work"][key].as_u64();
+    let work = |key: &str| run["counts"][key].as_u64();
     assert_eq!(plan["springs"].as_u64(), work("springs"), "{scene}");
     for (name, passes) in [
         ("without-preload", "passes_without_preload"),
@@ -162,12 +153,12 @@ fn assert_plan(plan: &Value, run: &Value, scene: &str) {
         ("tree", work("loading_passes") > Some(0)),
         ("relaxation", work("steps") > Some(0)),
         ("height-histogram", !run["histogram"].is_null()),
-        ("fragments", !run["fragments"].is_null()),
+        ("patches", !run["patches_at_stage_ends"].is_null()),
     ] {
         assert_eq!(runs(name), done, "{scene}: {name}");
     }
     assert!(
-        array(&plan["stages"])
+        array(&plan["parts"])
             .iter()
             .all(|stage| stage["because"] != ""),
         "{plan}"
@@ -189,7 +180,7 @@ fn figures_follow_from_the_curve_and_the_table_is_the_curve() {
     let (smallest, largest) = (forces().fold(0.0, f64::min), forces().fold(0.0, f64::max));
     assert_eq!(
         (
-            number(&object["adhesion_force"]),
+            number(&object["pull_off_force"]),
             number(&object["preload"])
         ),
         (-smallest, largest)
@@ -198,7 +189,7 @@ fn figures_follow_from_the_curve_and_the_table_is_the_curve() {
     let coarse: Value =
         serde_json::from_str(&run(&["--format", "json", "--set", "numerics.samples=7"])).unwrap();
     for key in [
-        "adhesion_force",
+        "pull_off_force",
         "preload",
         "pull_off_indentation",
         "dissipated_energy",
@@ -210,12 +201,15 @@ fn figures_follow_from_the_curve_and_the_table_is_the_curve() {
         );
     }
     // From the text itself, to the last digit: a general reader of JSON rounds.
-    let points = written.split("{\"leg\":").skip(1).map(|point| -> Vec<f64> {
-        let entries = point.split('}').next().unwrap().split(',');
-        entries
-            .map(|entry| entry.rsplit(':').next().unwrap().parse().unwrap())
-            .collect()
-    });
+    let points = written
+        .split("{\"stage\":")
+        .skip(1)
+        .map(|point| -> Vec<f64> {
+            let entries = point.split('}').next().unwrap().split(',');
+            entries
+                .map(|entry| entry.rsplit(':').next().unwrap().parse().unwrap())
+                .collect()
+        });
     let csv = run(&["--format", "csv"]);
     assert_eq!(rows(&csv).next(), Some(CURVE_KEYS));
     assert!(points.eq(table(&csv)) && table(&csv).count() > 1000);
@@ -235,8 +229,8 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
     std::fs::write(path("stylus.txt"), stylus.collect::<String>()).unwrap();
     let write = |name: &str, form: &str, roughness: &str, numerics: &str| {
         let text = format!(
-            "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
-             adhesion: (work: 0.02), observe: [Fragments], numerics: (samples: 50, {numerics}), \
+            "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+             adhesion: (work: 0.02), observe: [Patches], numerics: (samples: 50, {numerics}), \
              loading: [ToForce(3.0e-4), ToZeroForce, ToForce(6.0e-4), ToSeparation])"
         );
         std::fs::write(path(name), text).unwrap();
@@ -265,7 +259,7 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
         ),
     ] {
         let made = write("made.ron", form, roughness, numerics);
-        text(&["line", &made, "--force", "-o", &path("line.csv")]);
+        text(&["profile", &made, "--force", "-o", &path("line.csv")]);
         let measured = write(
             "measured.ron",
             "None",
@@ -281,11 +275,11 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
             [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
         assert!(number(&made["dissipated_energy"]) > 0.0);
         for key in [
-            "first_touch_adhesion_force",
+            "first_touch_pull_off_force",
             "preload_indentation",
-            "adhesion_force",
+            "pull_off_force",
             "dissipated_energy",
-            "fragments",
+            "patches",
         ] {
             assert_eq!(
                 made[key], measured[key],
@@ -317,7 +311,7 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     ));
     for (key, column) in [
         ("preload_indentation", 2),
-        ("adhesion_force", 3),
+        ("pull_off_force", 3),
         ("dissipated_energy", 5),
     ] {
         assert_eq!(number(&one[key]), of_preload[column], "{key}");
@@ -332,20 +326,20 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     ]))
     .unwrap();
     let ensemble = &object["ensemble"];
-    let lines = array(&ensemble["lines"]);
+    let lines = array(&ensemble["per_profile"]);
     let seven = alone("roughness.seed=7");
     for key in [
-        "adhesion_force",
+        "pull_off_force",
         "preload_indentation",
         "dissipated_energy",
         "regime",
     ] {
         assert_eq!(lines[2][key], seven[key], "{key}");
     }
-    let forces = lines.iter().map(|line| number(&line["adhesion_force"]));
+    let forces = lines.iter().map(|line| number(&line["pull_off_force"]));
     let mean = forces.clone().sum::<f64>() / 6.0;
     let deviation = (forces.map(|force| (force - mean).powi(2)).sum::<f64>() / 5.0).sqrt();
-    let statistics = &ensemble["adhesion_force"];
+    let statistics = &ensemble["pull_off_force"];
     for (found, expected) in [
         (&statistics["mean"], mean),
         (&statistics["standard_deviation"], deviation),
@@ -366,8 +360,8 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     let of_preloads: Value = serde_json::from_str(&of_preloads).unwrap();
     assert_eq!(
         (
-            array(&of_preloads["lines"]).len(),
-            &of_preloads["mean"][4]["adhesion_force"]["count"]
+            array(&of_preloads["per_profile"]).len(),
+            &of_preloads["mean"][4]["pull_off_force"]["count"]
         ),
         (3, &3.into())
     );
@@ -403,10 +397,10 @@ fn jumps_are_part_of_the_loading() {
     let (all, large) = (events("--events=all"), events("--events"));
     let whole = json(&["run", scene, "--profiles", "1", "--format", "json"]);
     for key in [
-        "adhesion_force",
+        "pull_off_force",
         "dissipated_energy",
         "curve",
-        "adhesion_force_error",
+        "pull_off_force_error",
     ] {
         assert_eq!(
             (&large[key], &all[key]),
@@ -432,7 +426,7 @@ fn jumps_are_part_of_the_loading() {
     // Springs gain energy on loading and release it on unloading, three quarters or more in jumps.
     assert!(all.iter().all(|event| {
         let energy = event["energy"].as_f64().unwrap_or_default();
-        if event["leg"] == 0 {
+        if event["stage"] == 0 {
             energy >= 0.0
         } else {
             energy <= 0.0

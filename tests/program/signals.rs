@@ -78,7 +78,7 @@ fn long_computations_end_by_signals_and_write_nothing() {
         "run rough-sphere --tolerance 1e-9 -o chosen.csv",
         "reversals rough-sphere --set numerics.points=1048576 --preloads :256 -o reversals.csv",
         "cost rough-sphere --budget 10min -o cost.csv",
-        "reference rough-sphere --maps 1000 -o reference.json",
+        "reference rough-sphere --surfaces 1000 -o reference.json",
     ] {
         let output = interrupted(place.path(), arguments, Signal::INT);
         let message = String::from_utf8_lossy(&output.stderr);

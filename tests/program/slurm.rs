@@ -21,7 +21,7 @@ const PLAN: &str = r#"(
     set: {"numerics.points": "1024", "roughness.modes": "(1, 64)"},
     axes: [Linear(path: "roughness.hurst", from: 0.2, to: 0.9, count: 8)],
     profiles: 3,
-    record: [adhesion_force, dissipated_energy],
+    record: [pull_off_force, dissipated_energy],
 )"#;
 
 /// A folder with a plan, and with stand-ins for programs alone on the path.

@@ -32,7 +32,7 @@ const SMALL: &str = r#"(
     title: "Small",
     scene: (
         version: 1,
-        material: (effective_modulus: 2.0e6),
+        material: (modulus: 2.0e6),
         length: 1.0e-4,
         roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1),
         adhesion: (kappa: 1.0),
@@ -41,14 +41,14 @@ const SMALL: &str = r#"(
     axes: [
         Linear(path: "adhesion.kappa", from: 0.5, to: 5.0, count: 4),
         List(path: "roughness.hurst", values: [0.8, 0.3]),
-        List(path: "material.effective_modulus", values: [1.0e6, 2.0e6]),
+        List(path: "material.modulus", values: [1.0e6, 2.0e6]),
     ],
     preloads: [0.01, 0.3],
     profiles: 3,
     seed: 18446744073709551614,
     record: [
-        first_touch_adhesion_force, zero_force_adhesion_force, preload_force, adhesion_force, adhesion_coefficient,
-        dissipated_energy, regime, regime_after_zero_force, stiffness_exponent, skewness, fragments, contact_fraction,
+        first_touch_pull_off_force, zero_force_pull_off_force, preload_force, pull_off_force, adhesion_coefficient,
+        dissipated_energy, regime, regime_after_zero_force, stiffness_exponent, skewness, patches, contact_fraction,
     ],
 )"#;
 
@@ -141,15 +141,15 @@ fn cells_are_what_single_runs_give() {
                 let number = |regime: Option<Regime>| Some(f64::from(regime? as u8));
                 for (quantity, expected) in [
                     (
-                        Quantity::FirstTouchAdhesionForce,
-                        touched.figures.adhesion_force,
+                        Quantity::FirstTouchPullOffForce,
+                        touched.figures.pull_off_force,
                     ),
                     (
-                        Quantity::ZeroForceAdhesionForce,
-                        balanced.figures.adhesion_force,
+                        Quantity::ZeroForcePullOffForce,
+                        balanced.figures.pull_off_force,
                     ),
                     (Quantity::PreloadForce, figures.preload),
-                    (Quantity::AdhesionForce, figures.adhesion_force),
+                    (Quantity::PullOffForce, figures.pull_off_force),
                     (Quantity::AdhesionCoefficient, figures.adhesion_coefficient),
                     (Quantity::DissipatedEnergy, figures.dissipated_energy),
                     (Quantity::Regime, number(pressed.regime)),
@@ -208,10 +208,10 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     let text = r#"(version: 1, axes: [
         List(path: "loading.1.0", values: [0.0, -1.0e3]),
         List(path: "roughness.modes.1", values: [32, 64]),
-    ], scene: (version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
+    ], scene: (version: 1, material: (modulus: 2.0e6), length: 1.0e-4,
         roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1), adhesion: (kappa: 1.0),
         loading: [ToForce(1.0e-5), ToForce(0.0), ToSeparation], numerics: (points: 256),
-    ), profiles: 2, record: [adhesion_force, regime])"#;
+    ), profiles: 2, record: [pull_off_force, regime])"#;
     let mut plan = plan(text);
     // As in the folder of a plan that was not checked: more modes than springs.
     plan.axes[1].values[1] = 512.0;
@@ -223,7 +223,7 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     let [rows, summary] = tables(&folder);
     let rows: Vec<&str> = rows.lines().collect();
     assert!(
-        rows[0].ends_with("seed,adhesion_force,regime,reason"),
+        rows[0].ends_with("seed,pull_off_force,regime,reason"),
         "{}",
         rows[0]
     );
@@ -249,7 +249,7 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     let results = Results::open(folder.path()).unwrap();
     let known = |cell| {
         results
-            .statistics(cell, Quantity::AdhesionForce)
+            .statistics(cell, Quantity::PullOffForce)
             .map(|all| all.count)
     };
     assert_eq!([0, 1, 2, 3].map(known), [Some(2), None, None, None]);
@@ -341,7 +341,7 @@ fn summaries_are_the_statistics_of_the_rows() {
         let column = |name: &str| row[header.iter().position(|one| *one == name).unwrap()];
         let number = |name: &str| column(name).parse::<f64>().unwrap();
         assert_eq!(
-            (column("cell"), column("lines")),
+            (column("cell"), column("profiles")),
             (cell.to_string().as_str(), "3")
         );
         for (place, quantity) in plan.record.iter().enumerate() {
@@ -460,7 +460,7 @@ fn a_scene_may_be_varied_alone() {
         base: "jkr-sphere",
         set: {"numerics.points": "501"},
         axes: [Logarithmic(path: "adhesion.work", from: 0.01, to: 1.0, count: 3), List(path: "loading.0.0", values: [1.0e-5])],
-        record: [adhesion_force, regime, zero_force_adhesion_force],
+        record: [pull_off_force, regime, zero_force_pull_off_force],
     )"#;
     let plan = plan(text);
     let (_place, folder) = computed(&plan);
@@ -468,7 +468,7 @@ fn a_scene_may_be_varied_alone() {
     let forces: Vec<_> = (0..3)
         .map(|cell| {
             results
-                .statistics(cell, Quantity::AdhesionForce)
+                .statistics(cell, Quantity::PullOffForce)
                 .unwrap()
                 .mean
         })
@@ -479,7 +479,7 @@ fn a_scene_may_be_varied_alone() {
     );
     let [results, _] = tables(&folder);
     assert!(
-        results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,adhesion_force,"),
+        results.starts_with("cell,adhesion.work,loading.0.0,preload,seed,pull_off_force,"),
         "{results}"
     );
     assert!(results.contains("\n0,0.01,1e-5,,0,"), "{results}");

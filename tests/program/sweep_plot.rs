@@ -22,7 +22,7 @@ const PLAN: &str = r#"(
     ],
     preloads: [0.01, 0.1, 1.0],
     profiles: 4,
-    record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+    record: [first_touch_adhesion_share, adhesion_coefficient, pull_off_force, regime],
 )"#;
 
 fn asperity(folder: &Path, arguments: &[&str]) -> Result<String, String> {
@@ -132,7 +132,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
         "--at",
         "preload=1",
         "--quantity",
-        "adhesion_force",
+        "pull_off_force",
     ]);
     let section = section.unwrap();
     assert!(

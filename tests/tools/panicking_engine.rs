@@ -10,7 +10,7 @@ use asperity::explorer::config::Config;
 use asperity::explorer::session::{Options, open as explore};
 use asperity::explorer::view;
 use asperity::scene::library::DEFAULT;
-use asperity::scene::stages::AfterLeg;
+use asperity::scene::workload::AfterStage;
 use asperity::scene::{CheckedScene, Scene, open};
 use asperity::scene::{Outcome, RunError, Simulation};
 use ratatui::Frame;
@@ -23,7 +23,7 @@ fn solve(
     simulation: &mut Simulation,
     scene: &CheckedScene,
     stop: &dyn Fn() -> bool,
-    after: &mut AfterLeg<'_>,
+    after: &mut AfterStage<'_>,
 ) -> Result<Outcome, RunError> {
     beware(scene);
     if scene.seed() == Some(14) {

@@ -6,15 +6,15 @@ use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Extreme, Grid};
 use super::error::ContactError;
-use super::history::{CurvePoint, Direction, Extremes, Goal, LegRecord, Passage, Work, plan};
-use super::leg::Leg;
-use super::leg::forces::{SEARCH_INTERVALS, SeparatedEnds};
+use super::history::{CurvePoint, Direction, Extremes, Goal, Passage, StageRecord, Work, plan};
 use super::moving_body::MovingBody;
+use super::stage::Stage;
+use super::stage::forces::{SEARCH_INTERVALS, SeparatedEnds};
 use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// Rigid body that the exact solver moves. The body stores its present indentation and a [`Leg`]:
+/// Rigid body that the exact solver moves. The body stores its present indentation and a [`Stage`]:
 /// the contact at all indentations of the present motion.
 ///
 /// ```
@@ -33,18 +33,18 @@ use std::time::{Duration, Instant};
 /// ```
 #[derive(Clone)]
 pub struct Body {
-    leg: Leg,
+    stage: Stage,
     state: ContactState,
     samples: usize,
     /// Extreme compression in m of contact and instrument together, so far on the present motion;
-    /// `None` at the beginning of a motion. See [`Leg::jump_energy`].
+    /// `None` at the beginning of a motion. See [`Stage::jump_energy`].
     extreme: Option<f64>,
     work: Work,
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Leg`] of
-/// the motion. The leg gives the contact at each indentation of this range.
+/// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Stage`] of
+/// the motion. The stage gives the contact at each indentation of this range.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -58,14 +58,14 @@ pub struct Body {
 /// let motion = Body::new(&contact, 2).move_to(Move::ToIndentation(1.0e-7))?.expect("a way to go");
 /// assert_eq!((motion.low, motion.high), (0.0, 1.0e-7));
 /// // The contact anywhere on the way.
-/// assert!(motion.leg.point(0.5e-7)?.force < motion.leg.point(1.0e-7)?.force);
+/// assert!(motion.stage.point(0.5e-7)?.force < motion.stage.point(1.0e-7)?.force);
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Motion {
     /// Contact at each indentation of the motion.
-    pub leg: Leg,
+    pub stage: Stage,
     /// Smallest indentation in m that the body passed on the motion.
     pub low: f64,
     /// Largest indentation in m that the body passed on the motion.
@@ -75,7 +75,7 @@ pub struct Motion {
 
 impl Motion {
     fn loads(&self) -> bool {
-        self.leg.direction() == Direction::Loading
+        self.stage.direction() == Direction::Loading
     }
 
     /// Returns true if the motion ends with the detachment of the last patch.
@@ -115,28 +115,28 @@ impl Body {
     /// Creates a separated body at the indentation d = 0, just before first touch. `samples` is the
     /// number of points, at least 2, at which the force curve of each motion is computed.
     pub fn new(contact: &Contact, samples: usize) -> Self {
-        let leg = Leg::apart(contact, Direction::Unloading);
-        Self::on(leg, ContactState::free(0.0), samples)
+        let stage = Stage::apart(contact, Direction::Unloading);
+        Self::on(stage, ContactState::free(0.0), samples)
     }
 
-    /// Creates a body in the state that the motion `leg` has at an indentation in m. The body can
+    /// Creates a body in the state that the motion `stage` has at an indentation in m. The body can
     /// continue this motion or turn back.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the motion was computed by the [stepwise
     /// solver](crate::motion::Stepwise).
-    pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
-        leg.refuse_stepwise()?;
-        Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
+    pub fn at(stage: &Stage, indentation: f64) -> Result<Self, ContactError> {
+        stage.refuse_stepwise()?;
+        Ok(Self::on(stage.clone(), stage.state(indentation)?, 2))
     }
 
-    fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
+    fn on(stage: Stage, state: ContactState, samples: usize) -> Self {
         let work = Work {
-            springs: leg.contact().gaps().len() as u64,
+            springs: stage.contact().gaps().len() as u64,
             ..Work::default()
         };
         Body {
-            leg,
+            stage,
             state,
             samples: samples.max(2),
             extreme: None,
@@ -152,7 +152,7 @@ impl Body {
     }
 
     /// Moves the body to a target without recording a force curve. Returns the range of
-    /// indentations that the body passed and the leg of the motion; `None` if the body is at the
+    /// indentations that the body passed and the stage of the motion; `None` if the body is at the
     /// target already.
     ///
     /// # Errors
@@ -161,17 +161,17 @@ impl Body {
         let Some(motion) = self.plan(target)? else {
             return Ok(None);
         };
-        let state = match (motion.leg.direction(), motion.goal) {
+        let state = match (motion.stage.direction(), motion.goal) {
             (Direction::Unloading, Goal::Separation(indentation)) => {
                 ContactState::free(indentation.unwrap_or(motion.low))
             }
-            (Direction::Unloading, _) => motion.leg.state(motion.low)?,
-            (Direction::Loading, _) => motion.leg.state(motion.high)?,
+            (Direction::Unloading, _) => motion.stage.state(motion.low)?,
+            (Direction::Loading, _) => motion.stage.state(motion.high)?,
         };
         self.extreme = None;
-        self.leg = motion.leg.clone();
+        self.stage = motion.stage.clone();
         if state.totals.springs == 0 {
-            self.leg = Leg::apart(motion.leg.contact(), Direction::Unloading);
+            self.stage = Stage::apart(motion.stage.contact(), Direction::Unloading);
         }
         self.state = state;
         Ok(Some(motion))
@@ -182,29 +182,29 @@ impl Body {
     }
 
     fn point_of(&self, state: ContactState) -> CurvePoint {
-        state.point(self.leg.contact().foundation)
+        state.point(self.stage.contact().foundation)
     }
 
-    /// Returns the leg of a motion in this direction: the present leg if it has this direction,
-    /// otherwise a new leg that begins at the present indentation.
-    fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
+    /// Returns the stage of a motion in this direction: the present stage if it has this direction,
+    /// otherwise a new stage that begins at the present indentation.
+    fn stage_in(&mut self, direction: Direction) -> Result<Stage, ContactError> {
         let approaches = self.is_separated() && direction == Direction::Loading;
-        if self.leg.direction() == direction && !approaches {
-            return Ok(self.leg.clone());
+        if self.stage.direction() == direction && !approaches {
+            return Ok(self.stage.clone());
         }
-        let leg = if approaches {
-            Leg::approach(self.leg.contact())?
+        let stage = if approaches {
+            Stage::approach(self.stage.contact())?
         } else {
-            self.leg.turn(self.state.indentation)?
+            self.stage.turn(self.state.indentation)?
         };
-        leg.count(&mut self.work);
-        Ok(leg)
+        stage.count(&mut self.work);
+        Ok(stage)
     }
 
-    /// Finds the leg of the motion to a target and the indentations between which the motion lies.
+    /// Finds the stage of the motion to a target and the indentations between which the motion lies.
     /// Returns `None` if the body is already at the target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
-        let stiffness = self.leg.contact().loading_stiffness;
+        let stiffness = self.stage.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
             return Ok(None);
         };
@@ -219,26 +219,26 @@ impl Body {
                 Direction::Unloading
             };
             return Ok(Some(Motion {
-                leg: Leg::apart(self.leg.contact(), direction),
+                stage: Stage::apart(self.stage.contact(), direction),
                 low: start.min(end),
                 high: start.max(end),
                 goal,
             }));
         }
-        let leg = self.leg_in(direction)?;
+        let stage = self.stage_in(direction)?;
         // A separated body touches nothing below d = 0.
         let from = if self.is_separated() {
             start.max(0.0)
         } else {
             start
         };
-        let (end, goal) = leg.reach(goal, from, &mut self.work)?;
+        let (end, goal) = stage.reach(goal, from, &mut self.work)?;
         let (low, high) = match direction {
             Direction::Loading => (from, end),
             Direction::Unloading => (end, from),
         };
         Ok(Some(Motion {
-            leg,
+            stage,
             low,
             high,
             goal,
@@ -254,21 +254,21 @@ impl Body {
     }
 
     /// Moves the body along a planned motion, and returns the record of the motion.
-    fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
+    fn record(&mut self, target: Move, motion: Motion) -> Result<StageRecord, ContactError> {
         let clock = Instant::now();
         let before = self.point();
         let touches = self.is_separated();
-        let leg = &motion.leg;
+        let stage = &motion.stage;
         let sampled = self.sample(&motion)?;
         let loosest = self.loosest_point(&motion, &sampled)?;
-        if touches || self.leg.direction() != leg.direction() {
+        if touches || self.stage.direction() != stage.direction() {
             self.extreme = None;
         }
         let separated = SeparatedEnds {
             at_begin: touches,
             at_end: motion.separates() || sampled.lowest().totals.springs == 0,
         };
-        let jump_energy = leg.jump_energy(&sampled.states, separated, &mut self.extreme);
+        let jump_energy = stage.jump_energy(&sampled.states, separated, &mut self.extreme);
         self.state = self.end_state(&motion, &sampled, loosest);
         let curve = self.curve_of(&sampled, loosest);
         let extremes = if motion.loads() {
@@ -278,26 +278,28 @@ impl Body {
         };
         let passage = Passage {
             target,
-            direction: leg.direction(),
+            direction: stage.direction(),
             before,
             after: self.point(),
         };
-        let released_energy = leg.energy(sampled.squared_stretch);
-        let mut record = LegRecord::moved(passage, curve, extremes, released_energy);
+        let released_energy = stage.energy(sampled.squared_stretch);
+        let mut record = StageRecord::moved(passage, curve, extremes, released_energy);
         record.jump_energy = jump_energy;
-        record.reaches_ends = leg.reaches_ends(motion.high);
+        record.reaches_ends = stage.reaches_ends(motion.high);
         if !motion.loads() && !self.is_separated() {
-            record.smallest_of_rest = Some(self.rest_of(leg, motion.low)?);
+            record.smallest_of_rest = Some(self.rest_of(stage, motion.low)?);
         }
         self.work.count(&record);
-        self.leg = motion.leg;
+        self.stage = motion.stage;
         self.curve_time += clock.elapsed();
         Ok(record)
     }
 
     /// Computes the contact and the released energy along a motion that the body is about to make.
     fn sample(&self, motion: &Motion) -> Result<SampledMotion, ContactError> {
-        let Motion { leg, low, high, .. } = motion;
+        let Motion {
+            stage, low, high, ..
+        } = motion;
         let (grid, stride) = if motion.ends_at_largest() {
             (Grid::new(*low, *high, self.samples - 1), 1)
         } else {
@@ -311,11 +313,11 @@ impl Body {
         } else {
             *low
         };
-        let is_long = leg.contact().gaps().len() >= TWO_THREADS;
+        let is_long = stage.contact().gaps().len() >= TWO_THREADS;
         let (states, squared_stretch) = in_parallel(
             is_long,
-            || leg.sample(grid),
-            || leg.squared_stretch(from, *high),
+            || stage.sample(grid),
+            || stage.squared_stretch(from, *high),
         );
         Ok(SampledMotion {
             states: states?,
@@ -331,12 +333,12 @@ impl Body {
         motion: &Motion,
         sampled: &SampledMotion,
     ) -> Result<Option<CurvePoint>, ContactError> {
-        let contact = motion.leg.contact();
+        let contact = motion.stage.contact();
         if motion.loads() || contact.loading_stiffness.is_infinite() {
             return Ok(None);
         }
         let loosest = motion
-            .leg
+            .stage
             .least_displaced(&sampled.states, &mut self.work)?;
         Ok(Some(loosest.point(contact.foundation)))
     }
@@ -355,7 +357,7 @@ impl Body {
         let Goal::Separation(target) = motion.goal else {
             return sampled.lowest();
         };
-        let stiffness = motion.leg.contact().loading_stiffness;
+        let stiffness = motion.stage.contact().loading_stiffness;
         let indentation = match (target, loosest) {
             (Some(indentation), _) => indentation,
             (None, Some(loosest)) => loosest.displacement(stiffness),
@@ -368,14 +370,14 @@ impl Body {
     /// indentation.
     fn curve_of(&self, sampled: &SampledMotion, loosest: Option<CurvePoint>) -> Vec<CurvePoint> {
         let last = sampled.states.len() - 1;
-        let mut curve = Vec::with_capacity(self.samples + LegRecord::FURTHER_POINTS);
+        let mut curve = Vec::with_capacity(self.samples + StageRecord::FURTHER_POINTS);
         for (index, &state) in sampled.states.iter().enumerate() {
             if index % sampled.stride == 0 || index == last {
                 curve.push(self.point_of(state));
             }
         }
         if let Some(point) = loosest {
-            LegRecord::insert(&mut curve, point);
+            StageRecord::insert(&mut curve, point);
         }
         curve
     }
@@ -391,7 +393,7 @@ impl Body {
             sampled.highest()
         } else {
             motion
-                .leg
+                .stage
                 .extreme(Extreme::Largest, &sampled.states, &mut self.work)
         };
         let largest = self.point_of(largest);
@@ -411,12 +413,12 @@ impl Body {
         motion: &Motion,
         sampled: &SampledMotion,
     ) -> Result<Extremes, ContactError> {
-        let leg = &motion.leg;
-        let mut smallest = leg.extreme(Extreme::Smallest, &sampled.states, &mut self.work);
+        let stage = &motion.stage;
+        let mut smallest = stage.extreme(Extreme::Smallest, &sampled.states, &mut self.work);
         if smallest.totals.springs == 0 {
             // If the unloading has no tensile force, its smallest force is the force of the last
             // contact, and not the zero force of the separated body.
-            smallest = leg.state(leg.end().min(motion.high))?;
+            smallest = stage.state(stage.end().min(motion.high))?;
         }
         Ok(Extremes {
             smallest: self.point_of(smallest),
@@ -427,7 +429,7 @@ impl Body {
     /// Finds the point of the smallest force on the rest of an unloading, from the indentation
     /// `from` in m to separation. The work counts leave this search out because the body does not
     /// make this motion.
-    fn rest_of(&self, unloading: &Leg, from: f64) -> Result<CurvePoint, ContactError> {
+    fn rest_of(&self, unloading: &Stage, from: f64) -> Result<CurvePoint, ContactError> {
         let (separation, _) =
             unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
         let (grid, _) = self.grid(separation, from);
@@ -452,7 +454,7 @@ impl Body {
         points: &[f64],
         see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
     ) -> Result<(), ContactError> {
-        let loading = self.leg_in(Direction::Loading)?;
+        let loading = self.stage_in(Direction::Loading)?;
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
             let indentation = self
@@ -469,7 +471,7 @@ impl Body {
     }
 
     /// Finds the indentation in m at which a loading from separation reaches a target.
-    fn turning_point(&mut self, loading: &Leg, target: Move) -> Result<f64, ContactError> {
+    fn turning_point(&mut self, loading: &Stage, target: Move) -> Result<f64, ContactError> {
         let stiffness = loading.contact().loading_stiffness;
         let goal = match Goal::from(target) {
             // A tensile force is also a valid target: on the approach, adhesion pulls before the
@@ -484,17 +486,17 @@ impl Body {
         Ok(indentation)
     }
 
-    /// Returns two adhesion forces in N of unloadings that no preload precedes:
+    /// Returns two pull-off forces in N of unloadings that no preload precedes:
     ///
-    /// * F_a(d=0): the adhesion force of the unloading that begins at first touch.
-    /// * F_a(F=0): the adhesion force of the unloading that begins where the force of the loading
+    /// * F_a(d=0): the pull-off force of the unloading that begins at first touch.
+    /// * F_a(F=0): the pull-off force of the unloading that begins where the force of the loading
     ///   has returned to zero.
     ///
-    /// An adhesion force is `None` if the force stays above zero on the unloading. F_a(F=0) is also
+    /// A pull-off force is `None` if the force stays above zero on the unloading. F_a(F=0) is also
     /// `None` if the force of the loading never returns to zero.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
-        let loading = Leg::approach(self.leg.contact())?;
+        let loading = Stage::approach(self.stage.contact())?;
         loading.count(&mut self.work);
         let balanced = loading.reach(Goal::Force(0.0), 0.0, &mut self.work);
         let at_touch = self.reverse(&loading, loading.state(0.0)?, &[])?;
@@ -503,7 +505,7 @@ impl Body {
             Err(error) => return Err(error),
             Ok((indentation, _)) => {
                 let turn = loading.state(indentation)?;
-                self.reverse(&loading, turn, &[])?.adhesion_force()
+                self.reverse(&loading, turn, &[])?.pull_off_force()
             }
         };
         // The two motions for F_a(d=0) and F_a(F=0) are counted in their own field of the work
@@ -511,13 +513,13 @@ impl Body {
         self.work.loading_passes = before.loading_passes;
         self.work.unloading_passes = before.unloading_passes;
         self.work.passes_without_preload += 2;
-        Ok([at_touch.adhesion_force(), at_zero_force])
+        Ok([at_touch.pull_off_force(), at_zero_force])
     }
 
     /// Unloads from a turning point of a loading to separation.
     fn reverse(
         &mut self,
-        loading: &Leg,
+        loading: &Stage,
         turn: ContactState,
         points: &[f64],
     ) -> Result<Reversal, ContactError> {
@@ -548,30 +550,30 @@ impl Body {
 }
 
 impl MovingBody for Body {
-    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+    fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         let here = self.point();
         match self.plan(target)? {
             None => {
                 if here.springs == 0 {
-                    self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
+                    self.stage = Stage::apart(self.stage.contact(), self.stage.direction());
                 }
-                Ok(LegRecord::still(target, here))
+                Ok(StageRecord::still(target, here))
             }
             Some(Motion {
-                leg,
+                stage,
                 goal: Goal::Indentation(end),
                 ..
             }) if here.springs == 0 && end < 0.0 => {
-                self.leg = leg;
+                self.stage = stage;
                 self.state = ContactState::free(end);
-                Ok(LegRecord::free(target, here.indentation, end))
+                Ok(StageRecord::free(target, here.indentation, end))
             }
             Some(motion) => self.record(target, motion),
         }
     }
 
-    fn leg(&self) -> Leg {
-        self.leg.clone()
+    fn stage(&self) -> Stage {
+        self.stage.clone()
     }
 
     fn work(&self) -> Work {
@@ -595,7 +597,7 @@ impl MovingBody for Body {
 /// #     .build()?;
 /// let found = contact.reversals(&[Move::ToForce(1.0e-5), Move::ToForce(1.0e-4)], &[])?;
 /// // A sphere adheres with the same force after any preload.
-/// let [one, other] = [0, 1].map(|index| found[index].adhesion_force().unwrap());
+/// let [one, other] = [0, 1].map(|index| found[index].pull_off_force().unwrap());
 /// assert!((one / other - 1.0).abs() < 1e-9 && found[0].turn.force < found[1].turn.force);
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
@@ -619,11 +621,11 @@ pub struct Reversal {
 }
 
 impl Reversal {
-    /// Returns the adhesion force F_a in N: the smallest force of the unloading, with the opposite
+    /// Returns the pull-off force F_a in N: the smallest force of the unloading, with the opposite
     /// sign. Returns `None` if the smallest force is above zero.
-    pub fn adhesion_force(&self) -> Option<f64> {
+    pub fn pull_off_force(&self) -> Option<f64> {
         // 0.0 − F instead of −F, because −F would be −0 for a force of zero.
-        let adhesion_force = 0.0 - self.smallest.force;
-        (self.smallest.force <= 0.0).then_some(adhesion_force)
+        let pull_off_force = 0.0 - self.smallest.force;
+        (self.smallest.force <= 0.0).then_some(pull_off_force)
     }
 }

@@ -1,7 +1,7 @@
 //! Branches, preload and pull-off of a loading history. They depend only on the motion of the body,
 //! not on the division of the motion into loading stages.
 
-use super::history::{CurvePoint, Direction, LegRecord};
+use super::history::{CurvePoint, Direction, StageRecord};
 use asperity_data::Warning;
 use std::ops::Range;
 
@@ -38,25 +38,25 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Divides a history into branches, and returns the branches in their order. `legs` are the
+    /// Divides a history into branches, and returns the branches in their order. `stages` are the
     /// records of all loading stages.
-    pub fn all(legs: &[LegRecord]) -> Vec<Branch> {
+    pub fn all(records: &[StageRecord]) -> Vec<Branch> {
         let mut branches: Vec<Branch> = Vec::new();
-        for (stage, leg) in legs.iter().enumerate() {
+        for (stage, record) in records.iter().enumerate() {
             match branches.last_mut() {
-                Some(last) if last.direction == leg.direction || is_still(leg) => {
+                Some(last) if last.direction == record.direction || is_still(record) => {
                     last.stages.end += 1
                 }
                 // If all stages so far leave the body in place, they belong to the branch of the
                 // next stage.
-                Some(last) if legs[last.stages.clone()].iter().all(is_still) => {
+                Some(last) if records[last.stages.clone()].iter().all(is_still) => {
                     *last = Branch {
-                        direction: leg.direction,
+                        direction: record.direction,
                         stages: last.stages.start..stage + 1,
                     };
                 }
                 _ => branches.push(Branch {
-                    direction: leg.direction,
+                    direction: record.direction,
                     stages: stage..stage + 1,
                 }),
             }
@@ -66,10 +66,10 @@ impl Branch {
 
     /// Returns the last branch that moves a body in contact away from the foundation; `None` if
     /// there is no such branch.
-    pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
-        let mut branches = Branch::all(legs).into_iter();
+    pub fn last_unloading(records: &[StageRecord]) -> Option<Branch> {
+        let mut branches = Branch::all(records).into_iter();
         branches.rfind(|branch| {
-            branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
+            branch.direction == Direction::Unloading && branch.touching(records).next().is_some()
         })
     }
 
@@ -77,9 +77,9 @@ impl Branch {
     /// indices of the stages. A stage without contact has no extreme force.
     fn touching<'l>(
         &self,
-        legs: &'l [LegRecord],
-    ) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
-        stages_in_contact(legs, self.stages.clone(), self.direction)
+        records: &'l [StageRecord],
+    ) -> impl DoubleEndedIterator<Item = (usize, &'l StageRecord)> {
+        stages_in_contact(records, self.stages.clone(), self.direction)
     }
 
     /// Finds the point of the preload. Returns the index of its stage and the point. The preload is
@@ -113,17 +113,17 @@ impl Branch {
     /// );
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
-    pub fn preload(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let end = match Branch::last_unloading(legs) {
+    pub fn preload(records: &[StageRecord]) -> Option<(usize, CurvePoint)> {
+        let end = match Branch::last_unloading(records) {
             Some(unloading) => unloading.stages.start,
-            None => legs.len(),
+            None => records.len(),
         };
-        let last_separation = legs[..end].iter().rposition(|leg| {
-            leg.direction == Direction::Unloading && leg.end_in_contact().is_none()
+        let last_separation = records[..end].iter().rposition(|record| {
+            record.direction == Direction::Unloading && record.end_in_contact().is_none()
         });
         let start = last_separation.map_or(0, |stage| stage + 1);
-        let loadings = stages_in_contact(legs, start..end, Direction::Loading);
-        let largest = loadings.map(|(stage, leg)| (stage, leg.largest));
+        let loadings = stages_in_contact(records, start..end, Direction::Loading);
+        let largest = loadings.map(|(stage, record)| (stage, record.largest));
         // If several stages have the same largest force, the last one counts, as within one stage.
         largest.max_by(|(_, point), (_, other)| point.force.total_cmp(&other.force))
     }
@@ -135,15 +135,15 @@ impl Branch {
     /// * the unloading ends in contact while the force is still falling;
     /// * the unloading ends in contact, and a further unloading to separation would pass a smaller
     ///   force.
-    pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let unloading = Branch::last_unloading(legs)?;
-        let (stage, least) = unloading.smallest(legs)?;
-        let rounding = unloading.rounding(legs);
-        let is_passed = match unloading.rest(legs) {
+    pub fn pull_off(records: &[StageRecord]) -> Option<(usize, CurvePoint)> {
+        let unloading = Branch::last_unloading(records)?;
+        let (stage, least) = unloading.smallest(records)?;
+        let rounding = unloading.rounding(records);
+        let is_passed = match unloading.rest(records) {
             Rest::None => true,
             Rest::Unknown => false,
             Rest::Smallest(of_rest) => {
-                let end = legs.get(unloading.stages.end - 1)?.curve.last()?;
+                let end = records.get(unloading.stages.end - 1)?.curve.last()?;
                 least.force < end.force - rounding && least.force <= of_rest.force + rounding
             }
         };
@@ -152,15 +152,15 @@ impl Branch {
 
     /// Returns a warning if the last unloading ends in contact before the largest tensile force is
     /// reached. Returns `None` if the pull-off force has been passed, or if no tensile force acts.
-    pub fn ends_in_contact(legs: &[LegRecord]) -> Option<Warning> {
-        let unloading = Branch::last_unloading(legs)?;
-        let (_, least) = unloading.smallest(legs)?;
-        match unloading.rest(legs) {
+    pub fn ends_in_contact(records: &[StageRecord]) -> Option<Warning> {
+        let unloading = Branch::last_unloading(records)?;
+        let (_, least) = unloading.smallest(records)?;
+        match unloading.rest(records) {
             Rest::None => None,
             Rest::Unknown => Some(Warning::EndsInContact { further: None }),
             Rest::Smallest(of_rest) => {
                 let pulls_further =
-                    of_rest.force < (least.force - unloading.rounding(legs)).min(0.0);
+                    of_rest.force < (least.force - unloading.rounding(records)).min(0.0);
                 pulls_further.then_some(Warning::EndsInContact {
                     further: Some(-of_rest.force),
                 })
@@ -169,9 +169,9 @@ impl Branch {
     }
 
     /// Returns what is known about the rest of an unloading, from its end to separation.
-    fn rest(&self, legs: &[LegRecord]) -> Rest {
+    fn rest(&self, records: &[StageRecord]) -> Rest {
         // The last stages may leave the body in place, so they are left out.
-        let Some((_, last)) = self.touching(legs).next_back() else {
+        let Some((_, last)) = self.touching(records).next_back() else {
             return Rest::None;
         };
         if last.end_in_contact().is_none() {
@@ -181,16 +181,17 @@ impl Branch {
     }
 
     /// Returns the difference in N within which two forces of the branch count as equal.
-    fn rounding(&self, legs: &[LegRecord]) -> f64 {
-        legs.get(self.stages.start)
+    fn rounding(&self, records: &[StageRecord]) -> f64 {
+        records
+            .get(self.stages.start)
             .map_or(0.0, |first| ROUNDING * first.largest.force.abs())
     }
 
     /// Finds the point of the smallest force while the body is in contact on this branch. Returns
     /// the index of its stage and the point; `None` if the body is never in contact on this branch.
-    pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let stages = self.touching(legs);
-        let smallest = stages.map(|(stage, leg)| (stage, leg.smallest));
+    pub fn smallest(&self, records: &[StageRecord]) -> Option<(usize, CurvePoint)> {
+        let stages = self.touching(records);
+        let smallest = stages.map(|(stage, record)| (stage, record.smallest));
         // If several points have the same smallest force, the one at the smallest indentation
         // counts, as within one stage.
         smallest.min_by(|(_, point), (_, other)| {
@@ -211,24 +212,24 @@ enum Rest {
 }
 
 /// Returns true if a stage leaves the body in place and neither closes nor opens the contact.
-fn is_still(leg: &LegRecord) -> bool {
-    let start = leg.start();
-    let end = leg.end();
+fn is_still(record: &StageRecord) -> bool {
+    let start = record.start();
+    let end = record.end();
     let motion = (start - end).abs();
-    let starts_in_contact = leg.curve.first().is_some_and(|point| point.springs > 0);
-    let mut points = leg.curve.iter();
+    let starts_in_contact = record.curve.first().is_some_and(|point| point.springs > 0);
+    let mut points = record.curve.iter();
     motion <= NO_MOTION * start.abs().max(end.abs())
         && points.all(|point| (point.springs > 0) == starts_in_contact)
 }
 
 /// Returns the stages of a range that move in a direction and have contact, with their indices.
 fn stages_in_contact(
-    legs: &[LegRecord],
+    records: &[StageRecord],
     stages: Range<usize>,
     direction: Direction,
-) -> impl DoubleEndedIterator<Item = (usize, &LegRecord)> {
-    let numbered = stages.clone().zip(&legs[stages]);
-    numbered.filter(move |(_, leg)| {
-        leg.direction == direction && leg.curve.iter().any(|point| point.springs > 0)
+) -> impl DoubleEndedIterator<Item = (usize, &StageRecord)> {
+    let numbered = stages.clone().zip(&records[stages]);
+    numbered.filter(move |(_, record)| {
+        record.direction == direction && record.curve.iter().any(|point| point.springs > 0)
     })
 }

@@ -27,20 +27,20 @@ pub struct ClosedForm {
     /// Exponent n of the equivalent profile c |x|ⁿ, above 1/2.
     pub exponent: f64,
     /// Effective modulus E* in Pa.
-    pub effective_modulus: f64,
+    pub modulus: f64,
     /// Work of adhesion γ in J/m².
     pub work_of_adhesion: f64,
 }
 
 impl ClosedForm {
-    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m.
+    /// Returns the ideal pull-off force F_a,max = √(πγE*L³) in N of a flat face of length L in m.
     /// Here γ is the work of adhesion in J/m² and E* the effective modulus in Pa. Popov and
     /// Filippov (2012) have this formula as eq. (14), after Kendall (1971).
-    pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
-        (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+    pub fn ideal_pull_off_force(work_of_adhesion: f64, modulus: f64, length: f64) -> f64 {
+        (PI * work_of_adhesion * modulus * length.powi(3)).sqrt()
     }
 
-    /// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall
+    /// Returns the pull-off force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall
     /// (1971). Here E* is the effective modulus in Pa and γ the work of adhesion in J/m².
     ///
     /// ```
@@ -49,22 +49,22 @@ impl ClosedForm {
     /// // A punch as wide as the profile is a flat face: L = 2a.
     /// let [punch, face] = [
     ///     ClosedForm::flat_punch(1.0e-5, 1.0e6, 0.05),
-    ///     ClosedForm::ideal_adhesion_force(0.05, 1.0e6, 2.0e-5),
+    ///     ClosedForm::ideal_pull_off_force(0.05, 1.0e6, 2.0e-5),
     /// ];
     /// assert!((punch / face - 1.0).abs() < 1e-14);
     /// ```
-    pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
-        (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
+    pub fn flat_punch(radius: f64, modulus: f64, work_of_adhesion: f64) -> f64 {
+        (8.0 * PI * radius.powi(3) * modulus * work_of_adhesion).sqrt()
     }
 
     /// Creates the closed-form solution of Johnson, Kendall and Roberts for a sphere of the radius
     /// R = `radius` in m. Its equivalent profile is g(x) = x²/R.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
-        let effective_modulus = modulus.pascals();
+        let modulus = modulus.pascals();
         ClosedForm {
             line_coefficient: radius.recip(),
             exponent: 2.0,
-            effective_modulus,
+            modulus,
             work_of_adhesion,
         }
     }
@@ -85,11 +85,11 @@ impl ClosedForm {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn cone(angle: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
-        let effective_modulus = modulus.pascals();
+        let modulus = modulus.pascals();
         ClosedForm {
             line_coefficient: 0.5 * PI * angle.tan(),
             exponent: 1.0,
-            effective_modulus,
+            modulus,
             work_of_adhesion,
         }
     }
@@ -98,7 +98,7 @@ impl ClosedForm {
     /// symbols c, n, E* and γ are the fields of [`ClosedForm`].
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3) of Popov and Filippov (2012).
-        let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
+        let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
@@ -106,7 +106,7 @@ impl ClosedForm {
     /// in m. The symbols c, n, E* and γ are the fields of [`ClosedForm`].
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
-        let scale = 2.0 * self.effective_modulus * n * self.line_coefficient;
+        let scale = 2.0 * self.modulus * n * self.line_coefficient;
         let pressed = scale * radius.powf(n + 1.0) / (n + 1.0);
         pressed - self.detaching(radius)
     }
@@ -133,14 +133,14 @@ impl ClosedForm {
     /// other symbols are the fields of [`ClosedForm`].
     fn critical_radius(&self, multiple: f64) -> f64 {
         let n = self.exponent;
-        let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
+        let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.modulus;
         (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
     }
 
     /// Returns the part √(8π a³ E* γ) of the force in N that adhesion contributes at the contact
     /// radius a in m.
     fn detaching(&self, radius: f64) -> f64 {
-        ClosedForm::flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
+        ClosedForm::flat_punch(radius, self.modulus, self.work_of_adhesion)
     }
 }
 
@@ -165,7 +165,7 @@ mod tests {
             let body = ClosedForm {
                 line_coefficient,
                 exponent,
-                effective_modulus: 3.0,
+                modulus: 3.0,
                 work_of_adhesion: 0.5,
             };
             let (a, force) = body.force_controlled_pull_off();

@@ -130,7 +130,7 @@ impl ContactBuilder {
         check("loading stiffness", loading_stiffness, is_allowed, allowed)?;
         let foundation = Foundation {
             spacing: profile.spacing,
-            effective_modulus: modulus.pascals(),
+            modulus: modulus.pascals(),
             length: profile.length,
         };
         let rules =
@@ -241,8 +241,8 @@ impl Contact {
     }
 
     /// Returns the effective modulus E* in Pa.
-    pub fn effective_modulus(&self) -> f64 {
-        self.foundation.effective_modulus
+    pub fn modulus_in_pascals(&self) -> f64 {
+        self.foundation.modulus
     }
 
     /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).

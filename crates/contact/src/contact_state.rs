@@ -79,7 +79,7 @@ impl ContactState {
             force: foundation.spring_stiffness() * self.compression,
             contact_length: foundation.contact_length(self.length),
             springs: counted(self.totals.springs),
-            fragments: counted(self.totals.patches),
+            patches: counted(self.totals.patches),
             stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
         }
     }
@@ -191,10 +191,10 @@ impl Tally {
 /// point may lie. Each interval is returned as the contacts at its two ends. The function `may_lie`
 /// decides from these contacts.
 pub fn intervals(
-    leg: &[ContactState],
+    stage: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
 ) -> Vec<[ContactState; 2]> {
-    let pairs = leg.windows(2).map(|ends| [ends[0], ends[1]]);
+    let pairs = stage.windows(2).map(|ends| [ends[0], ends[1]]);
     pairs.filter(|[low, high]| may_lie(low, high)).collect()
 }
 
@@ -222,9 +222,9 @@ impl Extreme {
 
     /// Returns the contact with the extreme force among the points of a sampled motion. The motion
     /// must have at least one point.
-    pub fn among(self, leg: &[ContactState]) -> ContactState {
-        let mut best = leg[0];
-        for state in leg {
+    pub fn among(self, stage: &[ContactState]) -> ContactState {
+        let mut best = stage[0];
+        for state in stage {
             if self.is_beyond(state, &best) {
                 best = *state;
             }

@@ -6,10 +6,10 @@ use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
 use super::events::JumpCollector;
 use super::figures::Figures;
-use super::history::{CurvePoint, History, LegRecord};
-use super::leg::{Leg, PatchState};
+use super::history::{CurvePoint, History, StageRecord};
 use super::moving_body::{MovingBody, load_body};
 use super::profile::Profile;
+use super::stage::{PatchState, Stage};
 use super::target::Move;
 use asperity_data::Warning;
 
@@ -126,8 +126,8 @@ pub struct Cycle {
     figures: Figures,
     /// Points of the force curve of each stage at the additional indentations of [`LoadOptions`].
     points: Vec<Vec<CurvePoint>>,
-    /// Leg of the last stage. If there are no stages, the leg of the separated body.
-    leg: Leg,
+    /// Stage of the last stage. If there are no stages, the stage of the separated body.
+    stage: Stage,
 }
 
 /// Force curve of all loading stages. Each field is a column with one value for each point of the
@@ -230,10 +230,10 @@ impl Contact {
         }
         let mut body = Body::new(self, samples as usize);
         let mut points = Vec::with_capacity(stages.len());
-        let history = load_body(&mut body, stages, |record, leg| {
-            points.push(points_between(record, leg, indentations)?);
+        let history = load_body(&mut body, stages, |record, motion| {
+            points.push(points_between(record, motion, indentations)?);
             if let Some(jumps) = &mut jumps {
-                jumps.observe(record, leg)?;
+                jumps.observe(record, motion)?;
             }
             if points.len() < stages.len() && !may_begin(points.len()) {
                 return Err(ContactError::Interrupted);
@@ -244,7 +244,7 @@ impl Contact {
             figures: Figures::of(&history),
             history,
             points,
-            leg: body.leg(),
+            stage: body.stage(),
         })
     }
 
@@ -266,7 +266,7 @@ impl Contact {
     ///     .build()?
     ///     .reversals(&turns, &[-1.0e-8, 0.0])?;
     /// for (reversal, force) in found.iter().zip([25.07e-9, 40.13e-9, 130.53e-9]) {
-    ///     assert!((reversal.adhesion_force().unwrap() - force).abs() < 0.01e-9);
+    ///     assert!((reversal.pull_off_force().unwrap() - force).abs() < 0.01e-9);
     ///     assert_eq!(reversal.forces.len(), 2);
     /// }
     /// # Ok::<(), asperity_contact::ContactError>(())
@@ -297,15 +297,15 @@ impl Contact {
 /// Returns the points of a stage at all `indentations` that the stage passes. The indentations are
 /// in m and in ascending order, and so are the returned points.
 fn points_between(
-    record: &LegRecord,
-    leg: &Leg,
+    record: &StageRecord,
+    stage: &Stage,
     indentations: &[f64],
 ) -> Result<Vec<CurvePoint>, ContactError> {
     let low = record.start().min(record.end());
     let high = record.start().max(record.end());
     let first = indentations.partition_point(|&indentation| indentation < low);
     let end = indentations.partition_point(|&indentation| indentation <= high);
-    leg.curve(&indentations[first..end.max(first)])
+    stage.curve(&indentations[first..end.max(first)])
 }
 
 /// Returns an error if a target is so large that a result might not be a finite number.
@@ -342,11 +342,11 @@ impl History {
     /// * The last unloading reaches separation or passes the smallest force.
     /// * Enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
-        let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
-        let springs = self.legs.iter().map(LegRecord::most_springs);
+        let reaches_ends = self.stages.iter().any(|stage| stage.reaches_ends);
+        let springs = self.stages.iter().map(StageRecord::most_springs);
         let most_springs = springs.max().unwrap_or(0);
         let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
-        warnings.extend(Branch::ends_in_contact(&self.legs));
+        warnings.extend(Branch::ends_in_contact(&self.stages));
         warnings
     }
 }
@@ -386,7 +386,7 @@ impl Cycle {
     /// unloading ends in contact before it has passed the smallest force.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
-        self.figures.adhesion_force
+        self.figures.pull_off_force
     }
 
     /// Returns the indentation in m at which the pull-off force acts; `None` if
@@ -420,22 +420,22 @@ impl Cycle {
 
     /// Returns all points of the force curve, stage after stage, in the order of the motion.
     pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
-        self.history.legs.iter().flat_map(|leg| &leg.curve)
+        self.history.stages.iter().flat_map(|record| &record.curve)
     }
 
     /// Returns the force curve of all stages as columns, one for each quantity.
     #[must_use]
     pub fn curve(&self) -> Curve {
         let mut curve = Curve::default();
-        let stiffness = self.leg.contact().loading_stiffness;
-        for (stage, leg) in self.history.legs.iter().enumerate() {
-            for point in &leg.curve {
+        let stiffness = self.stage.contact().loading_stiffness;
+        for (stage, record) in self.history.stages.iter().enumerate() {
+            for point in &record.curve {
                 curve.stage.push(stage);
                 curve.indentation.push(point.indentation);
                 curve.force.push(point.force);
                 curve.displacement.push(point.displacement(stiffness));
                 curve.contact_length.push(point.contact_length);
-                curve.patches.push(point.fragments);
+                curve.patches.push(point.patches);
                 curve.stored_energy.push(point.stored_energy);
             }
         }
@@ -450,11 +450,11 @@ impl Cycle {
         self.points.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the
+    /// Returns a [`StageRecord`] for each loading stage, with the force curve and the energies of the
     /// stage.
     #[must_use]
-    pub fn stages(&self) -> &[LegRecord] {
-        &self.history.legs
+    pub fn stages(&self) -> &[StageRecord] {
+        &self.history.stages
     }
 
     /// Returns a warning for each premise of the model that this loading does not meet. An example
@@ -487,7 +487,7 @@ impl Cycle {
     /// ```
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
-        let profile = self.leg.contact().profile();
+        let profile = self.stage.contact().profile();
         let mut warnings = self.history.warnings(profile);
         warnings.extend(profile.doubt());
         warnings
@@ -497,9 +497,9 @@ impl Cycle {
     /// from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
-        let last_stage = self.history.legs.last();
-        match last_stage.and_then(LegRecord::end_in_contact) {
-            Some(end) => self.leg.patch_states(end.indentation),
+        let last_stage = self.history.stages.last();
+        match last_stage.and_then(StageRecord::end_in_contact) {
+            Some(end) => self.stage.patch_states(end.indentation),
             None => Vec::new(),
         }
     }

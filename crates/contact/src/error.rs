@@ -88,10 +88,10 @@ pub enum ContactError {
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg
+    /// A motion or a search needs a [`Stage`](crate::motion::Stage) of the exact solver, but the stage
     /// belongs to the stepwise solver.
     #[error(
-        "a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver"
+        "a stage of the stepwise solver is known at its steps alone; allowed: a stage of the exact solver"
     )]
     Stepwise,
     /// The program has a defect. The field describes the impossible state that was found.

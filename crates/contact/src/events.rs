@@ -3,9 +3,9 @@
 
 use super::error::ContactError;
 use super::figures::{Mark, MarkedPoint};
-use super::history::{Direction, LegRecord};
-use super::leg::Leg;
-use super::leg::jumps::Jump;
+use super::history::{Direction, StageRecord};
+use super::motion::Stage;
+use super::stage::jumps::Jump;
 use std::cmp::Ordering;
 
 /// A mark shares the event of a jump that follows it within this share of the range of
@@ -43,7 +43,7 @@ pub struct JumpCollector {
 /// All jumps of one stage in the order of the motion, and the motion itself.
 #[derive(Clone, Debug)]
 struct JumpsOfStage {
-    leg: Leg,
+    stage: Stage,
     jumps: Vec<Jump>,
 }
 
@@ -80,7 +80,7 @@ pub struct Event {
     /// Jump of the contact.
     pub jump: Option<Jump>,
     /// Energy in J that a compliant instrument and the body lose in all jumps of the instrument in
-    /// this stage ([`LegRecord::jump_energy`]). Such an event is at the end of the stage, and has
+    /// this stage ([`StageRecord::jump_energy`]). Such an event is at the end of the stage, and has
     /// neither mark nor jump.
     pub instrument_loss: Option<f64>,
 }
@@ -104,11 +104,11 @@ impl JumpCollector {
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the stage was computed by the [stepwise
     /// solver](crate::motion::Stepwise).
-    pub fn observe(&mut self, record: &LegRecord, leg: &Leg) -> Result<(), ContactError> {
+    pub fn observe(&mut self, record: &StageRecord, motion: &Stage) -> Result<(), ContactError> {
         let [low, high] = record.passed();
-        let jumps = leg.jumps(low, high)?;
+        let jumps = motion.jumps(low, high)?;
         self.stages.push(JumpsOfStage {
-            leg: leg.clone(),
+            stage: motion.clone(),
             jumps,
         });
         Ok(())
@@ -133,14 +133,14 @@ impl JumpCollector {
     }
 
     /// Returns the events of the loading. Of the jumps, only those are listed whose energy is at
-    /// least `least_share` of the largest one, and at most the `most` largest of them. `legs` are
+    /// least `least_share` of the largest one, and at most the `most` largest of them. `stages` are
     /// the records of the stages.
     ///
     /// The forces of all patches are added up at each listed jump, which takes longer than to find
     /// the jumps.
     pub fn events(
         &self,
-        legs: &[LegRecord],
+        records: &[StageRecord],
         least_share: f64,
         most: usize,
     ) -> Result<Events, ContactError> {
@@ -151,9 +151,9 @@ impl JumpCollector {
             events.released -= jump.energy.min(0.0);
         }
         let least = self.least_energy(least_share, most);
-        let marks = Mark::in_stages(legs);
-        let range = NEAR * range_of(legs);
-        for (stage, record) in legs.iter().enumerate() {
+        let marks = Mark::in_stages(records);
+        let range = NEAR * range_of(records);
+        for (stage, record) in records.iter().enumerate() {
             let mut of_stage = self.listed_jumps(stage, least)?;
             if of_stage.len() + events.listed_jumps > most {
                 // Several jumps have just the least energy.
@@ -194,13 +194,17 @@ impl JumpCollector {
 
     /// Returns the jumps of a stage with at least the energy `least` in J.
     fn listed_jumps(&self, stage: usize, least: f64) -> Result<Vec<Event>, ContactError> {
-        let Some(JumpsOfStage { leg, jumps }) = self.stages.get(stage) else {
+        let Some(JumpsOfStage {
+            stage: motion,
+            jumps,
+        }) = self.stages.get(stage)
+        else {
             return Ok(Vec::new());
         };
         let mut listed = jumps.clone();
         listed.retain(|jump| jump.energy.abs() >= least);
         let mut events = Vec::with_capacity(listed.len());
-        for (jump, forces) in listed.iter().zip(leg.forces_at_jumps(&listed)?) {
+        for (jump, forces) in listed.iter().zip(motion.forces_at_jumps(&listed)?) {
             events.push(Event {
                 jump: Some(*jump),
                 ..Event::new(stage, jump.indentation, forces)
@@ -211,10 +215,10 @@ impl JumpCollector {
 }
 
 /// Returns the difference in m between the largest and the smallest indentation of a loading.
-fn range_of(legs: &[LegRecord]) -> f64 {
+fn range_of(records: &[StageRecord]) -> f64 {
     let mut low = f64::INFINITY;
     let mut high = f64::NEG_INFINITY;
-    for record in legs {
+    for record in records {
         low = low.min(record.start()).min(record.end());
         high = high.max(record.start()).max(record.end());
     }

@@ -3,7 +3,7 @@
 
 use super::body::Reversal;
 use super::branches::{Branch, ROUNDING};
-use super::history::{CurvePoint, Direction, History, LegRecord};
+use super::history::{CurvePoint, Direction, History, StageRecord};
 use super::target::Move;
 
 /// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the
@@ -18,7 +18,7 @@ use super::target::Move;
 /// #     .work_of_adhesion(0.05)
 /// #     .build()?;
 /// let pressed = contact.load(&[Move::ToForce(1.0e-4)])?.figures();
-/// assert_eq!((pressed.adhesion_force, pressed.dissipated_energy), (None, None));
+/// assert_eq!((pressed.pull_off_force, pressed.dissipated_energy), (None, None));
 /// let loop_ = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?.figures();
 /// assert!((loop_.adhesion_coefficient.unwrap() - 0.2356).abs() < 1e-4);
 /// # Ok::<(), asperity_contact::ContactError>(())
@@ -31,15 +31,15 @@ pub struct Figures {
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign.
+    /// Pull-off force F_a in N: the smallest force of the last unloading, with the opposite sign.
     /// `None` if this smallest force is above zero. Also `None` if the unloading ends in contact
     /// before it has passed the smallest force.
-    pub adhesion_force: Option<f64>,
+    pub pull_off_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n. `None` if F_a is `None`, or if the preload is not a positive
     /// force.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation in m at the smallest force of the last unloading. `None` if `adhesion_force` is
-    /// `None`. This indentation is less accurate than the adhesion force.
+    /// Indentation in m at the smallest force of the last unloading. `None` if `pull_off_force` is
+    /// `None`. This indentation is less accurate than the pull-off force.
     pub pull_off_indentation: Option<f64>,
     /// Energy in J dissipated in the contact during all stages together; `None` if the last stage
     /// ends in contact.
@@ -49,24 +49,25 @@ pub struct Figures {
 impl Figures {
     /// Computes preload, pull-off and dissipated energy from the records of a history.
     pub fn of(history: &History) -> Self {
-        let legs = &history.legs;
-        let preload = Branch::preload(legs).map(|(stage, point)| Preload {
-            target: legs[stage].target,
+        let records = &history.stages;
+        let preload = Branch::preload(records).map(|(stage, point)| Preload {
+            target: records[stage].target,
             point,
         });
-        let pull_off = Branch::pull_off(legs).map(|(_, point)| point);
-        let end = legs.last().and_then(|leg| leg.curve.last());
+        let pull_off = Branch::pull_off(records).map(|(_, point)| point);
+        let end = records.last().and_then(|record| record.curve.last());
         let ends_separated = end.is_some_and(|point| point.springs == 0);
-        let energy = ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum());
+        let energy =
+            ends_separated.then(|| records.iter().map(|record| record.released_energy).sum());
         Figures::of_points(preload, pull_off, energy)
     }
 
     /// Computes the figures of a history with two stages: a loading of the separated body to the
-    /// target `leg`, and the unloading `reversal` back to separation.
-    pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
+    /// target `stage`, and the unloading `reversal` back to separation.
+    pub fn of_reversal(record: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {
-            target: leg,
+            target: record,
             point: reversal.turn,
         };
         let pulls = touches && reversal.smallest.force <= 0.0;
@@ -86,12 +87,12 @@ impl Figures {
     ) -> Self {
         let preload_force = preload.map(|preload| preload.without_rounding().force);
         // 0.0 − F instead of −F, because −F would be −0 for a force of zero.
-        let adhesion_force = pull_off.map(|point| 0.0 - point.force);
+        let pull_off_force = pull_off.map(|point| 0.0 - point.force);
         Figures {
             preload: preload_force,
             preload_indentation: preload.map(|preload| preload.point.indentation),
-            adhesion_force,
-            adhesion_coefficient: adhesion_coefficient(adhesion_force, preload_force),
+            pull_off_force,
+            adhesion_coefficient: adhesion_coefficient(pull_off_force, preload_force),
             pull_off_indentation: pull_off.map(|point| point.indentation),
             // Adding 0.0 changes −0 to 0 if no energy is dissipated.
             dissipated_energy: energy.map(|energy| energy + 0.0),
@@ -101,10 +102,10 @@ impl Figures {
 
 /// Returns F_a/F_n for forces in N; `None` if either force is `None`, if the preload is not
 /// positive, or if the quotient is too large for a number.
-fn adhesion_coefficient(adhesion_force: Option<f64>, preload: Option<f64>) -> Option<f64> {
-    let adhesion_force = adhesion_force?;
+fn adhesion_coefficient(pull_off_force: Option<f64>, preload: Option<f64>) -> Option<f64> {
+    let pull_off_force = pull_off_force?;
     let preload = preload?;
-    let coefficient = adhesion_force / preload;
+    let coefficient = pull_off_force / preload;
     (preload > 0.0 && coefficient.is_finite()).then_some(coefficient)
 }
 
@@ -162,34 +163,34 @@ pub enum Mark {
 
 impl Mark {
     /// Finds the special points of a force curve. Returns each mark with its point, in the order of
-    /// the variants of [`Mark`]. `legs` are the records of all loading stages.
-    pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-        let marked = Mark::in_stages(legs).into_iter();
+    /// the variants of [`Mark`]. `stages` are the records of all loading stages.
+    pub fn all(records: &[StageRecord]) -> Vec<(Mark, CurvePoint)> {
+        let marked = Mark::in_stages(records).into_iter();
         marked.map(|marked| (marked.mark, marked.point)).collect()
     }
 
     /// Finds the points of a force curve that have a mark, as [`Mark::all`] does, each with its
     /// stage.
-    pub(super) fn in_stages(legs: &[LegRecord]) -> Vec<MarkedPoint> {
+    pub(super) fn in_stages(records: &[StageRecord]) -> Vec<MarkedPoint> {
         let mut marks = Vec::new();
         let mut add = |mark: Mark, stage: usize, point: CurvePoint| {
             marks.push(MarkedPoint { mark, stage, point });
         };
-        if let Some((stage, point)) = first_jump_into_contact(legs)
+        if let Some((stage, point)) = first_jump_into_contact(records)
             && point.force < 0.0
         {
             add(Mark::JumpIn, stage, point);
         }
-        if let Some((stage, point)) = Branch::preload(legs) {
-            let target = legs[stage].target;
+        if let Some((stage, point)) = Branch::preload(records) {
+            let target = records[stage].target;
             let preload = Preload { target, point };
             add(Mark::Preload, stage, preload.without_rounding());
         }
-        if let Some((stage, pull_off)) = Branch::pull_off(legs) {
+        if let Some((stage, pull_off)) = Branch::pull_off(records) {
             if pull_off.force < 0.0 {
                 add(Mark::PullOff, stage, pull_off);
             }
-            if let Some((stage, point)) = last_jump_out_of_contact(legs)
+            if let Some((stage, point)) = last_jump_out_of_contact(records)
                 && point.force > pull_off.force * (1.0 - ROUNDING)
                 && point.force < 0.0
             {
@@ -220,33 +221,33 @@ pub(super) struct MarkedPoint {
 
 /// Returns the first point in contact after the first jump of a history into contact, and the index
 /// of its stage.
-fn first_jump_into_contact(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let mut stages = legs.iter().enumerate();
-    stages.find_map(|(stage, leg)| Some((stage, jump_into_contact(leg)?)))
+fn first_jump_into_contact(records: &[StageRecord]) -> Option<(usize, CurvePoint)> {
+    let mut stages = records.iter().enumerate();
+    stages.find_map(|(stage, record)| Some((stage, jump_into_contact(record)?)))
 }
 
 /// Returns the first point in contact after the first jump of a loading into contact.
-fn jump_into_contact(leg: &LegRecord) -> Option<CurvePoint> {
-    if leg.direction != Direction::Loading {
+fn jump_into_contact(record: &StageRecord) -> Option<CurvePoint> {
+    if record.direction != Direction::Loading {
         return None;
     }
-    let mut pairs = leg.curve.windows(2);
+    let mut pairs = record.curve.windows(2);
     let jump = pairs.find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
     Some(jump[1])
 }
 
 /// Returns the last point before the last jump of a motion out of contact.
-fn jump_out_of_contact(leg: &LegRecord) -> Option<CurvePoint> {
-    let mut pairs = leg.curve.windows(2);
+fn jump_out_of_contact(record: &StageRecord) -> Option<CurvePoint> {
+    let mut pairs = record.curve.windows(2);
     let jump = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
     Some(jump[0])
 }
 
 /// Returns the last point in contact of the last unloading, if the body jumps out of contact there,
 /// and the index of its stage.
-fn last_jump_out_of_contact(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let mut stages = Branch::last_unloading(legs)?.stages.rev();
-    stages.find_map(|stage| Some((stage, jump_out_of_contact(&legs[stage])?)))
+fn last_jump_out_of_contact(records: &[StageRecord]) -> Option<(usize, CurvePoint)> {
+    let mut stages = Branch::last_unloading(records)?.stages.rev();
+    stages.find_map(|stage| Some((stage, jump_out_of_contact(&records[stage])?)))
 }
 
 #[cfg(test)]
@@ -264,15 +265,15 @@ mod tests {
 
     /// Creates the record of a stage with this curve. The point `extreme` has both the largest and
     /// the smallest force. The released energy is 0.25 J.
-    fn leg(
+    fn stage(
         target: Move,
         direction: Direction,
         curve: &[CurvePoint],
         extreme: CurvePoint,
-    ) -> LegRecord {
+    ) -> StageRecord {
         let (curve, largest, smallest) = (curve.to_vec(), extreme, extreme);
-        let still = LegRecord::still(target, extreme);
-        LegRecord {
+        let still = StageRecord::still(target, extreme);
+        StageRecord {
             direction,
             curve,
             largest,
@@ -282,9 +283,9 @@ mod tests {
         }
     }
 
-    fn pressed(force: f64) -> LegRecord {
+    fn pressed(force: f64) -> StageRecord {
         let extreme = point(force / 10.0, force, 3);
-        leg(
+        stage(
             Move::ToForce(force),
             Direction::Loading,
             &[point(0.0, 0.5, 1), extreme],
@@ -292,9 +293,9 @@ mod tests {
         )
     }
 
-    fn pulled(force: f64, springs: u64) -> LegRecord {
+    fn pulled(force: f64, springs: u64) -> StageRecord {
         let extreme = point(-0.3, force, 2);
-        leg(
+        stage(
             Move::ToSeparation,
             Direction::Unloading,
             &[extreme, point(-0.3, 0.0, springs)],
@@ -302,9 +303,9 @@ mod tests {
         )
     }
 
-    fn figures(legs: &[LegRecord]) -> Figures {
+    fn figures(records: &[StageRecord]) -> Figures {
         Figures::of(&History {
-            legs: legs.to_vec(),
+            stages: records.to_vec(),
             ..History::default()
         })
     }
@@ -315,16 +316,16 @@ mod tests {
         let expected = Figures {
             preload: Some(7.0),
             preload_indentation: Some(0.7),
-            adhesion_force: Some(2.0),
+            pull_off_force: Some(2.0),
             adhesion_coefficient: Some(2.0 / 7.0),
             pull_off_indentation: Some(-0.3),
             dissipated_energy: Some(1.0),
         };
         assert_eq!(found, expected);
         // Without dissipation the energy is 0, not −0.
-        let nothing = |leg: LegRecord| LegRecord {
+        let nothing = |stage: StageRecord| StageRecord {
             released_energy: -0.0,
-            ..leg
+            ..stage
         };
         let lost = figures(&[nothing(pressed(7.0)), nothing(pulled(-3.0, 0))]).dissipated_energy;
         assert!(
@@ -341,8 +342,8 @@ mod tests {
     }
 
     #[test]
-    fn only_a_leg_that_pulls_has_an_adhesion_force_and_only_a_preload_a_coefficient() {
-        let adhesion = |force| figures(&[pressed(1.0), pulled(force, 0)]).adhesion_force;
+    fn only_a_stage_that_pulls_has_a_pull_off_force_and_only_a_preload_a_coefficient() {
+        let adhesion = |force| figures(&[pressed(1.0), pulled(force, 0)]).pull_off_force;
         assert_eq!(adhesion(1e-300), None);
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
@@ -353,7 +354,7 @@ mod tests {
             let mut pulled = pulled(-1.0, 0);
             pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];
             pulled.smallest_of_rest = rest.map(|force| point(-0.6, force, 1));
-            figures(&[pressed(1.0), pulled]).adhesion_force
+            figures(&[pressed(1.0), pulled]).pull_off_force
         };
         let rest = Some(-0.9);
         let ends = [
@@ -373,7 +374,7 @@ mod tests {
         }
         for target in [Move::ToForce(0.0), Move::ToZeroForce] {
             let found = figures(&[
-                LegRecord {
+                StageRecord {
                     target,
                     ..pressed(1e-18)
                 },
@@ -395,9 +396,9 @@ mod tests {
             point(-1.5, -0.5, 1),
             point(-1.5, 0.0, 0),
         ];
-        let mut legs = [
-            leg(Move::ToForce(3.0), Direction::Loading, &up, up[2]),
-            leg(Move::ToSeparation, Direction::Unloading, &down, down[1]),
+        let mut records = [
+            stage(Move::ToForce(3.0), Direction::Loading, &up, up[2]),
+            stage(Move::ToSeparation, Direction::Unloading, &down, down[1]),
         ];
         let expected = [
             (Mark::JumpIn, up[1]),
@@ -405,10 +406,10 @@ mod tests {
             (Mark::PullOff, down[1]),
             (Mark::JumpOut, down[2]),
         ];
-        assert_eq!(Mark::all(&legs), expected);
-        legs[1].curve.remove(2);
+        assert_eq!(Mark::all(&records), expected);
+        records[1].curve.remove(2);
         assert_eq!(
-            Mark::all(&legs),
+            Mark::all(&records),
             expected[..3],
             "the contact is lost at pull-off"
         );

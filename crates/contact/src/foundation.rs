@@ -8,7 +8,7 @@ pub struct Foundation {
     /// Distance Δx between springs in m.
     pub spacing: f64,
     /// Effective modulus E* in Pa, eq. (2) of Popov and Filippov (2012).
-    pub effective_modulus: f64,
+    pub modulus: f64,
     /// Length L of the foundation in m; infinite if it extends beyond any contact.
     pub length: f64,
 }
@@ -44,7 +44,7 @@ impl Foundation {
 
     /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).
     pub fn spring_stiffness(&self) -> f64 {
-        self.effective_modulus * self.spacing
+        self.modulus * self.spacing
     }
 }
 
@@ -60,7 +60,7 @@ mod tests {
         #[test]
         fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
             let spacing = length / springs as f64;
-            let foundation = Foundation { spacing, effective_modulus: 1.0, length };
+            let foundation = Foundation { spacing, modulus: 1.0, length };
             let endless = Foundation { length: f64::INFINITY, ..foundation };
             prop_assert_eq!(foundation.contact_length(springs as f64), length);
             prop_assert_eq!(foundation.contact_length(springs as f64 + 0.5), length);

@@ -27,7 +27,7 @@ use std::ops::Range;
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct LegRecord {
+pub struct StageRecord {
     /// Target of the motion.
     pub target: Move,
     /// Direction of the motion. It is `Loading` for a stage in which the body stays in place.
@@ -76,15 +76,15 @@ pub(super) struct Extremes {
     pub largest: CurvePoint,
 }
 
-impl LegRecord {
-    /// Largest number of points that [`LegRecord::curve`] has besides its regularly spaced points:
+impl StageRecord {
+    /// Largest number of points that [`StageRecord::curve`] has besides its regularly spaced points:
     /// the point of the smallest force, the point at which an instrument loses the contact, and two
     /// points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
     /// Creates the record of a motion in which the body stays in place.
     pub fn still(target: Move, here: CurvePoint) -> Self {
-        LegRecord {
+        StageRecord {
             target,
             direction: Direction::Loading,
             curve: vec![here],
@@ -108,10 +108,10 @@ impl LegRecord {
         } else {
             Direction::Unloading
         };
-        LegRecord {
+        StageRecord {
             direction,
             curve: vec![CurvePoint::free(from), end],
-            ..LegRecord::still(target, end)
+            ..StageRecord::still(target, end)
         }
     }
 
@@ -146,7 +146,7 @@ impl LegRecord {
             Direction::Loading => attached = changed,
             Direction::Unloading => {
                 detached = changed;
-                LegRecord::insert(&mut curve, extremes.smallest);
+                StageRecord::insert(&mut curve, extremes.smallest);
                 curve.reverse();
             }
         }
@@ -166,7 +166,7 @@ impl LegRecord {
                 curve.push(after);
             }
         }
-        LegRecord {
+        StageRecord {
             direction,
             curve,
             largest: extremes.largest,
@@ -174,7 +174,7 @@ impl LegRecord {
             attached,
             detached,
             released_energy,
-            ..LegRecord::still(target, end)
+            ..StageRecord::still(target, end)
         }
     }
 
@@ -221,7 +221,7 @@ impl LegRecord {
 /// )?;
 /// assert_eq!(
 ///     (
-///         history.legs.len(),
+///         history.stages.len(),
 ///         history.contacts.len(),
 ///         history.work.loading_passes
 ///     ),
@@ -232,7 +232,7 @@ impl LegRecord {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// One record for each loading stage, in the order of the stages.
-    pub legs: Vec<LegRecord>,
+    pub stages: Vec<StageRecord>,
     /// Patches in contact after the last stage, from left to right.
     pub contacts: Vec<Patch>,
     /// Counts of the computing work of the solver for all stages together.
@@ -275,7 +275,7 @@ pub struct Work {
     pub loading_passes: u64,
     /// Number of times that the solver passed over the contact tree to compute an unloading.
     pub unloading_passes: u64,
-    /// Number of times that the solver passed over the contact tree to compute the two adhesion
+    /// Number of times that the solver passed over the contact tree to compute the two pull-off
     /// forces of [`Body::adhesion_without_preload`](crate::motion::Body::adhesion_without_preload).
     pub passes_without_preload: u64,
     /// Number of times that the rule of Hess was evaluated for a patch.
@@ -302,9 +302,9 @@ pub struct Work {
 }
 
 impl Work {
-    pub(crate) fn count(&mut self, leg: &LegRecord) {
-        self.attached += leg.attached;
-        self.detached += leg.detached;
+    pub(crate) fn count(&mut self, stage: &StageRecord) {
+        self.attached += stage.attached;
+        self.detached += stage.detached;
     }
 }
 
@@ -352,7 +352,7 @@ pub struct CurvePoint {
     /// Number of springs in contact.
     pub springs: u64,
     /// Number of contact patches.
-    pub fragments: u64,
+    pub patches: u64,
     /// Elastic energy in J that is stored in the springs.
     pub stored_energy: f64,
 }

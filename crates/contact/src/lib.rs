@@ -10,7 +10,7 @@
 //!   also takes [`LoadOptions`]. [`Contact::reversals`] computes a [`Reversal`], the unloading to
 //!   separation, for each of many turning points.
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
-//!   a [`LegRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
+//!   a [`StageRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
 //!   a special point of the curve. A [`Branch`] joins successive stages in one direction. A
 //!   [`Patch`] is a group of neighbouring springs in contact. [`Events`] are the jumps and marks of
 //!   a loading, each as an [`Event`]. A [`History`], which the module [`motion`] returns, has the
@@ -35,7 +35,7 @@
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n),
 //!   unless its gap is closed.
 //!
-//! A [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each
+//! A [`Stage`](motion::Stage) describes a motion in one direction: which springs are in contact at each
 //! indentation. A [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise) is the
 //! stepwise solver: it moves by small steps and relaxes to equilibrium after each step, as Popov
 //! and Filippov (2012) do. Any function that allocates may return [`ContactError::OutOfMemory`];
@@ -56,11 +56,11 @@ mod figures;
 mod foundation;
 mod history;
 mod interval;
-mod leg;
 mod modulus;
 mod moving_body;
 mod nominal_form;
 mod profile;
+mod stage;
 mod stepwise;
 mod target;
 mod thresholds;
@@ -75,7 +75,7 @@ pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
 pub use events::{Event, Events};
 pub use figures::{Figures, Mark};
-pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
+pub use history::{CurvePoint, Direction, History, Patch, StageRecord, Work};
 pub use modulus::Modulus;
 pub use nominal_form::NominalForm;
 pub use profile::Profile;
@@ -90,8 +90,8 @@ pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};
     pub use crate::events::JumpCollector;
-    pub use crate::leg::jumps::{Jump, JumpKind};
-    pub use crate::leg::{Leg, PatchState};
     pub use crate::moving_body::{MovingBody, load_body};
+    pub use crate::stage::jumps::{Jump, JumpKind};
+    pub use crate::stage::{PatchState, Stage};
     pub use crate::stepwise::Stepwise;
 }

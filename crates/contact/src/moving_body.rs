@@ -2,8 +2,8 @@
 //! records its history.
 
 use super::error::ContactError;
-use super::history::{History, LegRecord, Work};
-use super::leg::Leg;
+use super::history::{History, StageRecord, Work};
+use super::stage::Stage;
 use super::target::Move;
 
 /// A rigid body that moves from target to target on its springs. The exact solver
@@ -27,16 +27,16 @@ use super::target::Move;
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 pub trait MovingBody {
-    /// Moves the body to a target. Returns the [`LegRecord`] of this motion, with its force curve
+    /// Moves the body to a target. Returns the [`StageRecord`] of this motion, with its force curve
     /// and its energies.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
-    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
+    fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError>;
 
-    /// Returns the [`Leg`] of the present motion. The leg gives the contact at each indentation of
+    /// Returns the [`Stage`] of the present motion. The stage gives the contact at each indentation of
     /// the motion.
-    fn leg(&self) -> Leg;
+    fn stage(&self) -> Stage;
 
     /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
@@ -48,7 +48,7 @@ pub trait MovingBody {
 
 /// Moves the body `solver` to the targets one after the other, and returns the records of all
 /// stages. Each target is one loading stage. `after` is called at the end of each stage. Its
-/// arguments are the record and the leg of the stage.
+/// arguments are the record and the stage of the stage.
 ///
 /// # Errors
 /// Returns the error of the first stage that fails, or the first error that `after` returns.
@@ -74,19 +74,19 @@ pub trait MovingBody {
 pub fn load_body(
     solver: &mut dyn MovingBody,
     targets: &[Move],
-    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+    mut after: impl FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
 ) -> Result<History, ContactError> {
     let mut history = History::default();
     for (index, &target) in targets.iter().enumerate() {
         let record = solver
             .advance(target)
             .map_err(|reason| reason.in_stage(index, target))?;
-        after(&record, &solver.leg())?;
-        history.legs.push(record);
+        after(&record, &solver.stage())?;
+        history.stages.push(record);
     }
-    let last_stage = history.legs.last();
-    if let Some(end) = last_stage.and_then(LegRecord::end_in_contact) {
-        history.contacts = solver.leg().patches(end.indentation);
+    let last_stage = history.stages.last();
+    if let Some(end) = last_stage.and_then(StageRecord::end_in_contact) {
+        history.contacts = solver.stage().patches(end.indentation);
     }
     history.work = solver.work();
     Ok(history)

@@ -10,9 +10,9 @@ use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
 use super::detachment::DetachmentRule;
 use super::error::{ContactError, STEP_LIMIT};
-use super::history::{CurvePoint, Direction, Extremes, Goal, LegRecord, Passage, Work, plan};
-use super::leg::Leg;
+use super::history::{CurvePoint, Direction, Extremes, Goal, Passage, StageRecord, Work, plan};
 use super::moving_body::MovingBody;
+use super::stage::Stage;
 use super::target::Move;
 use super::totals::ContactTotals;
 use asperity_data::resized;
@@ -255,7 +255,7 @@ impl<'a> Stepwise<'a> {
         target: Move,
         direction: Direction,
         goal: Goal,
-    ) -> Result<LegRecord, ContactError> {
+    ) -> Result<StageRecord, ContactError> {
         self.begin(direction);
         let before = self.point();
         let loads = direction == Direction::Loading;
@@ -358,14 +358,14 @@ impl<'a> Stepwise<'a> {
         origin: f64,
         before: CurvePoint,
         extremes: Extremes,
-    ) -> Result<LegRecord, ContactError> {
-        let leg = self.leg();
+    ) -> Result<StageRecord, ContactError> {
+        let stage = self.stage();
         let after = self.point();
         let low = origin.min(after.indentation);
         let high = origin.max(after.indentation);
-        let mut curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
-        curve.reserve_exact(LegRecord::FURTHER_POINTS);
-        // The field `squared_stretch` counts detachments as positive. A leg counts attachments as
+        let mut curve = stage.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        curve.reserve_exact(StageRecord::FURTHER_POINTS);
+        // The field `squared_stretch` counts detachments as positive. A stage counts attachments as
         // positive on loading and detachments as positive on unloading.
         let squared_stretch = match self.direction {
             Direction::Loading => -self.squared_stretch,
@@ -377,9 +377,9 @@ impl<'a> Stepwise<'a> {
             before,
             after,
         };
-        let released_energy = leg.energy(squared_stretch);
-        let mut record = LegRecord::moved(passage, curve, extremes, released_energy);
-        record.reaches_ends = leg.reaches_ends(high);
+        let released_energy = stage.energy(squared_stretch);
+        let mut record = StageRecord::moved(passage, curve, extremes, released_energy);
+        record.reaches_ends = stage.reaches_ends(high);
         self.work.count(&record);
         Ok(record)
     }
@@ -403,14 +403,14 @@ impl Stepwise<'_> {
 }
 
 impl MovingBody for Stepwise<'_> {
-    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+    fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         let here = self.point();
         // The instrument of the stepwise solver is rigid, so no goal is a displacement.
         match plan(target, here, f64::INFINITY)? {
-            None => Ok(LegRecord::still(target, here)),
+            None => Ok(StageRecord::still(target, here)),
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
                 self.indentation = end;
-                Ok(LegRecord::free(target, here.indentation, end))
+                Ok(StageRecord::free(target, here.indentation, end))
             }
             Some((direction, goal)) => {
                 self.check_steps(direction, goal)?;
@@ -433,8 +433,8 @@ impl MovingBody for Stepwise<'_> {
         }
     }
 
-    fn leg(&self) -> Leg {
-        Leg::of_thresholds(
+    fn stage(&self) -> Stage {
+        Stage::of_thresholds(
             self.contact,
             self.direction,
             self.indentation,

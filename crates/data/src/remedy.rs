@@ -85,7 +85,7 @@ pub enum Remedy {
     /// Compute square surfaces on an elastic half-space with more cells along a side of the square.
     FinerGrid,
     /// Compute more random square surfaces on an elastic half-space.
-    Maps,
+    Surfaces,
     /// State a smaller tolerance for the error due to the finite number of springs.
     Tolerance,
     /// Press the body against the elastic foundation before it is pulled off.

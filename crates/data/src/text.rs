@@ -347,6 +347,6 @@ mod tests {
             wrap("about 3 MiB of memory", 9),
             ["about", "3 MiB of", "memory"]
         );
-        assert_eq!(wrap("1 of 3 legs m", 6), ["1 of 3", "legs m"]);
+        assert_eq!(wrap("1 of 3 days m", 6), ["1 of 3", "days m"]);
     }
 }

@@ -55,7 +55,7 @@ fn measure_loop(cells: usize, hurst: f64) {
     let square = Square {
         heights: &heights,
         side: 1.0,
-        effective_modulus: 1.0,
+        modulus: 1.0,
     };
     let (start, used) = (Instant::now(), used());
     let mut body = AdhesiveSquare::new(&square, work, work).expect("a square");
@@ -99,7 +99,7 @@ fn measure(cells: usize, boundary: Boundary, hurst: f64) {
     let square = Square {
         heights: &heights,
         side: 1.0,
-        effective_modulus: 1.0,
+        modulus: 1.0,
     };
     let gradient = {
         let slope = |at: usize| {

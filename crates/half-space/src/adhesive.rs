@@ -59,7 +59,7 @@ pub struct AdhesiveSquare {
     cells: usize,
     /// Side L in m of the grid, which consists of the body and the ring.
     side: f64,
-    effective_modulus: f64,
+    modulus: f64,
     /// Work of adhesion where the interface opens, divided by E* L.
     opening_work: f64,
     /// Work of adhesion where the interface closes, divided by E* L.
@@ -91,11 +91,11 @@ impl AdhesiveSquare {
         }
         let Square {
             side,
-            effective_modulus,
+            modulus,
             heights,
         } = *square;
         positive("side", side)?;
-        positive("effective modulus", effective_modulus)?;
+        positive("effective modulus", modulus)?;
         positive("work of adhesion", opening)?;
         if !(0.0..=opening).contains(&closing) {
             return Err(HalfSpaceError::Value {
@@ -117,12 +117,12 @@ impl AdhesiveSquare {
         }
         grid.levels.copy_from_slice(&grid.depths);
         grid.outside.fill(1.0);
-        let unit_of_work = effective_modulus * side_with_ring;
+        let unit_of_work = modulus * side_with_ring;
         Ok(AdhesiveSquare {
             grid,
             cells,
             side: side_with_ring,
-            effective_modulus,
+            modulus,
             opening_work: opening / unit_of_work,
             closing_work: closing / unit_of_work,
             opened: resized(Vec::new(), ringed * ringed, false)?,
@@ -282,9 +282,9 @@ impl AdhesiveSquare {
         let cells_in_contact = outside.iter().filter(|out| **out == 0.0).count();
         AdhesiveState {
             indentation,
-            force: area_of_cell * self.effective_modulus * pressure.iter().sum::<f64>(),
+            force: area_of_cell * self.modulus * pressure.iter().sum::<f64>(),
             area: area_of_cell * cells_in_contact as f64,
-            elastic_energy: area_of_cell * self.effective_modulus * self.side * energy,
+            elastic_energy: area_of_cell * self.modulus * self.side * energy,
         }
     }
 }
@@ -317,7 +317,7 @@ mod tests {
         let square = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         (
             AdhesiveSquare::new(&square, work, closing * work).unwrap(),
@@ -450,7 +450,7 @@ mod tests {
         let square = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         let work = 1e-6;
         let mut body = AdhesiveSquare::new(&square, work, work).unwrap();
@@ -572,7 +572,7 @@ mod tests {
                 let square = Square {
                     heights: &heights,
                     side: 1.0,
-                    effective_modulus: 1.0,
+                    modulus: 1.0,
                 };
                 let mut body = AdhesiveSquare::new(&square, work, closing * work).unwrap();
                 let step = 0.15 * rms_height;
@@ -621,7 +621,7 @@ mod tests {
             let square = Square {
                 heights: &scaled,
                 side,
-                effective_modulus: modulus,
+                modulus: modulus,
             };
             let work = 1e-5 * modulus * side;
             let mut body = AdhesiveSquare::new(&square, work, 0.5 * work).unwrap();
@@ -673,7 +673,7 @@ mod tests {
             let square = Square {
                 heights: &heights,
                 side: 1.0,
-                effective_modulus: 1.0,
+                modulus: 1.0,
             };
             let work = 1e-6;
             let mut body = AdhesiveSquare::new(&square, work, work).unwrap();
@@ -702,7 +702,7 @@ mod tests {
         let square = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         let refused = |square: &Square<'_>, opening, closing| {
             AdhesiveSquare::new(square, opening, closing)

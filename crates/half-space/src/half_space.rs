@@ -17,7 +17,7 @@ pub struct Square<'a> {
     /// Side L of the square in m.
     pub side: f64,
     /// Effective modulus E* in Pa.
-    pub effective_modulus: f64,
+    pub modulus: f64,
 }
 
 /// The prescribed load of a contact: its force or its indentation.
@@ -106,18 +106,14 @@ impl HalfSpace {
         tolerance: f64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Pressed, HalfSpaceError> {
-        let Square {
-            side,
-            effective_modulus,
-            ..
-        } = *square;
+        let Square { side, modulus, .. } = *square;
         positive("side", side)?;
-        positive("effective modulus", effective_modulus)?;
+        positive("effective modulus", modulus)?;
         positive("tolerance", tolerance)?;
         let given = match load {
             Load::Force(force) => {
                 positive("force", force)?;
-                Given::MeanPressure(force / (effective_modulus * side * side))
+                Given::MeanPressure(force / (modulus * side * side))
             }
             Load::Indentation(depth) => {
                 positive("indentation", depth)?;
@@ -180,17 +176,9 @@ impl HalfSpace {
         let Some(grid) = self.grids.last() else {
             unreachable!("a half-space has a grid")
         };
-        let Square {
-            side,
-            effective_modulus,
-            ..
-        } = *square;
+        let Square { side, modulus, .. } = *square;
         let cell = (side / grid.cells as f64).powi(2);
-        let pressure: Vec<f64> = grid
-            .pressure
-            .iter()
-            .map(|value| value * effective_modulus)
-            .collect();
+        let pressure: Vec<f64> = grid.pressure.iter().map(|value| value * modulus).collect();
         Pressed {
             gap: grid
                 .levels
@@ -279,7 +267,7 @@ mod tests {
         let square = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         let mut half_space = HalfSpace::new(cells, boundary).unwrap();
         let pressed = half_space.press(&square, load, 1e-8, &|| false).unwrap();
@@ -381,7 +369,7 @@ mod tests {
             let square = Square {
                 heights: &heights,
                 side: 1.0,
-                effective_modulus: 1.0,
+                modulus: 1.0,
             };
             let mut half_space = HalfSpace::new(128, boundary).unwrap();
             let mut counts = Vec::new();
@@ -454,7 +442,7 @@ mod tests {
             let square = Square {
                 heights: &heights,
                 side: 1.0,
-                effective_modulus: 1.0,
+                modulus: 1.0,
             };
             let mut half_space = HalfSpace::new(cells, Boundary::Periodic).unwrap();
             let force = 0.04 * gradient;
@@ -487,7 +475,7 @@ mod tests {
             let square = Square {
                 heights,
                 side: 1.0,
-                effective_modulus: 1.0,
+                modulus: 1.0,
             };
             half_space
                 .press(&square, Load::Force(0.02), 1e-10, &|| false)
@@ -511,7 +499,7 @@ mod tests {
         let unit = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
         let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
@@ -523,7 +511,7 @@ mod tests {
             let square = Square {
                 heights: &scaled,
                 side,
-                effective_modulus: modulus,
+                modulus: modulus,
             };
             let force = 2e-3;
             let expected = press(&unit, Load::Force(force));
@@ -577,7 +565,7 @@ mod tests {
         let square = Square {
             heights: &heights,
             side: 1.0,
-            effective_modulus: 1.0,
+            modulus: 1.0,
         };
         let on = |boundary, square: &Square<'_>, load| {
             let mut half_space = HalfSpace::new(32, boundary).unwrap();

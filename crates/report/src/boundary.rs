@@ -32,7 +32,7 @@ impl Report for Boundaries {
     }
 
     /// Returns an object whose list `boundaries` has an item for each boundary at which adhesion
-    /// vanishes. A boundary is the value of κ or e_el/γ at which the adhesion force without a
+    /// vanishes. A boundary is the value of κ or e_el/γ at which the pull-off force without a
     /// preload falls below a stated share of F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let boundaries: Vec<Value> = self
@@ -41,7 +41,7 @@ impl Report for Boundaries {
             .map(|boundary| boundary_object(self, boundary))
             .collect();
         Some(Box::new(
-            json!({ "lines": self.lines, "boundaries": boundaries }),
+            json!({ "profiles": self.lines, "boundaries": boundaries }),
         ))
     }
 

@@ -190,15 +190,15 @@ fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
     let springs = counted(reference.springs, "spring");
     let mut solution = format!("the solution with {springs} and edges SubCell");
-    if let Some(force) = reference.adhesion_force
+    if let Some(force) = reference.pull_off_force
         && reference.closed_form
     {
         let force = format_quantity(force, "N");
-        solution = format!("the closed form of the adhesion force, {force}, and {solution}");
+        solution = format!("the closed form of the pull-off force, {force}, and {solution}");
     }
     let mut own_errors = Vec::new();
     for (error, name) in reference.errors.into_iter().zip(ERRORS) {
-        // If the adhesion force of the reference is known in closed form, this force has no error.
+        // If the pull-off force of the reference is known in closed form, this force has no error.
         let is_exact = reference.closed_form && name == ERRORS[0];
         if let Some(error) = error
             && !is_exact

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// Names of the quantities [`Ensemble::NUMBERS`] in the text report.
 pub(crate) const NAMES: [&str; 5] = [
-    "adhesion force F_a",
+    "pull-off force F_a",
     "share F_a/F_a,max",
     "at first touch F_a(d=0)",
     "at zero force F_a(F=0)",
@@ -85,10 +85,10 @@ fn regimes_in_words(counts: RegimeCounts) -> String {
     regimes.join(", ")
 }
 
-/// Returns the median and the quartiles of the adhesion force over random profiles, as the caption
-/// of a figure; `None` if there is no adhesion force.
+/// Returns the median and the quartiles of the pull-off force over random profiles, as the caption
+/// of a figure; `None` if there is no pull-off force.
 pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
-    let force = Quantity::AdhesionForce;
+    let force = Quantity::PullOffForce;
     let [lower, median, upper] = ensemble.statistics(force)?.quartiles;
     let median = format_rounded(median, 3, force.unit());
     let quartiles = format_range((lower, upper), 2, force.unit());
@@ -104,16 +104,16 @@ pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
 #[derive(Serialize)]
 pub(crate) struct EnsembleJson<'a> {
     profiles: u64,
-    adhesion_force: Option<StatisticsJson>,
+    pull_off_force: Option<StatisticsJson>,
     adhesion_share: Option<StatisticsJson>,
-    first_touch_adhesion_force: Option<StatisticsJson>,
-    zero_force_adhesion_force: Option<StatisticsJson>,
+    first_touch_pull_off_force: Option<StatisticsJson>,
+    zero_force_pull_off_force: Option<StatisticsJson>,
     dissipated_energy: Option<StatisticsJson>,
     warnings: Vec<String>,
     /// Number of profiles in each regime that occurs.
     regimes: BTreeMap<&'static str, usize>,
     regimes_after_zero_force: BTreeMap<&'static str, usize>,
-    lines: Option<Table<'a>>,
+    per_profile: Option<Table<'a>>,
 }
 
 /// Statistics of one quantity over random profiles.
@@ -139,15 +139,15 @@ impl<'a> EnsembleJson<'a> {
         let [from_touch, after_zero_force] = ensemble.regimes();
         EnsembleJson {
             profiles: ensemble.profiles(),
-            adhesion_force: force,
+            pull_off_force: force,
             adhesion_share: share,
-            first_touch_adhesion_force: first_touch_force,
-            zero_force_adhesion_force: zero_force_force,
+            first_touch_pull_off_force: first_touch_force,
+            zero_force_pull_off_force: zero_force_force,
             dissipated_energy: energy,
             warnings: counted_texts(&ensemble.warnings(), ensemble.profiles()),
             regimes: from_touch.present().collect(),
             regimes_after_zero_force: after_zero_force.present().collect(),
-            lines: ensemble.table(),
+            per_profile: ensemble.table(),
         }
     }
 }
@@ -171,6 +171,10 @@ impl StatisticsJson {
 /// Report on an ensemble, which is the results of a scene on several random profiles. The table has
 /// a row for each profile.
 impl Report for Ensemble {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&Ensemble::warnings(self), self.profiles())
+    }
+
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleJson::new(self)))
     }
@@ -210,6 +214,10 @@ struct ResultsJson<'a> {
 /// Report on the results of a parameter study that are in memory. The table has a row for each
 /// combination of values on the axes of the study and for each random profile.
 impl Report for Results {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.all_warnings(), self.plan().lines)
+    }
+
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let plan = self.plan();
         let mut axes = BTreeMap::new();
@@ -220,7 +228,7 @@ impl Report for Results {
             scene: &plan.scene,
             axes,
             profiles: plan.lines,
-            warnings: counted_texts(&self.all_warnings(), plan.lines),
+            warnings: Report::warnings(self),
             records: Results::table(self),
         }))
     }

@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::whole_percent;
 use asperity_data::{
     AxisScale, Kind, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
@@ -44,6 +44,12 @@ pub struct EnsembleFitReport<'a> {
 }
 
 impl Report for EnsembleFitReport<'_> {
+    /// Returns the premises of the model that random profiles with the fitted values do not meet.
+    /// There is one text for each premise.
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
+    }
+
     fn text(&self) -> Option<String> {
         let fit = self.fit;
         let mut sheet = Sheet::default();
@@ -66,14 +72,14 @@ impl Report for EnsembleFitReport<'_> {
         }
         let computed = grouped(fit.computed as u64);
         sheet.paragraph(&format!("{computed} curves were computed. {INDEPENDENT}"));
-        counted_section(&mut sheet, &fit.warnings, EnsembleFit::EXAMINED);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleFitJson {
             fit: self.fit,
-            warnings: self.warning_texts(),
+            warnings: self.warnings(),
         }))
     }
 
@@ -132,12 +138,6 @@ struct EnsembleFitJson<'a> {
 }
 
 impl EnsembleFitReport<'_> {
-    /// Returns the premises of the model that random profiles with the fitted values do not meet.
-    /// There is one text for each premise.
-    pub fn warning_texts(&self) -> Vec<String> {
-        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
-    }
-
     /// Adds the work of adhesion and the modulus, and the numbers of curves and profiles from which
     /// they follow.
     fn add_values(&self, sheet: &mut Sheet) {

@@ -1,17 +1,17 @@
 //! Names of the events at points of a loading history, such as first contact, preload, pull-off or
 //! separation.
 
-use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
+use asperity_contact::{Branch, CurvePoint, Direction, StageRecord};
 
 /// A point counts as an end of a loading or unloading, or as the point with its smallest force, if
 /// the distance between the two indentations is at most this share of the range of indentations.
 const NEAR: f64 = 0.01;
 
 /// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or
-/// `contact spreads`. The point lies on `branch`, a loading or unloading among the stages `legs`.
+/// `contact spreads`. The point lies on `branch`, a loading or unloading among the stages `stages`.
 /// Returns `None` if the body does not move on this branch.
-pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
-    let stages = &legs[branch.stages.clone()];
+pub fn event(records: &[StageRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
+    let stages = &records[branch.stages.clone()];
     let first = stages.first()?.curve.first()?;
     let last = stages.last()?.curve.last()?;
     let range = (last.indentation - first.indentation).abs();
@@ -38,7 +38,7 @@ pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&
             }
         }
         Direction::Unloading => {
-            let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
+            let smallest = branch.smallest(records).map_or(*last, |(_, point)| point);
             if point.springs == 0 {
                 "separated"
             } else if is_near(first) {
@@ -76,12 +76,12 @@ mod tests {
 
     /// Returns the events along a branch, each once, in the order in which they first occur. On a
     /// rough profile some events occur several times.
-    fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
+    fn events(records: &[StageRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
-        let points = legs[branch.stages.clone()]
+        let points = records[branch.stages.clone()]
             .iter()
-            .flat_map(|leg| &leg.curve);
-        for event in points.filter_map(|&point| event(legs, branch, point)) {
+            .flat_map(|record| &record.curve);
+        for event in points.filter_map(|&point| event(records, branch, point)) {
             if !events.contains(&event) {
                 events.push(event);
             }
@@ -93,12 +93,12 @@ mod tests {
     fn a_loop_passes_its_events_in_order() {
         let cut = "[ToTouch, ToForce(1.0e-5), ToForce(5.0e-6), ToForce(-1.0e-5), ToSeparation]";
         for loading in [None, Some(cut)] {
-            let legs = history("pressure-sensitive", loading).legs;
-            let [loading, unloading] = &Branch::all(&legs)[..] else {
+            let records = history("pressure-sensitive", loading).stages;
+            let [loading, unloading] = &Branch::all(&records)[..] else {
                 panic!("two branches")
             };
             assert_eq!(
-                events(&legs, loading),
+                events(&records, loading),
                 [
                     "approach",
                     "jump-in",
@@ -108,7 +108,7 @@ mod tests {
                 ]
             );
             assert_eq!(
-                events(&legs, unloading),
+                events(&records, unloading),
                 [
                     "turning point",
                     "contact shrinks",
@@ -123,13 +123,13 @@ mod tests {
 
     #[test]
     fn the_smallest_force_is_the_pull_off() {
-        let legs = history("jkr-sphere", None).legs;
-        let unloading = Branch::last_unloading(&legs).unwrap();
-        let smallest = legs[1].smallest;
-        assert_eq!(event(&legs, &unloading, smallest), Some("pull-off"));
-        let still = [LegRecord {
+        let records = history("jkr-sphere", None).stages;
+        let unloading = Branch::last_unloading(&records).unwrap();
+        let smallest = records[1].smallest;
+        assert_eq!(event(&records, &unloading, smallest), Some("pull-off"));
+        let still = [StageRecord {
             curve: vec![smallest; 2],
-            ..legs[1].clone()
+            ..records[1].clone()
         }];
         assert_eq!(
             event(

@@ -4,7 +4,7 @@
 use crate::report::{Json, Report};
 use crate::run::{RunJson, RunReport};
 use crate::sheet::Sheet;
-use crate::warnings::warnings_section;
+use crate::warnings::{sentences_section, warning_texts};
 use crate::words::{percent, whole_percent};
 use asperity_contact::motion::{Jump, JumpKind};
 use asperity_contact::{Direction, Event, Events, Mark, Patch};
@@ -123,7 +123,7 @@ impl EventsReport<'_> {
         let figures = &self.run.outcome.figures;
         let mut gained = 0.0;
         let mut released = 0.0;
-        for stage in &self.run.outcome.history.legs {
+        for stage in &self.run.outcome.history.stages {
             match stage.direction {
                 Direction::Loading => gained -= stage.released_energy,
                 Direction::Unloading => released += stage.released_energy,
@@ -158,11 +158,15 @@ impl EventsReport<'_> {
 }
 
 impl Report for EventsReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(&self.run.outcome.warnings)
+    }
+
     fn text(&self) -> Option<String> {
         let run = &self.run;
         let mut sheet = Sheet::default();
         sheet.paragraph(&run.scene.title);
-        warnings_section(&mut sheet, &run.outcome.warnings);
+        sentences_section(&mut sheet, &self.warnings());
         let profile = match run.outcome.line.seed {
             Some(seed) => format!(", profile of seed {seed}"),
             None => String::new(),
@@ -209,7 +213,7 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
     let first = |patch: Patch| patch.first;
     let last = |patch: Patch| patch.last;
     let table = Table::of(|| events.list.iter())
-        .whole("leg", |event| event.stage as u64)
+        .whole("stage", |event| event.stage as u64)
         .real("indentation", |event| event.indentation)
         .with("mark", Kind::Text(LONGEST_NAME), |event| {
             event.mark.map_or("", Mark::name)
@@ -219,13 +223,13 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
         .real("springs", |event| event.jump.map(|jump| jump.springs))
         .real("force_before", |event| event.forces[0])
         .real("force_after", |event| event.forces[1])
-        .real("fragments_before", |event| {
+        .real("patches_before", |event| {
             event.jump.map(|jump| jump.patches[0])
         })
-        .real("fragments_after", |event| {
+        .real("patches_after", |event| {
             event.jump.map(|jump| jump.patches[1])
         })
-        .real("fragment", |event| event.jump.map(|jump| jump.number))
+        .real("patch", |event| event.jump.map(|jump| jump.number))
         .real("first_before", move |event| {
             place(event.jump.and_then(|jump| jump.before), first)
         })
@@ -277,12 +281,12 @@ mod tests {
         let scene = document.scene();
         let mut jumps = JumpCollector::default();
         let outcome = Simulation::default()
-            .run(scene, &|| false, &mut |_, record, leg| {
-                jumps.observe(record, leg)
+            .run(scene, &|| false, &mut |_, record, stage| {
+                jumps.observe(record, stage)
             })
             .unwrap();
-        let legs = &outcome.history.legs;
-        let events = jumps.events(legs, least_share, usize::MAX).unwrap();
+        let stages = &outcome.history.stages;
+        let events = jumps.events(stages, least_share, usize::MAX).unwrap();
         (Scene::clone(scene), outcome, events)
     }
 

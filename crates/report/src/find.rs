@@ -5,7 +5,7 @@ use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
 use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use asperity_data::{
     Kind, Table, counted, format_quantity, format_range, format_rounded, grouped, one_unit,
 };
@@ -18,7 +18,7 @@ use serde::Serialize;
 const MOST_LISTED: usize = 8;
 
 /// Report on a search for the value of one number of a scene, such as the preload, with which a
-/// result, such as the adhesion force, has a wanted value.
+/// result, such as the pull-off force, has a wanted value.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     pub title: &'a str,
@@ -528,6 +528,10 @@ impl FindReport<'_> {
 }
 
 impl Report for FindReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.found.warnings, self.found.question.profiles())
+    }
+
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
@@ -535,8 +539,7 @@ impl Report for FindReport<'_> {
         for sentence in self.exceptions() {
             sheet.paragraph(&sentence);
         }
-        let profiles = self.found.question.profiles();
-        counted_section(&mut sheet, &self.found.warnings, profiles);
+        sentences_section(&mut sheet, &self.warnings());
         self.add_several_crossings(&mut sheet);
         sheet.heading(&self.conditions());
         Some(sheet.into_text())

@@ -32,7 +32,7 @@ mod sensitivity;
 mod sheet;
 mod spectrum_figure;
 mod spread;
-mod stages;
+
 mod status;
 mod study_figure;
 mod summary;
@@ -41,6 +41,7 @@ mod trust;
 mod warnings;
 mod words;
 mod work_precision;
+mod workload;
 
 pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
@@ -56,7 +57,7 @@ pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, w
 pub use printed_size::{LEAST_HEIGHT, LEAST_WIDTH, parse_printed_length, printed_pixels};
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance,
-    scenes_provenance,
+    scenes_provenance, with_warnings,
 };
 pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
 pub use report::{Format, Json, Report, alternatives, check_extension, write};
@@ -69,14 +70,15 @@ pub use section::{LineColumns, Part, Section, SectionContact};
 pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
-pub use stages::stages_text;
 pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
 pub use trust::{error_rows, theories_briefly, theory_rows};
 pub use warnings::{
-    counted_record_texts, counted_section, counted_texts, warning_texts, warnings_section,
+    counted_record_texts, counted_section, counted_texts, outcome_warnings, warning_texts,
+    warnings_section,
 };
 pub use words::{letter, percent};
 pub use work_precision::work_precision;
+pub use workload::parts_text;

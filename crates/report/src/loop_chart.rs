@@ -1,6 +1,6 @@
 //! Charts of force loops. Figures of scenes and the explorer both use them.
 
-use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
+use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{
     Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
@@ -20,7 +20,7 @@ pub enum LoopQuantities {
     /// Total length of all contact patches, over the force.
     LengthForce,
     /// Number of contact patches, over the indentation.
-    FragmentsIndentation,
+    PatchesIndentation,
 }
 
 impl LoopQuantities {
@@ -32,8 +32,8 @@ impl LoopQuantities {
             LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => {
                 LoopQuantities::LengthForce
             }
-            LoopQuantities::LengthForce => LoopQuantities::FragmentsIndentation,
-            LoopQuantities::FragmentsIndentation => LoopQuantities::ForceIndentation,
+            LoopQuantities::LengthForce => LoopQuantities::PatchesIndentation,
+            LoopQuantities::PatchesIndentation => LoopQuantities::ForceIndentation,
         }
     }
 }
@@ -47,7 +47,7 @@ pub struct LoopUnits {
     stiffness: Option<f64>,
     /// Rms height h in m, if the indentation is shown in units of h; `None` for SI units.
     indentation: Option<f64>,
-    /// Ideal adhesion force F_a,max in N, if the force is shown in units of F_a,max; `None` for SI
+    /// Ideal pull-off force F_a,max in N, if the force is shown in units of F_a,max; `None` for SI
     /// units.
     force: Option<f64>,
     /// Length L in m, if lengths along the profile are shown in units of L; `None` for SI units.
@@ -127,7 +127,7 @@ impl LoopUnits {
 
     /// Returns the pair `quantities` with the units for a chart of a computed scene. If
     /// `normalised` is true, the indentation is in units of the rms height h, the force in units of
-    /// the ideal adhesion force F_a,max, and lengths in units of the length L of the profile.
+    /// the ideal pull-off force F_a,max, and lengths in units of the length L of the profile.
     /// Otherwise all quantities are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let units = LoopUnits {
@@ -142,7 +142,7 @@ impl LoopUnits {
         let is_positive = |value: &f64| *value > 0.0;
         LoopUnits {
             indentation: rms_height.filter(is_positive),
-            force: outcome.ideal_adhesion_force.filter(is_positive),
+            force: outcome.ideal_pull_off_force.filter(is_positive),
             length: Some(outcome.line.length).filter(is_positive),
             ..units
         }
@@ -177,7 +177,7 @@ impl LoopUnits {
     pub fn indentation(&self, x: f64) -> Option<f64> {
         let is_over_indentation = matches!(
             self.quantities,
-            LoopQuantities::ForceIndentation | LoopQuantities::FragmentsIndentation
+            LoopQuantities::ForceIndentation | LoopQuantities::PatchesIndentation
         );
         is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
@@ -207,7 +207,7 @@ impl LoopUnits {
                 [self.displacement_quantity(), self.force_quantity()]
             }
             LoopQuantities::LengthForce => [self.force_quantity(), self.length_quantity()],
-            LoopQuantities::FragmentsIndentation => [self.indentation_quantity(), PATCHES],
+            LoopQuantities::PatchesIndentation => [self.indentation_quantity(), PATCHES],
         }
     }
 
@@ -269,7 +269,7 @@ const PATCHES: Quantity = Quantity {
     symbol: "n",
     unit: "1",
     divisor: None,
-    value: |point, _| point.fragments as f64,
+    value: |point, _| point.patches as f64,
 };
 
 /// Force loop in a chart: the curves of loading and unloading, and how they are drawn.
@@ -308,14 +308,14 @@ struct LoopLine {
 impl<'a> ForceLoop<'a> {
     /// Creates the loop of the loading stages of a history, with the marked points of the history
     /// and a rigid instrument.
-    pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
-        let curves = legs
+    pub fn new(stages: &'a [StageRecord]) -> ForceLoop<'a> {
+        let curves = stages
             .iter()
-            .map(|leg| (leg.direction, leg.curve.as_slice()))
+            .map(|stage| (stage.direction, stage.curve.as_slice()))
             .collect();
         ForceLoop {
             curves,
-            marks: Mark::all(legs),
+            marks: Mark::all(stages),
             ..ForceLoop::default()
         }
     }
@@ -326,7 +326,7 @@ impl<'a> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop {
             stiffness,
-            ..ForceLoop::new(&outcome.history.legs)
+            ..ForceLoop::new(&outcome.history.stages)
         }
     }
 
@@ -476,7 +476,7 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 /// given with its title.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
-        let force_loop = ForceLoop::new(&outcome.history.legs);
+        let force_loop = ForceLoop::new(&outcome.history.stages);
         return Figure::of_chart(title, loop_chart(&[force_loop], units));
     }
     let strokes = [Stroke::Solid, Stroke::Dashed, Stroke::DashDotted];
@@ -486,7 +486,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
             name: Some(Label::plain(title)),
             ink: Some(Ink::Series(number)),
             unloading: Some(strokes[number % strokes.len()]),
-            ..ForceLoop::new(&outcome.history.legs)
+            ..ForceLoop::new(&outcome.history.stages)
         });
     }
     let mut chart = loop_chart(&loops, units);
@@ -514,10 +514,10 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     for (title, outcome) in scenes {
         let force_loop = ForceLoop {
             without_forces: true,
-            ..ForceLoop::new(&outcome.history.legs)
+            ..ForceLoop::new(&outcome.history.stages)
         };
         let chart = loop_chart(&[force_loop], LoopUnits::default());
-        let force = outcome.figures.adhesion_force;
+        let force = outcome.figures.pull_off_force;
         let note = force.map(|force| value_label("", "F_a", "N", force));
         figures.push(Figure {
             notes: note.into_iter().collect(),
@@ -597,7 +597,7 @@ mod tests {
             point(Mark::PullOff),
             (
                 figures.pull_off_indentation.unwrap(),
-                -figures.adhesion_force.unwrap()
+                -figures.pull_off_force.unwrap()
             )
         );
     }

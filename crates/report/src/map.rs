@@ -35,7 +35,7 @@ impl Report for Grid {
                 up.values[computed.index / columns]
             });
         }
-        table = table.whole("lines", |computed| {
+        table = table.whole("profiles", |computed| {
             computed.cell.regimes[0].profiles() as u64
         });
         for quantity in Quantity::REGIMES {

@@ -1,8 +1,8 @@
-//! Adhesion force as a function of the preload, as text, JSON, tables and a figure.
+//! Pull-off force as a function of the preload, as text, JSON, tables and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use asperity_data::{
     AxisScale, Table, counted, format_quantity, format_range, format_rounded, grouped,
 };
@@ -16,24 +16,24 @@ use std::ops::Range;
 /// Largest number of rows of a table in the text report. Tables in files have all rows.
 const MOST_ROWS: usize = 32;
 
-/// The axis of adhesion forces is logarithmic if the ratio of the largest to the smallest force is
+/// The axis of pull-off forces is logarithmic if the ratio of the largest to the smallest force is
 /// at least this number.
 const LOGARITHMIC_RATIO: f64 = 30.0;
 
-/// Largest number of decades of a logarithmic axis of adhesion forces.
+/// Largest number of decades of a logarithmic axis of pull-off forces.
 const MOST_DECADES: f64 = 6.0;
 
-/// Report on the adhesion force as a function of the preload, for one or more random profiles.
+/// Report on the pull-off force as a function of the preload, for one or more random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
     pub title: &'a str,
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Results computed so far, such as the adhesion force, for each preload and each profile.
+    /// Results computed so far, such as the pull-off force, for each preload and each profile.
     /// [`Results::OF_PRELOADS`] lists the quantities.
     pub results: &'a Results,
-    /// Adhesion force of the first profile as a function of the preload; `None` for a report
+    /// Pull-off force of the first profile as a function of the preload; `None` for a report
     /// without a figure.
     pub staircase: Option<&'a Staircase>,
     /// True if the table has a row for each preload of the curve in [`Self::staircase`]. False if
@@ -42,9 +42,9 @@ pub struct PreloadReport<'a> {
 }
 
 impl<'a> PreloadReport<'a> {
-    /// Returns the figure of two charts: the adhesion force over the preload, and its distribution
+    /// Returns the figure of two charts: the pull-off force over the preload, and its distribution
     /// over the profiles at the largest preload. Returns `None` if there is no [`Self::staircase`].
-    /// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0)
+    /// If `has_values` is true, the legend states the pull-off forces without a preload: F_a(d=0)
     /// after a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero
     /// force.
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
@@ -117,14 +117,14 @@ impl<'a> PreloadReport<'a> {
             let values = Results::OF_PRELOADS.map(|quantity| self.results.value(cell, 0, quantity));
             let [
                 turning_indentation,
-                adhesion_force,
+                pull_off_force,
                 pull_off_indentation,
                 energy,
             ] = values;
             unloadings.push(Unloading {
                 turning_force: Some(plan.values(cell)[0]),
                 turning_indentation,
-                adhesion_force,
+                pull_off_force,
                 pull_off_indentation,
                 dissipated_energy: energy,
             });
@@ -134,6 +134,10 @@ impl<'a> PreloadReport<'a> {
 }
 
 impl Report for PreloadReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.results.all_warnings(), self.results.plan().lines)
+    }
+
     fn text(&self) -> Option<String> {
         let plan = self.results.plan();
         let mut sheet = Sheet::default();
@@ -154,7 +158,7 @@ impl Report for PreloadReport<'_> {
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
         }
-        counted_section(&mut sheet, &self.results.all_warnings(), plan.lines);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
@@ -178,14 +182,14 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// JSON object of the adhesion force as a function of the preload, in SI units.
+/// JSON object of the pull-off force as a function of the preload, in SI units.
 #[derive(Serialize)]
 struct PreloadJson<'a> {
     warnings: Vec<String>,
     scene: &'a Scene,
     /// Statistics over the profiles at each preload; `None` for a single profile.
     mean: Option<Vec<SpreadJson>>,
-    lines: Vec<ProfileJson<'a>>,
+    per_profile: Vec<ProfileJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     curves: Option<StaircaseJson<'a>>,
 }
@@ -193,7 +197,7 @@ struct PreloadJson<'a> {
 #[derive(Serialize)]
 struct SpreadJson {
     preload: f64,
-    adhesion_force: Statistics,
+    pull_off_force: Statistics,
 }
 
 #[derive(Serialize)]
@@ -210,11 +214,11 @@ struct StaircaseJson<'a> {
 }
 
 /// Turning point of a loading without a preload: the force in N at which the loading turns, and the
-/// adhesion force in N of the following unloading.
+/// pull-off force in N of the following unloading.
 #[derive(Serialize)]
 struct TurnJson {
     force: f64,
-    adhesion_force: f64,
+    pull_off_force: f64,
 }
 
 impl<'a> PreloadJson<'a> {
@@ -224,15 +228,15 @@ impl<'a> PreloadJson<'a> {
         let mean = report.is_mean().then(|| {
             let spread = results.spread_of_adhesion().into_iter();
             spread
-                .map(|(preload, adhesion_force)| SpreadJson {
+                .map(|(preload, pull_off_force)| SpreadJson {
                     preload,
-                    adhesion_force,
+                    pull_off_force,
                 })
                 .collect()
         });
-        let mut lines = Vec::new();
+        let mut per_profile = Vec::new();
         for line in 0..plan.lines {
-            lines.push(ProfileJson {
+            per_profile.push(ProfileJson {
                 seed: report.seed(line),
                 preloads: preload_table(results, line..line + 1, false),
             });
@@ -241,7 +245,7 @@ impl<'a> PreloadJson<'a> {
             warnings: counted_texts(&results.all_warnings(), plan.lines),
             scene: &plan.scene,
             mean,
-            lines,
+            per_profile,
             curves: report
                 .listed_staircase()
                 .map(|staircase| StaircaseJson::new(results, staircase)),
@@ -251,30 +255,30 @@ impl<'a> PreloadJson<'a> {
 
 impl<'a> StaircaseJson<'a> {
     fn new(results: &Results, staircase: &'a Staircase) -> Self {
-        let (force, adhesion_force) = staircase.touch;
+        let (force, pull_off_force) = staircase.touch;
         StaircaseJson {
             first_touch: TurnJson {
                 force,
-                adhesion_force,
+                pull_off_force,
             },
             zero_force: TurnJson {
                 force: 0.0,
-                adhesion_force: staircase.zero_force,
+                pull_off_force: staircase.zero_force,
             },
             preloads: curve_table(results, staircase),
         }
     }
 }
 
-/// Returns a figure of two charts. On the left is `chart`, the adhesion force over the preload (see
-/// [`preload_chart`]). On the right is `beside`, the distribution of the adhesion force over the
+/// Returns a figure of two charts. On the left is `chart`, the pull-off force over the preload (see
+/// [`preload_chart`]). On the right is `beside`, the distribution of the pull-off force over the
 /// profiles (see [`distribution`]).
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);
     };
     let chart = Chart {
-        heading: Label::quantity("adhesion force", "F_a"),
+        heading: Label::quantity("pull-off force", "F_a"),
         ..chart
     };
     Figure {
@@ -289,7 +293,7 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
 #[derive(Clone, Copy)]
 struct StaircaseRow {
     preload: f64,
-    adhesion_force: f64,
+    pull_off_force: f64,
     /// Statistics over the profiles; `None` if they were not computed at this preload.
     statistics: Option<Statistics>,
 }
@@ -300,17 +304,17 @@ struct StaircaseRow {
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let mut rows = Vec::with_capacity(staircase.forces.len());
-    for &(preload, adhesion_force) in &staircase.forces {
+    for &(preload, pull_off_force) in &staircase.forces {
         let known = spread.iter().find(|(known, _)| *known == preload);
         rows.push(StaircaseRow {
             preload,
-            adhesion_force,
+            pull_off_force,
             statistics: known.map(|(_, statistics)| *statistics),
         });
     }
     let mut table = Table::of(move || rows.clone().into_iter())
         .real("preload", |row| row.preload)
-        .real("adhesion_force", |row| row.adhesion_force)
+        .real("pull_off_force", |row| row.pull_off_force)
         .whole("profiles", |row| {
             row.statistics
                 .map_or(0, |statistics| statistics.count as u64)
@@ -322,8 +326,8 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
 }
 
 /// Returns a warning if, at some preload, a single profile contributes more than half of the mean
-/// adhesion force; otherwise `None`. `spread` has pairs of a preload in N and the statistics of the
-/// adhesion force over the profiles.
+/// pull-off force; otherwise `None`. `spread` has pairs of a preload in N and the statistics of the
+/// pull-off force over the profiles.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let (preload, statistics) = spread
         .iter()
@@ -362,7 +366,7 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: boo
 pub(crate) struct Unloading {
     pub(crate) turning_force: Option<f64>,
     pub(crate) turning_indentation: Option<f64>,
-    pub(crate) adhesion_force: Option<f64>,
+    pub(crate) pull_off_force: Option<f64>,
     pub(crate) pull_off_indentation: Option<f64>,
     pub(crate) dissipated_energy: Option<f64>,
 }
@@ -378,7 +382,7 @@ pub(crate) fn unloadings_table(
     let header = [
         force,
         indentation,
-        "adhesion force F_a",
+        "pull-off force F_a",
         "pull-off at",
         "dissipated",
     ];
@@ -387,7 +391,7 @@ pub(crate) fn unloadings_table(
         rows.push([
             value_or_dash(unloading.turning_force, "N"),
             value_or_dash(unloading.turning_indentation, "m"),
-            value_or_dash(unloading.adhesion_force, "N"),
+            value_or_dash(unloading.pull_off_force, "N"),
             value_or_dash(unloading.pull_off_indentation, "m"),
             value_or_dash(unloading.dissipated_energy, "J"),
         ]);
@@ -402,9 +406,9 @@ fn value_or_dash(value: Option<f64>, unit: &str) -> String {
     }
 }
 
-/// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
+/// Returns the chart of the pull-off force over the preload, for one profile (`staircase`) and for
 /// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
-/// If `has_values` is true, the legend states the adhesion forces without a preload: F_a(d=0) after
+/// If `has_values` is true, the legend states the pull-off forces without a preload: F_a(d=0) after
 /// a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero force.
 pub fn preload_chart(
     staircase: &Staircase,
@@ -491,8 +495,8 @@ struct Turn {
     protocol: &'static str,
     /// Force in N at which the loading turns.
     force: f64,
-    /// Adhesion force in N of the unloading from this turning point.
-    adhesion_force: f64,
+    /// Pull-off force in N of the unloading from this turning point.
+    pull_off_force: f64,
     sign: Sign,
     ink: Ink,
 }
@@ -506,7 +510,7 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
             symbol: "F_a(d=0)",
             protocol: "turned at first touch",
             force: touch,
-            adhesion_force: adhesion_at_touch,
+            pull_off_force: adhesion_at_touch,
             sign: Sign::HollowDiamond,
             ink: Ink::Text,
         },
@@ -514,7 +518,7 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
             symbol: "F_a(F=0)",
             protocol: "turned at zero force",
             force: 0.0,
-            adhesion_force: staircase.zero_force,
+            pull_off_force: staircase.zero_force,
             sign: Sign::Ring,
             ink: Ink::Text,
         },
@@ -523,7 +527,7 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
     for turn in turns {
         let mut name = Label::symbol(turn.symbol);
         if has_values {
-            let value = format_rounded(turn.adhesion_force, 3, "N");
+            let value = format_rounded(turn.pull_off_force, 3, "N");
             name = name.then(&format!(" {value},"));
         }
         let name = name.then(&format!(" {}", turn.protocol));
@@ -535,13 +539,13 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
         } else {
             staircase.scale.number(span.low)
         };
-        let mark = Shape::signs(vec![(force, turn.adhesion_force)], turn.sign);
+        let mark = Shape::signs(vec![(force, turn.pull_off_force)], turn.sign);
         layers.push(Layer::new(name, turn.ink, mark));
     }
     layers
 }
 
-/// Returns all adhesion forces that layers show.
+/// Returns all pull-off forces that layers show.
 fn forces_of(layers: &[Layer]) -> Vec<f64> {
     let mut forces = Vec::new();
     for layer in layers {
@@ -560,7 +564,7 @@ fn forces_of(layers: &[Layer]) -> Vec<f64> {
     forces
 }
 
-/// Returns the axis of adhesion forces. It is logarithmic if the preloads are on a logarithmic
+/// Returns the axis of pull-off forces. It is logarithmic if the preloads are on a logarithmic
 /// scale and the largest force is much larger than the smallest. Otherwise it is linear and begins
 /// at zero.
 fn force_axis(scale_of_preloads: AxisScale, forces: &[f64]) -> ChartAxis {
@@ -575,12 +579,12 @@ fn force_axis(scale_of_preloads: AxisScale, forces: &[f64]) -> ChartAxis {
         let span = Span::around(forces.iter().copied().chain([0.0]), 0.05);
         (AxisScale::Linear, span)
     };
-    ChartAxis::new(scale, span, "adhesion force", "F_a", "N")
+    ChartAxis::new(scale, span, "pull-off force", "F_a", "N")
 }
 
-/// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the
+/// Returns the chart of the cumulative distribution of the pull-off force over the profiles, at the
 /// computed preload nearest to `preload` in N. `None` if there are fewer than two profiles.
-/// `forces` is an axis of adhesion forces that becomes the vertical axis of the chart; with `None`,
+/// `forces` is an axis of pull-off forces that becomes the vertical axis of the chart; with `None`,
 /// the chart makes its own.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut sorted) = results.forces_near(preload)?;
@@ -613,7 +617,7 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>)
         Some(axis) => axis.clone(),
         None => {
             let span = Span::around(sorted.iter().copied(), 0.05);
-            ChartAxis::new(AxisScale::Linear, span, "adhesion force", "F_a", "N")
+            ChartAxis::new(AxisScale::Linear, span, "pull-off force", "F_a", "N")
         }
     };
     let preload = format_rounded(preload, 3, "N");

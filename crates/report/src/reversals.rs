@@ -4,7 +4,7 @@
 use crate::preloads::{Unloading, preload_chart, preload_table, unloadings_table};
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{sentences_section, warning_texts};
 use asperity_data::{AxisScale, Table, Warning, counted};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
@@ -30,10 +30,10 @@ pub struct ReversalReport<'a> {
     /// Force F(d_r, d) at the indentation d on the unloading from each turning point d_r, the
     /// indentation at which the loading ends.
     pub map: &'a ReversalMap,
-    /// Adhesion force and other quantities of the unloading ([`Results::OF_PRELOADS`]) as functions
+    /// Pull-off force and other quantities of the unloading ([`Results::OF_PRELOADS`]) as functions
     /// of the preload; `None` if no preload presses the bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force of one profile as a function of the preload, for the figure; `None` for a
+    /// Pull-off force of one profile as a function of the preload, for the figure; `None` for a
     /// figure without this curve.
     pub staircase: Option<&'a Staircase>,
     /// Premises of the model that the deepest loading does not meet.
@@ -41,6 +41,10 @@ pub struct ReversalReport<'a> {
 }
 
 impl Report for ReversalReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(self.warnings)
+    }
+
     fn text(&self) -> Option<String> {
         let reversals = &self.map.reversals;
         let mut sheet = Sheet::default();
@@ -53,7 +57,7 @@ impl Report for ReversalReport<'_> {
             unloadings.push(Unloading {
                 turning_force: Some(reversal.turn.force),
                 turning_indentation: Some(reversal.turn.indentation),
-                adhesion_force: reversal.adhesion_force(),
+                pull_off_force: reversal.pull_off_force(),
                 pull_off_indentation: Some(reversal.smallest.indentation),
                 dissipated_energy: Some(reversal.dissipated_energy),
             });
@@ -62,7 +66,7 @@ impl Report for ReversalReport<'_> {
         sheet.heading("Map");
         sheet.quantity("step of indentations", self.map.step(), "m");
         sheet.quantity("largest Everett value", largest_everett(self.map), "N");
-        warnings_section(&mut sheet, self.warnings);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
@@ -77,12 +81,12 @@ impl Report for ReversalReport<'_> {
     }
 
     /// Returns a figure with a heat map of the Everett function. If there is a [`Self::staircase`],
-    /// the figure begins with a chart of the adhesion force over the preload.
+    /// the figure begins with a chart of the pull-off force over the preload.
     fn figure(&self) -> Option<Figure> {
         let mut charts = Vec::new();
         if let Some(staircase) = self.staircase {
             charts.push(Chart {
-                heading: Label::quantity("adhesion force", "F_a"),
+                heading: Label::quantity("pull-off force", "F_a"),
                 ..preload_chart(staircase, &[], true)
             });
         }
@@ -156,7 +160,7 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
     Table::of(|| map.reversals.iter())
         .real("turning_indentation", |reversal| reversal.turn.indentation)
         .real("turning_force", |reversal| reversal.turn.force)
-        .real("adhesion_force", |reversal| reversal.adhesion_force())
+        .real("pull_off_force", |reversal| reversal.pull_off_force())
         .real("pull_off_indentation", |reversal| {
             reversal.smallest.indentation
         })

@@ -5,21 +5,21 @@ use crate::ensemble::{EnsembleJson, caption};
 use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
 use crate::summary::Summary;
-use crate::warnings::warning_texts;
-use asperity_contact::{CurvePoint, LegRecord, Move, Patch, Work};
+use crate::warnings::{outcome_warnings, warning_texts};
+use asperity_contact::{CurvePoint, Move, Patch, StageRecord, Work};
 use asperity_data::{Table, Warning, Wording};
 use asperity_plot::Figure;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::instrument::displacements;
-use asperity_scene::stages::Timings;
 use asperity_scene::theory::SteepWaves;
+use asperity_scene::workload::Timings;
 use asperity_scene::{Estimate, Observer, Outcome, Regime, Scene};
 use asperity_study::Ensemble;
 use asperity_study::trust::{Budget, Criterion, criteria};
 use asperity_surface::lines::{Histogram, Line};
 use serde::Serialize;
 
-/// Report on all results of one computed scene, such as its force curve and adhesion force.
+/// Report on all results of one computed scene, such as its force curve and pull-off force.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
     pub title: &'a str,
@@ -29,12 +29,12 @@ pub struct RunReport<'a> {
     /// Choice of the number of springs with which the error is within a tolerance; `None` if no
     /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is
+    /// Estimated error of the pull-off force due to the finite number of springs; `None` if it is
     /// unknown.
     pub estimate: Option<&'a Estimate>,
     /// Results on several random profiles of the same roughness; `None` if they were not computed.
     pub ensemble: Option<&'a Ensemble>,
-    /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
+    /// Standard deviation of the pull-off force due to errors of a measured spectrum, in N; `None`
     /// if it was not computed.
     pub deviation: Option<f64>,
     /// Function that states in words how the user takes a [`Remedy`](asperity_data::Remedy), a step
@@ -56,6 +56,10 @@ impl<'a> RunReport<'a> {
 }
 
 impl Report for RunReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        outcome_warnings(self.outcome, self.ensemble)
+    }
+
     fn text(&self) -> Option<String> {
         let summary = Summary {
             scene: self.scene,
@@ -76,7 +80,7 @@ impl Report for RunReport<'_> {
     fn table(&self) -> Option<Table<'_>> {
         let instrument = self.outcome.instrument;
         let stiffness = instrument.map(|instrument| instrument.stiffness);
-        Some(table_of_curve(&self.outcome.history.legs, stiffness))
+        Some(table_of_curve(&self.outcome.history.stages, stiffness))
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -95,25 +99,25 @@ pub(crate) struct RunJson<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<&'a Choice>,
     ensemble: Option<EnsembleJson<'a>>,
-    line: LineJson,
-    effective_modulus: f64,
-    work_of_adhesion: Option<f64>,
+    profile: ProfileJson,
+    modulus: f64,
+    work: Option<f64>,
     kappa: Option<f64>,
     elastic_energy: Option<f64>,
     elastic_energy_ratio: Option<f64>,
     regime: Option<Regime>,
     regime_after_zero_force: Option<Regime>,
-    ideal_adhesion_force: Option<f64>,
-    smooth_adhesion_force: Option<f64>,
-    first_touch_adhesion_force: Option<f64>,
-    zero_force_adhesion_force: Option<f64>,
+    ideal_pull_off_force: Option<f64>,
+    smooth_pull_off_force: Option<f64>,
+    first_touch_pull_off_force: Option<f64>,
+    zero_force_pull_off_force: Option<f64>,
     preload: Option<f64>,
     preload_indentation: Option<f64>,
-    adhesion_force: Option<f64>,
-    adhesion_force_error: Option<f64>,
+    pull_off_force: Option<f64>,
+    pull_off_force_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     curve_error: Option<f64>,
-    adhesion_force_near_step: Option<bool>,
+    pull_off_force_near_step: Option<bool>,
     adhesion_share: Option<f64>,
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
@@ -134,16 +138,16 @@ pub(crate) struct RunJson<'a> {
     budget: Option<Budget>,
     warnings: Vec<String>,
     curve: Option<Table<'a>>,
-    contacts: &'a [Patch],
-    fragments: Option<&'a [Vec<Patch>]>,
+    patches_at_end: &'a [Patch],
+    patches_at_stage_ends: Option<&'a [Vec<Patch>]>,
     histogram: Option<HistogramJson<'a>>,
-    work: Work,
+    counts: Work,
     timings: Timings,
 }
 
 /// Facts about the profile of a scene, in SI units.
 #[derive(Serialize)]
-struct LineJson {
+struct ProfileJson {
     points: usize,
     length: f64,
     spacing: f64,
@@ -167,29 +171,29 @@ impl<'a> RunJson<'a> {
         let figures = &outcome.figures;
         let instrument = outcome.instrument;
         let estimate = report.known_estimate();
-        let has_fragments = report.scene.observe.contains(&Observer::Fragments);
+        let has_patches = report.scene.observe.contains(&Observer::Patches);
         RunJson {
             scene: report.scene,
             choice: report.choice,
             ensemble: report.ensemble.map(EnsembleJson::new),
-            line: LineJson::new(outcome),
-            effective_modulus: governing.effective_modulus,
-            work_of_adhesion: governing.work_of_adhesion,
+            profile: ProfileJson::new(outcome),
+            modulus: governing.modulus,
+            work: governing.work_of_adhesion,
             kappa: governing.kappa,
             elastic_energy: governing.elastic_energy(),
             elastic_energy_ratio: governing.elastic_energy_ratio,
             regime: outcome.regime,
             regime_after_zero_force: outcome.regime_after_zero_force,
-            ideal_adhesion_force: outcome.ideal_adhesion_force,
-            smooth_adhesion_force: outcome.smooth_adhesion_force,
-            first_touch_adhesion_force: outcome.first_touch_adhesion_force,
-            zero_force_adhesion_force: outcome.zero_force_adhesion_force,
+            ideal_pull_off_force: outcome.ideal_pull_off_force,
+            smooth_pull_off_force: outcome.smooth_pull_off_force,
+            first_touch_pull_off_force: outcome.first_touch_pull_off_force,
+            zero_force_pull_off_force: outcome.zero_force_pull_off_force,
             preload: figures.preload,
             preload_indentation: figures.preload_indentation,
-            adhesion_force: figures.adhesion_force,
-            adhesion_force_error: estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
+            pull_off_force: figures.pull_off_force,
+            pull_off_force_error: estimate.and_then(|estimate| estimate.of_pull_off_force(outcome)),
             curve_error: estimate.and_then(Estimate::of_curve),
-            adhesion_force_near_step: estimate.map(|estimate| estimate.near_step),
+            pull_off_force_near_step: estimate.map(|estimate| estimate.near_step),
             adhesion_share: outcome.adhesion_share(),
             adhesion_coefficient: figures.adhesion_coefficient,
             pull_off_indentation: figures.pull_off_indentation,
@@ -202,20 +206,20 @@ impl<'a> RunJson<'a> {
             budget: Budget::of(outcome, estimate, report.ensemble, report.deviation),
             warnings: warning_texts(&outcome.warnings),
             curve: report.table(),
-            contacts: &outcome.history.contacts,
-            fragments: has_fragments.then_some(outcome.fragments.as_slice()),
+            patches_at_end: &outcome.history.contacts,
+            patches_at_stage_ends: has_patches.then_some(outcome.patches.as_slice()),
             histogram: outcome.histogram.as_ref().map(HistogramJson::new),
-            work: outcome.history.work,
+            counts: outcome.history.work,
             timings: outcome.timings,
         }
     }
 }
 
-impl LineJson {
+impl ProfileJson {
     fn new(outcome: &Outcome) -> Self {
         let line = &outcome.line;
         let amplitude = outcome.governing.amplitude;
-        LineJson {
+        ProfileJson {
             points: line.points,
             length: line.length,
             spacing: line.spacing,
@@ -243,7 +247,7 @@ pub struct PathReport<'a> {
     /// Scene of the body. The stages of the path take the place of the loading in this scene.
     pub scene: &'a Scene,
     /// Records of the stages of the path, beginning at separation.
-    pub legs: &'a [LegRecord],
+    pub stages: &'a [StageRecord],
 }
 
 #[derive(Serialize)]
@@ -255,7 +259,7 @@ struct PathJson<'a> {
 
 impl Report for PathReport<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let loading: Vec<Move> = self.legs.iter().map(|leg| leg.target).collect();
+        let loading: Vec<Move> = self.stages.iter().map(|record| record.target).collect();
         let scene = Scene {
             loading: loading.clone(),
             ..self.scene.clone()
@@ -268,7 +272,7 @@ impl Report for PathReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        Some(table_of_curve(self.legs, self.scene.loading_stiffness))
+        Some(table_of_curve(self.stages, self.scene.loading_stiffness))
     }
 }
 
@@ -284,13 +288,13 @@ struct CurveRow<'a> {
 /// Returns the table of a force curve in SI units. Each row has a point of the curve and the index
 /// of its loading stage. `stiffness` is the stiffness of the instrument in N/m. If it is not
 /// `None`, the table also has the displacement of the instrument.
-fn table_of_curve(legs: &[LegRecord], stiffness: Option<f64>) -> Table<'_> {
-    let table = Table::of(move || curve_rows(legs, stiffness.unwrap_or(f64::INFINITY)))
-        .whole("leg", |row| row.stage)
+fn table_of_curve(stages: &[StageRecord], stiffness: Option<f64>) -> Table<'_> {
+    let table = Table::of(move || curve_rows(stages, stiffness.unwrap_or(f64::INFINITY)))
+        .whole("stage", |row| row.stage)
         .real("indentation", |row| row.point.indentation)
         .real("force", |row| row.point.force)
         .real("contact_length", |row| row.point.contact_length)
-        .whole("fragments", |row| row.point.fragments)
+        .whole("patches", |row| row.point.patches)
         .real("stored_energy", |row| row.point.stored_energy);
     if stiffness.is_none() {
         return table.done();
@@ -298,9 +302,9 @@ fn table_of_curve(legs: &[LegRecord], stiffness: Option<f64>) -> Table<'_> {
     table.real("displacement", |row| row.displacement).done()
 }
 
-fn curve_rows(legs: &[LegRecord], stiffness: f64) -> impl Iterator<Item = CurveRow<'_>> {
-    legs.iter().zip(0_u64..).flat_map(move |(leg, stage)| {
-        let points = leg.curve.iter().zip(displacements(leg, stiffness));
+fn curve_rows(stages: &[StageRecord], stiffness: f64) -> impl Iterator<Item = CurveRow<'_>> {
+    stages.iter().zip(0_u64..).flat_map(move |(record, stage)| {
+        let points = record.curve.iter().zip(displacements(record, stiffness));
         points.map(move |(point, displacement)| CurveRow {
             stage,
             point,

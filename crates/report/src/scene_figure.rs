@@ -2,12 +2,12 @@
 //! indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
-use asperity_contact::motion::Leg;
-use asperity_contact::{Branch, Direction, LegRecord, Patch};
+use asperity_contact::motion::Stage;
+use asperity_contact::{Branch, Direction, Patch, StageRecord};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
-use asperity_scene::stages::LineFacts;
+use asperity_scene::workload::LineFacts;
 use asperity_surface::lines::Line;
 use std::slice;
 
@@ -32,10 +32,10 @@ struct Patches {
 
 impl Patches {
     /// Returns the patches of a loading stage at an indentation in m.
-    fn of_leg(leg: &Leg, indentation: f64) -> Self {
+    fn of_stage(stage: &Stage, indentation: f64) -> Self {
         Patches {
             indentation,
-            patches: leg.patches(indentation),
+            patches: stage.patches(indentation),
         }
     }
 }
@@ -64,21 +64,21 @@ impl ContactSets {
     }
 
     /// Adds the patches of a loading stage that has just been computed. `record` contains the force
-    /// curve of this stage, and `leg` returns the patches at any of its indentations.
-    pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
+    /// curve of this stage, and `stage` returns the patches at any of its indentations.
+    pub fn observe(&mut self, record: &StageRecord, stage: &Stage) {
         if let Some((_, point)) = Branch::preload(slice::from_ref(record)) {
             let preload = self.preload.as_ref();
             if preload.is_none_or(|(force, _)| point.force > *force) {
-                self.preload = Some((point.force, Patches::of_leg(leg, point.indentation)));
+                self.preload = Some((point.force, Patches::of_stage(stage, point.indentation)));
             }
         }
         if self.over_indentation {
-            self.add_stage(record, leg);
+            self.add_stage(record, stage);
         }
     }
 
     /// Adds the patches at [`ROWS`] indentations of a loading stage with contact.
-    fn add_stage(&mut self, record: &LegRecord, leg: &Leg) {
+    fn add_stage(&mut self, record: &StageRecord, stage: &Stage) {
         let mut low = f64::INFINITY;
         let mut high = f64::NEG_INFINITY;
         for point in &record.curve {
@@ -98,7 +98,7 @@ impl ContactSets {
         let mut rows = Vec::with_capacity(ROWS);
         for row in 0..ROWS {
             let indentation = low + step * (row as f64 + 0.5);
-            rows.push(Patches::of_leg(leg, indentation));
+            rows.push(Patches::of_stage(stage, indentation));
         }
         self.stages.push((record.direction, rows));
     }
@@ -258,8 +258,8 @@ mod tests {
         let mut simulation = Simulation::default();
         let mut sets = ContactSets::new(true);
         let outcome = simulation
-            .run(document.scene(), &|| false, &mut |_, record, leg| {
-                sets.observe(record, leg);
+            .run(document.scene(), &|| false, &mut |_, record, stage| {
+                sets.observe(record, stage);
                 Ok(())
             })
             .unwrap();
@@ -288,7 +288,7 @@ mod tests {
             assert_eq!(columns.len(), line.gaps.len());
             springs += columns.iter().flatten().count();
         }
-        let preload = outcome.history.legs[0].largest;
+        let preload = outcome.history.stages[0].largest;
         assert_eq!(
             springs as u64, preload.springs,
             "one column for each spring"

@@ -163,7 +163,7 @@ mod tests {
 
     fn spectra(roughness: &str, form: &str) -> SceneSpectra {
         let text = format!(
-            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+            "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
              loading: [ToTouch], numerics: (points: 1024, samples: 2))"
         );
         let document = Document::parse(&text, "test").unwrap();
@@ -213,7 +213,7 @@ mod tests {
         let smooth = spectra("None", "Paraboloid(radius: 1.0e-4)");
         assert_eq!((smooth.spectra, smooth.missing), (Spectra::default(), None));
         let scene = Document::parse(
-            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"none.txt\"))",
+            "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"none.txt\"))",
             "test",
         );
         let error = analyses(scene.unwrap().scene()).unwrap_err();

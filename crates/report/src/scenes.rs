@@ -5,7 +5,7 @@ use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
-use crate::warnings::{counted_texts, sentences_section, warning_texts};
+use crate::warnings::{outcome_warnings, sentences_section};
 use crate::words::letter;
 use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Figure, Palette, figure_text};
@@ -62,14 +62,14 @@ const QUANTITIES: [ComparedQuantity; 8] = [
         value: |outcome| outcome.figures.preload,
     },
     ComparedQuantity {
-        name: "adhesion force F_a",
+        name: "pull-off force F_a",
         unit: "N",
-        value: |outcome| outcome.figures.adhesion_force,
+        value: |outcome| outcome.figures.pull_off_force,
     },
     ComparedQuantity {
         name: "at first touch F_a(d=0)",
         unit: "N",
-        value: |outcome| outcome.first_touch_adhesion_force,
+        value: |outcome| outcome.first_touch_pull_off_force,
     },
     ComparedQuantity {
         name: "pull-off at",
@@ -136,22 +136,6 @@ impl ScenesReport<'_> {
         }
     }
 
-    /// Returns the warnings of all scenes. Each begins with the letter of its scene.
-    fn warnings(&self) -> Vec<String> {
-        let mut sentences = Vec::new();
-        for (number, scene) in self.scenes.iter().enumerate() {
-            let letter = letter(number);
-            let warnings = match &scene.ensemble {
-                Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
-                None => warning_texts(&scene.outcome.warnings),
-            };
-            for warning in warnings {
-                sentences.push(format!("{letter}: {warning}"));
-            }
-        }
-        sentences
-    }
-
     /// Returns the headings of a table with a column for each scene.
     fn header(&self) -> Vec<String> {
         let mut header = vec![String::new()];
@@ -160,7 +144,7 @@ impl ScenesReport<'_> {
     }
 
     /// Returns the rows with medians over random profiles, and a row with the quartiles of the
-    /// adhesion force; empty if no scene has several profiles.
+    /// pull-off force; empty if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         if self.scenes.iter().all(|scene| scene.ensemble.is_none()) {
             return Vec::new();
@@ -175,12 +159,12 @@ impl ScenesReport<'_> {
         }
         let mut quartiles = vec!["quartiles of F_a".to_owned()];
         for scene in self.scenes {
-            quartiles.push(match scene.quartiles(Quantity::AdhesionForce) {
+            quartiles.push(match scene.quartiles(Quantity::PullOffForce) {
                 Some([lower, _, upper]) => format_range((lower, upper), 2, "N"),
                 None => "-".to_owned(),
             });
         }
-        // The first row is the median of the adhesion force. The row of its quartiles is inserted
+        // The first row is the median of the pull-off force. The row of its quartiles is inserted
         // after it.
         rows.insert(1.min(rows.len()), quartiles);
         rows
@@ -239,6 +223,18 @@ impl ComparedScene<'_> {
 }
 
 impl Report for ScenesReport<'_> {
+    /// Returns the warnings of all scenes. Each begins with the letter of its scene.
+    fn warnings(&self) -> Vec<String> {
+        let mut sentences = Vec::new();
+        for (number, scene) in self.scenes.iter().enumerate() {
+            let letter = letter(number);
+            for warning in outcome_warnings(&scene.outcome, scene.ensemble.as_ref()) {
+                sentences.push(format!("{letter}: {warning}"));
+            }
+        }
+        sentences
+    }
+
     /// Returns the titles, the fields in which each scene differs from the first one, and tables of
     /// the results with their ratios to the results of the first scene.
     fn text(&self) -> Option<String> {
@@ -306,7 +302,7 @@ mod tests {
         // The second scene has twice the work of adhesion, and the pull-off force of a sphere is
         // proportional to the work of adhesion.
         assert!(
-            text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"),
+            text.contains("pull-off force F_a       23.56 µN              47.12 µN (×2)\n"),
             "{text}"
         );
         let named: Vec<String> = report

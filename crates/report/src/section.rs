@@ -3,7 +3,7 @@
 use asperity_contact::Patch;
 use asperity_data::{AxisScale, quantile};
 use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, StressFill};
-use asperity_scene::stages::LineFacts;
+use asperity_scene::workload::LineFacts;
 use std::ops::Range;
 
 /// Rigid profile and its contact with the elastic surface at one indentation.

@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
 use asperity_data::{AxisScale, Kind, Table, counted, format_quantity, format_rounded, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
@@ -33,7 +33,7 @@ pub struct SensitivityReport<'a> {
     pub title: &'a str,
     /// Scene whose numbers, such as lengths, are changed one by one.
     pub scene: &'a Scene,
-    /// Changes of the results, such as the adhesion force, due to the change of each number of the
+    /// Changes of the results, such as the pull-off force, due to the change of each number of the
     /// scene.
     pub sensitivity: &'a Sensitivity,
 }
@@ -165,7 +165,7 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 /// Returns a table of the changes of the median results of a scene. The table has a row of
 /// headings, a row with the medians of the unchanged scene, and two rows for each of at most `most`
 /// numbers of the scene. The columns are: name, value and change of the number, change of the
-/// adhesion force F_a with its range over the profiles, change of the adhesion force F_a(d=0)
+/// pull-off force F_a with its range over the profiles, change of the pull-off force F_a(d=0)
 /// without a preload, and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let has_profiles = sensitivity.range.is_some();
@@ -357,6 +357,10 @@ pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
 }
 
 impl Report for SensitivityReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.sensitivity.warnings, self.sensitivity.profiles)
+    }
+
     fn text(&self) -> Option<String> {
         let sensitivity = self.sensitivity;
         let mut sheet = Sheet::default();
@@ -374,7 +378,7 @@ impl Report for SensitivityReport<'_> {
             sheet.table(&sensitivity_table(sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
-        counted_section(&mut sheet, &sensitivity.warnings, sensitivity.profiles);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
@@ -471,8 +475,8 @@ struct SensitivityJson<'a> {
 /// One value for each of [`Sensitivity::RESULTS`]; `None` for a value that is not known.
 #[derive(Serialize)]
 struct ResultsJson<T> {
-    adhesion_force: Option<T>,
-    first_touch_adhesion_force: Option<T>,
+    pull_off_force: Option<T>,
+    first_touch_pull_off_force: Option<T>,
     dissipated_energy: Option<T>,
 }
 
@@ -505,13 +509,13 @@ struct ChangedJson {
 impl<T> ResultsJson<T> {
     fn new(values: [Option<T>; 3]) -> Self {
         let [
-            adhesion_force,
-            first_touch_adhesion_force,
+            pull_off_force,
+            first_touch_pull_off_force,
             dissipated_energy,
         ] = values;
         ResultsJson {
-            adhesion_force,
-            first_touch_adhesion_force,
+            pull_off_force,
+            first_touch_pull_off_force,
             dissipated_energy,
         }
     }

@@ -514,7 +514,7 @@ mod tests {
         };
         Statistics {
             spread: Some(spread),
-            ..Statistics::of(vec![mean], Quantity::AdhesionForce.bounds()).unwrap()
+            ..Statistics::of(vec![mean], Quantity::PullOffForce.bounds()).unwrap()
         }
     }
 

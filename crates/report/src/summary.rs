@@ -8,7 +8,7 @@ use asperity_contact::{Move, Work};
 use asperity_data::{Warning, Wording, format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
-use asperity_scene::stages::Timings;
+use asperity_scene::workload::Timings;
 use asperity_scene::{Estimate, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
 
@@ -22,13 +22,13 @@ pub(crate) struct Summary<'a> {
     pub(crate) scene: &'a Scene,
     /// Results on the profile with the seed of the scene.
     pub(crate) outcome: &'a Outcome,
-    /// Estimated error of the adhesion force; `None` if it is unknown.
+    /// Estimated error of the pull-off force; `None` if it is unknown.
     pub(crate) estimate: Option<&'a Estimate>,
     /// Choice of the number of springs for a tolerance; `None` if no tolerance was given.
     pub(crate) choice: Option<&'a Choice>,
     /// Results over random profiles; `None` if they were not computed.
     pub(crate) ensemble: Option<&'a Ensemble>,
-    /// Standard deviation in N of the adhesion force due to the uncertainty of the spectrum of a
+    /// Standard deviation in N of the pull-off force due to the uncertainty of the spectrum of a
     /// measured surface; `None` if it was not computed.
     pub(crate) deviation: Option<f64>,
     pub(crate) wording: Wording,
@@ -88,24 +88,24 @@ impl Summary<'_> {
         sheet.quantity("at indentation", figures.preload_indentation, "m");
         let error = match self.estimate {
             Some(estimate) => format!(", {}", estimate.words()),
-            None if figures.adhesion_force.is_some() => ", error unknown".to_owned(),
+            None if figures.pull_off_force.is_some() => ", error unknown".to_owned(),
             None => String::new(),
         };
-        sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
+        sheet.row("pull-off force F_a", pull_off_force(outcome) + &error);
         sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
         sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
         let share = outcome
             .adhesion_share()
             .map(|share| rounded(Quantity::AdhesionShare, share, 4));
         sheet.row_of("share F_a/F_a,max", share);
-        let at_touch = outcome.first_touch_adhesion_force;
+        let at_touch = outcome.first_touch_pull_off_force;
         sheet.quantity("at first touch F_a(d=0)", at_touch, "N");
-        let at_zero_force = outcome.zero_force_adhesion_force;
+        let at_zero_force = outcome.zero_force_pull_off_force;
         sheet.quantity("at zero force F_a(F=0)", at_zero_force, "N");
-        sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
+        sheet.quantity("smooth body F_smooth", outcome.smooth_pull_off_force, "N");
         let wave_ratio = outcome.steep_waves.map(|waves| waves.ratio);
         sheet.quantity("λ²/(AR)", wave_ratio, "1");
-        sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
+        sheet.quantity("ideal F_a,max", outcome.ideal_pull_off_force, "N");
         add_dissipated_energy(sheet, outcome);
         if let Some(instrument) = outcome.instrument {
             sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
@@ -117,16 +117,16 @@ impl Summary<'_> {
 }
 
 /// Returns the main results of a computed scene as text: title, κ, e_el/γ, regime, preload,
-/// adhesion forces and dissipated energy.
+/// pull-off forces and dissipated energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
-    let at_touch = outcome.first_touch_adhesion_force;
+    let at_touch = outcome.first_touch_pull_off_force;
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
     sheet.row("regime", regime(outcome));
     sheet.quantity("preload F_n", outcome.figures.preload, "N");
-    sheet.row("adhesion force F_a", adhesion_force(outcome));
+    sheet.row("pull-off force F_a", pull_off_force(outcome));
     sheet.quantity("at first touch F_a(d=0)", at_touch, "N");
     add_dissipated_energy(&mut sheet, outcome);
     warnings_section(&mut sheet, &outcome.warnings);
@@ -172,7 +172,7 @@ fn add_line(sheet: &mut Sheet, outcome: &Outcome) {
 fn add_bodies(sheet: &mut Sheet, outcome: &Outcome) {
     let governing = &outcome.governing;
     sheet.heading("Bodies");
-    sheet.quantity("effective modulus E*", governing.effective_modulus, "Pa");
+    sheet.quantity("effective modulus E*", governing.modulus, "Pa");
     match governing.work_of_adhesion {
         Some(work) => sheet.quantity("work of adhesion γ", work, "J/m²"),
         None => sheet.row("work of adhesion γ", "none"),
@@ -220,8 +220,8 @@ fn regime(outcome: &Outcome) -> String {
 /// Returns in words how much adhesion remains after a loading turned at zero force: `62 % of F_a`,
 /// `full adhesion`.
 fn zero_force_adhesion(outcome: &Outcome) -> String {
-    let at_zero_force = outcome.zero_force_adhesion_force;
-    let percent = match (at_zero_force, outcome.figures.adhesion_force) {
+    let at_zero_force = outcome.zero_force_pull_off_force;
+    let percent = match (at_zero_force, outcome.figures.pull_off_force) {
         (Some(part), Some(whole)) => (100.0 * part / whole).round(),
         _ => 100.0,
     };
@@ -232,17 +232,17 @@ fn zero_force_adhesion(outcome: &Outcome) -> String {
     }
 }
 
-/// Adds the regime, and the ratios of adhesion forces from which the regime follows.
+/// Adds the regime, and the ratios of pull-off forces from which the regime follows.
 fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", regime(outcome));
     if outcome.regime.is_none() {
         return;
     }
-    let adhesion = outcome.figures.adhesion_force;
+    let adhesion = outcome.figures.pull_off_force;
     let preload = outcome.figures.preload;
-    let first_touch = outcome.first_touch_adhesion_force;
-    let zero_force = outcome.zero_force_adhesion_force;
-    let smooth = outcome.smooth_adhesion_force;
+    let first_touch = outcome.first_touch_pull_off_force;
+    let zero_force = outcome.zero_force_pull_off_force;
+    let smooth = outcome.smooth_pull_off_force;
 
     let of_whole = Threshold {
         value: Regime::INSENSITIVE_SHARE,
@@ -328,8 +328,8 @@ fn add_dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("Tabor number μ", outcome.tabor_number, "1");
 }
 
-fn adhesion_force(outcome: &Outcome) -> String {
-    match outcome.figures.adhesion_force {
+fn pull_off_force(outcome: &Outcome) -> String {
+    match outcome.figures.pull_off_force {
         Some(force) => format_quantity(force, "N"),
         None => "none: the loading does not pull the bodies off".to_owned(),
     }
@@ -348,7 +348,12 @@ fn loading(stages: &[Move]) -> String {
 
 /// Adds the state of the contact at the end of the loading.
 fn add_contact(sheet: &mut Sheet, outcome: &Outcome) {
-    let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else {
+    let Some(end) = outcome
+        .history
+        .stages
+        .last()
+        .and_then(|stage| stage.curve.last())
+    else {
         return;
     };
     sheet.heading("At the end");
@@ -361,7 +366,7 @@ fn add_contact(sheet: &mut Sheet, outcome: &Outcome) {
     let length = format_quantity(end.contact_length, "m");
     let percent = format_quantity(100.0 * end.contact_length / outcome.line.length, "1");
     sheet.row("contact length", format!("{length}, {percent} % of L"));
-    sheet.row("contact patches", grouped(end.fragments));
+    sheet.row("contact patches", grouped(end.patches));
 }
 
 /// Adds the counts of work of the solver, and the computing times of its stages.
@@ -373,7 +378,7 @@ fn add_cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         }
     }
     let stages = [
-        ("line", timings.line),
+        ("profile", timings.profile),
         ("tree", timings.tree),
         ("loop", timings.passes),
         ("curve", timings.curve),
@@ -440,7 +445,7 @@ mod tests {
         // Computing times and counts of work may vary. Fixed numbers replace them, so that the text
         // of the summary is always the same.
         outcome.timings = Timings {
-            line: 1.5e-3,
+            profile: 1.5e-3,
             ..Timings::default()
         };
         let springs = outcome.history.work.springs;
@@ -482,7 +487,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adhesion_force_has_its_error() {
+    fn a_pull_off_force_has_its_error() {
         use asperity_scene::discretisation::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
         let outcome = Simulation::default()
@@ -503,13 +508,13 @@ mod tests {
                 .unwrap()
                 .to_owned()
         };
-        let force = format_quantity(outcome.figures.adhesion_force.unwrap(), "N");
-        let of_force = with(Target::AdhesionForce, 0.0123);
+        let force = format_quantity(outcome.figures.pull_off_force.unwrap(), "N");
+        let of_force = with(Target::PullOffForce, 0.0123);
         assert!(
             row(&of_force).ends_with(&format!("{force}, grid ± 1.2 %")),
             "{of_force}"
         );
-        let near_step = with(Target::AdhesionForce, 1.4);
+        let near_step = with(Target::PullOffForce, 1.4);
         assert!(
             row(&near_step).ends_with(&format!("{force}, near a step of F_a(F_n)")),
             "{near_step}"
@@ -530,7 +535,7 @@ mod tests {
             brief.lines().count() <= 10 && warnings.contains("longest waves"),
             "{brief}{warnings}"
         );
-        let whole = with(Target::AdhesionForce, 0.01);
+        let whole = with(Target::PullOffForce, 0.01);
         assert!(
             brief
                 .lines()
@@ -610,8 +615,8 @@ mod tests {
             let mut outcome = Simulation::default()
                 .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
                 .unwrap();
-            outcome.zero_force_adhesion_force =
-                outcome.zero_force_adhesion_force.map(|force| share * force);
+            outcome.zero_force_pull_off_force =
+                outcome.zero_force_pull_off_force.map(|force| share * force);
             assert!(regime(&outcome).starts_with(said), "{}", regime(&outcome));
         }
     }

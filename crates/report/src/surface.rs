@@ -28,11 +28,11 @@ const LINE_PER_DECADE: f64 = 10.0;
 /// Name of the spectrum of the equivalent line in the table of spectra.
 const LINE: &str = "equivalent line";
 
-/// Returns in words the median, quartiles and range of the adhesion force over random profiles with
+/// Returns in words the median, quartiles and range of the pull-off force over random profiles with
 /// the spectrum of a measured surface. Returns `None` for fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed
-        .adhesion_force()
+        .pull_off_force()
         .filter(|forces| forces.count >= 2)?;
     let fit = match computed.fit_interval() {
         Some(interval) => format!("fit error {}", format_range(interval, 2, "N")),
@@ -84,6 +84,20 @@ impl SurfaceReport {
 }
 
 impl Report for SurfaceReport {
+    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
+    /// attraction.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            let whose = if number == 0 { "" } else { "opposite face: " };
+            for warning in face.warnings() {
+                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
+            }
+        }
+        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
+        warnings
+    }
+
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         for (number, face) in self.faces.iter().enumerate() {
@@ -290,20 +304,6 @@ impl SurfaceReport {
         }
     }
 
-    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
-    /// attraction.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        for (number, face) in self.faces.iter().enumerate() {
-            let whose = if number == 0 { "" } else { "opposite face: " };
-            for warning in face.warnings() {
-                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
-            }
-        }
-        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
-        warnings
-    }
-
     /// Returns the rows of the table of spectra. The measured spectra come first, and then the
     /// spectrum of the equivalent line.
     fn spectrum_rows(&self) -> Vec<SpectrumRow> {
@@ -422,9 +422,9 @@ fn add_adhesion(
     let springs = counted(scene.numerics.points, "spring");
     sheet.row("length L", format!("{length} on {springs}"));
     let label = if preload.is_some() {
-        "adhesion force F_a"
+        "pull-off force F_a"
     } else {
-        "adhesion force F_a(F=0)"
+        "pull-off force F_a(F=0)"
     };
     let Some(computed) = computed else {
         let profiles = wording(&Remedy::Profiles(PROFILES));
@@ -439,7 +439,7 @@ fn add_adhesion(
     );
     let form = wording(&Remedy::FormOfScene);
     sheet.row("", format!("for a flat face; {form}"));
-    let forces = computed.adhesion_force();
+    let forces = computed.pull_off_force();
     if let Some(warning) = forces.and_then(|forces| forces.warning("F_a")) {
         sheet.row("", warning);
     }
@@ -502,11 +502,11 @@ struct AdhesionJson<'a> {
     length: f64,
     springs: u64,
     preload: Option<f64>,
-    adhesion_force: Option<asperity_study::Statistics>,
+    pull_off_force: Option<asperity_study::Statistics>,
     fit_deviation: Option<f64>,
     regimes: RegimeCounts,
     regimes_after_zero_force: RegimeCounts,
-    lines: &'a [ProfileAdhesion],
+    per_profile: &'a [ProfileAdhesion],
 }
 
 /// Writes each moment as an entry of a JSON object, with the key of its row.
@@ -521,13 +521,13 @@ impl<'a> AdhesionJson<'a> {
             length: scene.length,
             springs: scene.numerics.points,
             preload: preload(scene),
-            adhesion_force: computed
-                .adhesion_force()
+            pull_off_force: computed
+                .pull_off_force()
                 .filter(|forces| forces.spread.is_some()),
             fit_deviation: computed.fit_deviation(),
             regimes,
             regimes_after_zero_force,
-            lines: &computed.profiles,
+            per_profile: &computed.profiles,
         }
     }
 }

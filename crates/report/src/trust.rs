@@ -1,4 +1,4 @@
-//! Reliability of an adhesion force: the criteria of other theories, and the errors from each
+//! Reliability of a pull-off force: the criteria of other theories, and the errors from each
 //! source.
 
 use crate::reference::{difference_words, model_words};
@@ -11,7 +11,7 @@ use asperity_study::trust::{Budget, Criterion, criteria};
 use asperity_surface::Form;
 
 /// Adds what criteria of other theories state about adhesion without a preload, and the error of
-/// the adhesion force from each source.
+/// the pull-off force from each source.
 pub(crate) fn add_trust(
     sheet: &mut Sheet,
     scene: &Scene,
@@ -102,7 +102,7 @@ pub fn theories_briefly(scene: &Scene, outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// Returns the errors of the adhesion force from each source: number of springs, sample of
+/// Returns the errors of the pull-off force from each source: number of springs, sample of
 /// profiles, measured surface, and model. Each row has a source and its relative error in words.
 /// `reference` is a comparison with an elastic half-space in three dimensions; if it is given, a
 /// further row has the difference that this comparison has found. The last row names the largest
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn a_summary_names_the_theory_that_does_not_apply() {
         let hard = scene(&[
-            ("material", "(effective_modulus: 2.0e11)"),
+            ("material", "(modulus: 2.0e11)"),
             ("adhesion", "(work: 0.05)"),
         ]);
         let outcome = run(&hard).unwrap();
@@ -265,10 +265,7 @@ mod tests {
     /// largest error.
     #[test]
     fn no_error_is_stated_where_the_contact_reaches_the_ends() {
-        let fields = [
-            ("length", "2.0e-5"),
-            ("material", "(effective_modulus: 1.0e6)"),
-        ];
+        let fields = [("length", "2.0e-5"), ("material", "(modulus: 1.0e6)")];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = open("jkr-sphere").unwrap().set_all(&fields).unwrap();
         let outcome = run(&document).unwrap();
@@ -281,7 +278,7 @@ mod tests {
         assert_eq!(own, None);
         // The error remains unknown even if an estimate is given.
         let evidence = asperity_scene::discretisation::Evidence::ClosedForm;
-        let target = asperity_scene::discretisation::Target::AdhesionForce;
+        let target = asperity_scene::discretisation::Target::PullOffForce;
         let stated = Estimate {
             target,
             error: 7e-4,
@@ -322,7 +319,7 @@ mod tests {
         let mut json = Vec::new();
         report.json().unwrap().write_json(&mut json, &[]).unwrap();
         let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
-        assert_eq!(json["adhesion_force_error"], serde_json::Value::Null);
+        assert_eq!(json["pull_off_force_error"], serde_json::Value::Null);
         assert!(
             json["warnings"][0]
                 .as_str()

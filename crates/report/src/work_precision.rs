@@ -8,8 +8,8 @@ use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
 use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of
-/// setting, such as the number of springs. The error is that of the adhesion force or, if there is
-/// no adhesion force, that of the force curve. `reference` is a comparison of the scene with an
+/// setting, such as the number of springs. The error is that of the pull-off force or, if there is
+/// no pull-off force, that of the force curve. `reference` is a comparison of the scene with an
 /// elastic half-space in three dimensions. If `reference` is given, a horizontal line shows the
 /// error of the model that this comparison has found.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
@@ -50,7 +50,7 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
     let errors = points.iter().map(|(_, error)| *error).chain(model);
     let errors = Span::decades(errors.map(f64::log10));
     let x = logarithmic_axis(times, "time of a run", "t", "s");
-    let y = if table.reference.adhesion_force.is_some() {
+    let y = if table.reference.pull_off_force.is_some() {
         logarithmic_axis(errors, "relative error of", "F_a", "1")
     } else {
         logarithmic_axis(errors, "relative error of the curve", "", "1")
@@ -153,7 +153,7 @@ mod tests {
         };
         let reference = CostReference {
             springs: 16,
-            adhesion_force: None,
+            pull_off_force: None,
             closed_form: false,
             errors: [None; 4],
         };

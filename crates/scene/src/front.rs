@@ -15,8 +15,8 @@ use crate::simulation::stages::Simulation;
 /// let sphere = asperity_scene::open("jkr-sphere")?.set("adhesion.work", "20 mJ/m²")?;
 /// let outcome = asperity_scene::run(&sphere)?;
 /// assert!(
-///     outcome.figures.adhesion_force > Some(9.0e-6)
-///         && outcome.figures.adhesion_force < Some(9.6e-6)
+///     outcome.figures.pull_off_force > Some(9.0e-6)
+///         && outcome.figures.pull_off_force < Some(9.6e-6)
 /// );
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```

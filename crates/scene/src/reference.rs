@@ -16,21 +16,17 @@ use asperity_surface::Form;
 /// assert!((sphere.force_controlled_pull_off().1 / -jkr - 1.0).abs() < 1e-14);
 /// assert!(closed_form(&Form::Punch { radius: 1.0e-5 }, 1.0e6, 0.05).is_none());
 /// ```
-pub fn closed_form(
-    form: &Form,
-    effective_modulus: f64,
-    work_of_adhesion: f64,
-) -> Option<ClosedForm> {
+pub fn closed_form(form: &Form, modulus: f64, work_of_adhesion: f64) -> Option<ClosedForm> {
     let (line_coefficient, exponent) = form.power_law()?;
     Some(ClosedForm {
         line_coefficient,
         exponent,
-        effective_modulus,
+        modulus,
         work_of_adhesion,
     })
 }
 
-/// Returns the adhesion force in N of a smooth body after a preload in N, by a formula.
+/// Returns the pull-off force in N of a smooth body after a preload in N, by a formula.
 ///
 /// `form` is `None` for a flat body. `length` is the apparent diameter in m. `works_of_adhesion`
 /// are the works on closing and on opening in J/m². Returns `None` in three cases:
@@ -39,20 +35,20 @@ pub fn closed_form(
 /// * the contact at pull-off is longer than the profile;
 /// * the preload is so small that the contact after the loading is smaller than the contact at
 ///   pull-off.
-pub fn smooth_adhesion_force(
+pub fn smooth_pull_off_force(
     form: Option<&Form>,
     length: f64,
-    effective_modulus: f64,
+    modulus: f64,
     works_of_adhesion: [f64; 2],
     preload: f64,
 ) -> Option<f64> {
     let [closing, work] = works_of_adhesion;
-    let flat = ClosedForm::ideal_adhesion_force(work, effective_modulus, length);
+    let flat = ClosedForm::ideal_pull_off_force(work, modulus, length);
     let Some(form) = form else { return Some(flat) };
     if let Some(radius) = form.flat_end() {
-        return Some(ClosedForm::flat_punch(radius, effective_modulus, work).min(flat));
+        return Some(ClosedForm::flat_punch(radius, modulus, work).min(flat));
     }
-    let body = closed_form(form, effective_modulus, work)?;
+    let body = closed_form(form, modulus, work)?;
     let (radius, force) = body.force_controlled_pull_off();
     let closing_body = ClosedForm {
         work_of_adhesion: closing,

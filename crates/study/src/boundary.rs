@@ -1,9 +1,9 @@
 //! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0), the adhesion force after the first touch, falls about exponentially with κ. It hardly
+//! F_a(d=0), the pull-off force after the first touch, falls about exponentially with κ. It hardly
 //! ever becomes zero, because a single spring still adheres. The boundary κ* is therefore defined
 //! as the value of κ at which the mean of F_a(d=0) over the profiles falls below a given share of
-//! the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each
+//! the ideal pull-off force F_a,max. On profiles of one spectrum κ determines e_el/γ, so each
 //! boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
@@ -26,19 +26,19 @@ const RESAMPLING_SEED: u64 = 2012;
 
 /// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
 /// adhesion, at which adhesion without a preload vanishes in a study. Adhesion counts as vanished
-/// if the adhesion force, as a mean over the random profiles, is below a given share of the ideal
-/// adhesion force F_a,max. The value depends on this share, on the values on the other axes of the
+/// if the pull-off force, as a mean over the random profiles, is below a given share of the ideal
+/// pull-off force F_a,max. The value depends on this share, on the values on the other axes of the
 /// study, and on the point at which the loading turns ([`AdhesionBoundary::protocol`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes of the study, one for each axis in [`Boundaries::others`]. The axis of
     /// the roughness parameter, along which the boundary is sought, is left out.
     pub others: Vec<f64>,
-    /// Quantity whose mean over the profiles decides whether adhesion has vanished: the adhesion
-    /// force divided by the ideal adhesion force F_a,max. It is F_a(d=0)/F_a,max if the loading
+    /// Quantity whose mean over the profiles decides whether adhesion has vanished: the pull-off
+    /// force divided by the ideal pull-off force F_a,max. It is F_a(d=0)/F_a,max if the loading
     /// turns at first touch, and F_a(F=0)/F_a,max if it turns at zero force.
     pub protocol: Quantity,
-    /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
+    /// Share of the ideal pull-off force F_a,max below which adhesion counts as vanished.
     pub level: f64,
     /// Value of the roughness parameter, κ or e_el/γ, at which adhesion vanishes, with its
     /// confidence interval.
@@ -46,8 +46,8 @@ pub struct AdhesionBoundary {
 }
 
 /// Value of the roughness parameter κ, or of the ratio e_el/γ of elastic energy to work of
-/// adhesion, at which adhesion vanishes. For all larger values, the adhesion force, as a mean over
-/// the random profiles, is below the share [`AdhesionBoundary::level`] of the ideal adhesion force
+/// adhesion, at which adhesion vanishes. For all larger values, the pull-off force, as a mean over
+/// the random profiles, is below the share [`AdhesionBoundary::level`] of the ideal pull-off force
 /// F_a,max.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
@@ -97,7 +97,7 @@ pub struct Boundaries {
     pub lines: u64,
     /// Boundaries that were found. There is at most one for each combination of three choices:
     /// values on the axes [`Boundaries::others`], turning point of the loading, and share of the
-    /// ideal adhesion force F_a,max.
+    /// ideal pull-off force F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
@@ -177,7 +177,7 @@ impl AdhesionBoundary {
 }
 
 impl Boundaries {
-    /// Shares of the ideal adhesion force F_a,max below which adhesion usually counts as vanished,
+    /// Shares of the ideal pull-off force F_a,max below which adhesion usually counts as vanished,
     /// for the argument `levels` of [`Boundaries::of`].
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
@@ -185,7 +185,7 @@ impl Boundaries {
     /// roughness parameter is κ, or the ratio e_el/γ of elastic energy to work of adhesion. `path`
     /// is the folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has
     /// written the tables. `over` is the parameter in which the boundaries are returned. `levels`
-    /// are the shares of the ideal adhesion force F_a,max below which adhesion counts as vanished.
+    /// are the shares of the ideal pull-off force F_a,max below which adhesion counts as vanished.
     ///
     /// # Errors
     /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither

@@ -1,4 +1,4 @@
-//! Errors of an adhesion force, one for each source: grid, sample of random profiles, measured
+//! Errors of a pull-off force, one for each source: grid, sample of random profiles, measured
 //! surface, and model.
 
 use super::ensemble::Ensemble;
@@ -8,9 +8,9 @@ use asperity_data::{Warning, quantile};
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 
-/// Errors of the adhesion force of a scene, one for each source of errors. All are relative errors:
-/// `grid` is divided by the adhesion force on the scene's own profile, and `sample` and `surface`
-/// are divided by the median adhesion force over random profiles. The true error exceeds the stated
+/// Errors of the pull-off force of a scene, one for each source of errors. All are relative errors:
+/// `grid` is divided by the pull-off force on the scene's own profile, and `sample` and `surface`
+/// are divided by the median pull-off force over random profiles. The true error exceeds the stated
 /// error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
@@ -24,7 +24,7 @@ pub struct Budget {
     /// measured surface; `None` if it is unknown.
     pub surface: Option<f64>,
     /// Lower bound of the relative error of the model of one-dimensional profiles. It follows from
-    /// the difference between the mean adhesion force on profiles and the mean adhesion force on
+    /// the difference between the mean pull-off force on profiles and the mean pull-off force on
     /// bodies in three dimensions. The bound is the part of this difference that neither the number
     /// of profiles and bodies nor the grid of the bodies can explain. `None` if it is unknown.
     pub model: Option<f64>,
@@ -35,9 +35,9 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Collects the errors of the adhesion force of a computed scene; `None` if this force is not
+    /// Collects the errors of the pull-off force of a computed scene; `None` if this force is not
     /// above zero. `estimate` gives the error due to the number of springs, and `ensemble` the
-    /// error due to the number of profiles. `deviation` is the standard deviation of the adhesion
+    /// error due to the number of profiles. `deviation` is the standard deviation of the pull-off
     /// force in N due to the uncertainty of the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
@@ -45,15 +45,15 @@ impl Budget {
         ensemble: Option<&Ensemble>,
         deviation: Option<f64>,
     ) -> Option<Budget> {
-        let forces = ensemble.map(|ensemble| ensemble.values(Quantity::AdhesionForce));
+        let forces = ensemble.map(|ensemble| ensemble.values(Quantity::PullOffForce));
         let mut forces: Vec<f64> = forces.into_iter().flatten().flatten().collect();
         let force = outcome
             .figures
-            .adhesion_force
+            .pull_off_force
             .filter(|force| *force > 0.0)?;
         forces.sort_by(f64::total_cmp);
         let median = quantile(&forces, 0.5).unwrap_or(force);
-        let error_of_grid = estimate.and_then(|estimate| estimate.of_adhesion_force(outcome));
+        let error_of_grid = estimate.and_then(|estimate| estimate.of_pull_off_force(outcome));
         let grid = finite(error_of_grid.map(|error| error / force));
         let interval = median_interval(&forces);
         let sample = finite(interval.map(|(low, high)| 0.5 * (high - low) / median));
@@ -138,7 +138,7 @@ mod tests {
         )
         .unwrap();
         let estimate = |error| Estimate {
-            target: Target::AdhesionForce,
+            target: Target::PullOffForce,
             error,
             near_step: false,
             evidence: Evidence::ClosedForm,
@@ -152,7 +152,7 @@ mod tests {
             (None, None, Some("grid"))
         );
         assert!((grid.grid.unwrap() / 0.01 - 1.0).abs() < 1e-12);
-        let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
+        let all = ensemble.statistics(Quantity::PullOffForce).unwrap();
         let median = all.quartiles[1];
         let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
         // With this number of profiles the error of the median is about half the distance between

@@ -2,7 +2,7 @@
 //! this outcome.
 
 use asperity_contact::{
-    Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
+    Branch, ClosedForm, CurvePoint, Figures, History, Move, Profile, Reversal, StageRecord,
 };
 use asperity_data::Warning;
 use asperity_scene::{Governing, Regime, Scene};
@@ -17,13 +17,13 @@ pub(super) struct CaseOutcome<'o> {
     /// Scene that was computed. Do not use its field `loading`: a preload of the study may have
     /// replaced this loading.
     pub scene: &'o Scene,
-    /// Adhesion force F_a(d=0) in N of a loading that turns at first touch; `None` if this loading
-    /// was not computed or has no adhesion force.
+    /// Pull-off force F_a(d=0) in N of a loading that turns at first touch; `None` if this loading
+    /// was not computed or has no pull-off force.
     pub first_touch: Option<f64>,
-    /// Adhesion force F_a(F=0) in N of a loading that turns at zero force; `None` if this loading
-    /// was not computed or has no adhesion force.
+    /// Pull-off force F_a(F=0) in N of a loading that turns at zero force; `None` if this loading
+    /// was not computed or has no pull-off force.
     pub zero_force: Option<f64>,
-    /// Adhesion force F_smooth in N of the smooth body after the same preload. `None` unless the
+    /// Pull-off force F_smooth in N of the smooth body after the same preload. `None` unless the
     /// study records a regime of adhesion, and without adhesion.
     pub smooth: Option<f64>,
     /// Outcome of the loading.
@@ -45,15 +45,15 @@ pub(super) struct LoadingOutcome {
 
 impl LoadingOutcome {
     /// Collects the outcome of a loading on a profile from the records of its stages.
-    pub fn of_legs(legs: Vec<LegRecord>, profile: &Profile) -> Self {
-        let lengths = legs
+    pub fn of_stages(stages: Vec<StageRecord>, profile: &Profile) -> Self {
+        let lengths = stages
             .iter()
-            .flat_map(|leg| &leg.curve)
+            .flat_map(|stage| &stage.curve)
             .map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
-        let preload = Branch::preload(&legs).map(|(_, point)| point);
+        let preload = Branch::preload(&stages).map(|(_, point)| point);
         let history = History {
-            legs,
+            stages,
             ..History::default()
         };
         let warnings = history.warnings(profile);
@@ -65,12 +65,12 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading that starts and ends in separation. The move `leg` presses
+    /// Collects the outcome of a loading that starts and ends in separation. The move `stage` presses
     /// the bodies together up to the turning point, and `reversal` describes the turn and the
     /// unloading.
-    pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
+    pub fn of_reversal(stage: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
-            figures: Figures::of_reversal(leg, reversal),
+            figures: Figures::of_reversal(stage, reversal),
             contact_length: Some(reversal.turn.contact_length),
             preload: Some(reversal.turn),
             warnings: reversal.warnings(profile),
@@ -133,20 +133,19 @@ impl ProfileRecord {
 }
 
 impl CaseOutcome<'_> {
-    /// Returns the ideal adhesion force F_a,max in N, eq. (14) of Popov and Filippov (2012); `None`
+    /// Returns the ideal pull-off force F_a,max in N, eq. (14) of Popov and Filippov (2012); `None`
     /// without adhesion.
     pub fn ideal(&self) -> Option<f64> {
         let Governing {
             work_of_adhesion,
-            effective_modulus,
+            modulus,
             ..
         } = self.governing;
-        work_of_adhesion.map(|work| {
-            ClosedForm::ideal_adhesion_force(work, effective_modulus, self.scene.length)
-        })
+        work_of_adhesion
+            .map(|work| ClosedForm::ideal_pull_off_force(work, modulus, self.scene.length))
     }
 
-    /// Returns a force in N divided by the ideal adhesion force F_a,max. Returns `None` if the
+    /// Returns a force in N divided by the ideal pull-off force F_a,max. Returns `None` if the
     /// force is `None` or if F_a,max is not above zero.
     pub fn share(&self, force: Option<f64>) -> Option<f64> {
         Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
@@ -167,7 +166,7 @@ impl CaseOutcome<'_> {
     }
 
     /// Returns the regime of adhesion of this loading as its index in [`Regime::ALL`]; `None` for a
-    /// loading without a tensile force. `first_touch` is the adhesion force in N without a preload:
+    /// loading without a tensile force. `first_touch` is the pull-off force in N without a preload:
     /// F_a(d=0) of a loading that turns at first touch, or F_a(F=0) of one that turns at zero
     /// force.
     pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
@@ -247,8 +246,8 @@ mod tests {
                     let run = simulation
                         .run(&scene, &|| false, &mut |_, _, _| Ok(()))
                         .unwrap();
-                    let legs = LoadingOutcome::of_legs(run.history.legs, &profile);
-                    assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");
+                    let stages = LoadingOutcome::of_stages(run.history.stages, &profile);
+                    assert_eq!(reversed, Some(stages), "{name}, {edges:?}, {press:?}");
                 }
             }
         }

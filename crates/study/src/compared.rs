@@ -54,7 +54,7 @@ impl Values {
     /// Returns the statistics of the values over profiles and over square surfaces, with the ratio
     /// of the two means; `None` if there are no values.
     pub fn compared(self) -> Option<Compared> {
-        let bounds = Quantity::AdhesionForce.bounds();
+        let bounds = Quantity::PullOffForce.bounds();
         let grid = self.grid_error();
         let line = Statistics::of(self.lines, bounds)?;
         let half_space = Statistics::of(self.squares, bounds)?;

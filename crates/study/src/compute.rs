@@ -235,7 +235,7 @@ mod tests {
             &document,
             &axes,
             3,
-            &[Quantity::AdhesionForce, Quantity::Regime],
+            &[Quantity::PullOffForce, Quantity::Regime],
         )
         .unwrap()
     }

@@ -48,7 +48,7 @@ pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -
         .filter(|amplitude| amplitude.rms_curvature > 0.0);
     let rough = rough.map(|amplitude| RoughContact {
         amplitude,
-        stretch: work / governing.effective_modulus,
+        stretch: work / governing.modulus,
         range: adhesion.attraction_range(),
         spectrum: scene.spectrum(),
         length: scene.length,
@@ -78,17 +78,17 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
     }
 }
 
-/// Returns the criteria of this program: F_a(d=0) and F_a(F=0), each divided by the adhesion force
+/// Returns the criteria of this program: F_a(d=0) and F_a(F=0), each divided by the pull-off force
 /// of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion counts as vanished, as in the
 /// definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
-    let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
-    let mut first_touch = outcome.first_touch_adhesion_force;
-    let mut zero_force = outcome.zero_force_adhesion_force;
+    let smooth = outcome.smooth_pull_off_force.filter(|smooth| *smooth > 0.0);
+    let mut first_touch = outcome.first_touch_pull_off_force;
+    let mut zero_force = outcome.zero_force_pull_off_force;
     let mut of_profiles = String::new();
     if let Some(ensemble) = ensemble {
-        first_touch = median_of(ensemble, Quantity::FirstTouchAdhesionForce);
-        zero_force = median_of(ensemble, Quantity::ZeroForceAdhesionForce);
+        first_touch = median_of(ensemble, Quantity::FirstTouchPullOffForce);
+        zero_force = median_of(ensemble, Quantity::ZeroForcePullOffForce);
         of_profiles = format!(", median of {} profiles", ensemble.computed());
     }
     let rows = [
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn the_tabor_number_refuses_hard_bodies() {
         let hard = document(
-            "material: (effective_modulus: 2.9e11), adhesion: (work: 0.05), loading: [ToForce(1.0e-6), ToSeparation], \
+            "material: (modulus: 2.9e11), adhesion: (work: 0.05), loading: [ToForce(1.0e-6), ToSeparation], \
              roughness: SelfAffine(hurst: 0.8, rms_gradient: 0.1, wavelengths: (1.0e-6, 1.0e-8), seed: 1)",
         );
         let rows = rows(&hard, None);
@@ -191,7 +191,7 @@ mod tests {
     fn rows_are_those_that_the_scene_calls_for() {
         let names = |rows: &[Criterion]| rows.iter().map(|row| row.name).collect::<Vec<_>>();
         let smooth = document(
-            "material: (effective_modulus: 1.0e6), form: Paraboloid(radius: 1.0e-5), adhesion: (work: 0.05)",
+            "material: (modulus: 1.0e6), form: Paraboloid(radius: 1.0e-5), adhesion: (work: 0.05)",
         );
         let found = rows(&smooth, None);
         assert_eq!(
@@ -202,12 +202,9 @@ mod tests {
             found[1..].iter().all(|row| row.sticks == Some(true)),
             "{found:?}"
         );
-        assert_eq!(
-            rows(&document("material: (effective_modulus: 1.0e6)"), None),
-            []
-        );
+        assert_eq!(rows(&document("material: (modulus: 1.0e6)"), None), []);
         let rough = document(
-            "material: (effective_modulus: 1.0e6), adhesion: (work: 0.05), \
+            "material: (modulus: 1.0e6), adhesion: (work: 0.05), \
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
         let simulation = &mut Simulation::default();
@@ -217,10 +214,10 @@ mod tests {
             names(&found)[4..],
             ["Tabor number", "this program", "this program"]
         );
-        let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();
+        let smooth = run(&rough).unwrap().smooth_pull_off_force.unwrap();
         for (row, quantity) in found[5..].iter().zip([
-            Quantity::FirstTouchAdhesionForce,
-            Quantity::ZeroForceAdhesionForce,
+            Quantity::FirstTouchPullOffForce,
+            Quantity::ZeroForcePullOffForce,
         ]) {
             let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
             forces.sort_by(f64::total_cmp);

@@ -45,15 +45,15 @@ const PATHS: [&str; 14] = [
     "roughness.modes.1",
 ];
 const QUANTITIES: [Quantity; 9] = [
-    Quantity::AdhesionForce,
+    Quantity::PullOffForce,
     Quantity::AdhesionCoefficient,
     Quantity::AdhesionShare,
     Quantity::DissipatedEnergy,
-    Quantity::Fragments,
+    Quantity::Patches,
     Quantity::ContactFraction,
     Quantity::PullOffIndentation,
-    Quantity::FirstTouchAdhesionForce,
-    Quantity::ZeroForceAdhesionForce,
+    Quantity::FirstTouchPullOffForce,
+    Quantity::ZeroForcePullOffForce,
 ];
 
 /// A random question about a scene of few springs.

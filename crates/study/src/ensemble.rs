@@ -26,10 +26,10 @@ impl Ensemble {
 
     /// Quantities that every ensemble records on each profile.
     pub const NUMBERS: [Quantity; 5] = [
-        Quantity::AdhesionForce,
+        Quantity::PullOffForce,
         Quantity::AdhesionShare,
-        Quantity::FirstTouchAdhesionForce,
-        Quantity::ZeroForceAdhesionForce,
+        Quantity::FirstTouchPullOffForce,
+        Quantity::ZeroForcePullOffForce,
         Quantity::DissipatedEnergy,
     ];
 
@@ -68,7 +68,7 @@ impl Ensemble {
     /// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "2048")?;
     /// let simulation = &mut Simulation::default();
     /// let found = Ensemble::of(scene.scene(), &[], 8, simulation, Control::default())?;
-    /// let force = found.statistics(Quantity::AdhesionForce).expect("eight profiles adhere");
+    /// let force = found.statistics(Quantity::PullOffForce).expect("eight profiles adhere");
     /// assert_eq!(force.count, 8);
     /// assert!(force.quartiles[0] < force.quartiles[1] && force.quartiles[1] < force.quartiles[2]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -138,8 +138,8 @@ impl Ensemble {
     }
 
     /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
-    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
-    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// count, the regime follows from F_a(d=0), the pull-off force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the pull-off
     /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
@@ -184,22 +184,22 @@ mod tests {
             outcomes.iter().map(value).collect::<Vec<_>>()
         };
         assert_eq!(
-            found.values(Quantity::AdhesionForce),
-            of(|one| one.figures.adhesion_force)
+            found.values(Quantity::PullOffForce),
+            of(|one| one.figures.pull_off_force)
         );
         assert_eq!(
-            found.values(Quantity::FirstTouchAdhesionForce),
-            of(|one| one.first_touch_adhesion_force)
+            found.values(Quantity::FirstTouchPullOffForce),
+            of(|one| one.first_touch_pull_off_force)
         );
         assert_eq!(
-            found.values(Quantity::ZeroForceAdhesionForce),
-            of(|one| one.zero_force_adhesion_force)
+            found.values(Quantity::ZeroForcePullOffForce),
+            of(|one| one.zero_force_pull_off_force)
         );
         assert_eq!(
             found.values(Quantity::DissipatedEnergy),
             of(|one| one.figures.dissipated_energy)
         );
-        let share = of(|one| Some(one.figures.adhesion_force? / one.ideal_adhesion_force?));
+        let share = of(|one| Some(one.figures.pull_off_force? / one.ideal_pull_off_force?));
         assert_eq!(found.values(Quantity::AdhesionShare), share);
         let mut shares: Vec<f64> = share.into_iter().flatten().collect();
         shares.sort_by(f64::total_cmp);
@@ -241,7 +241,7 @@ mod tests {
         let one = ensemble(&smooth, 1, 2).unwrap();
         assert_eq!((one.profiles(), one.computed()), (1, 1));
         assert!(
-            one.statistics(Quantity::AdhesionForce)
+            one.statistics(Quantity::PullOffForce)
                 .is_some_and(|all| all.spread.is_none())
         );
         assert!(ensemble(&smooth, 2, 1).is_err());

@@ -1,7 +1,7 @@
 //! The inverse question: at which value of a number of a scene, or at which preload, does a
 //! quantity reach a target?
 //!
-//! Each profile is searched separately. The adhesion force never falls with the preload. It
+//! Each profile is searched separately. The pull-off force never falls with the preload. It
 //! therefore crosses the target only once, and bisection finds this crossing between two preloads.
 //! Any other quantity is first computed at several numbers over the searched range.
 
@@ -55,7 +55,7 @@ impl Found {
     /// // The pull-off force of a sphere is (3/2)πγR.
     /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
     /// let simulation = &mut Simulation::default();
-    /// let condition = (Quantity::AdhesionForce, 1e-5);
+    /// let condition = (Quantity::PullOffForce, 1e-5);
     /// let question = Question::new(scene.scene(), "adhesion.work", condition, 1, simulation)?;
     /// let found = Found::of(question, simulation, Control::default())?;
     /// let work = found.quantile(0.5).expect("the force is within reach");
@@ -311,7 +311,7 @@ mod tests {
         for (text, quantity, target) in [
             ("F_a/F_a,max = 80 %", Quantity::AdhesionShare, 0.8),
             ("adhesion_share=0.8", Quantity::AdhesionShare, 0.8),
-            ("F_a(F=0) = 2 uN", Quantity::ZeroForceAdhesionForce, 2e-6),
+            ("F_a(F=0) = 2 uN", Quantity::ZeroForcePullOffForce, 2e-6),
             (
                 "dissipated energy = 2.5 pJ",
                 Quantity::DissipatedEnergy,
@@ -352,7 +352,7 @@ mod tests {
             .unwrap();
         let exact = 1.5 * PI * 0.05 * 1e-4;
         // Relative error of the force due to the finite number of springs.
-        let error = own.figures.adhesion_force.unwrap() / exact - 1.0;
+        let error = own.figures.pull_off_force.unwrap() / exact - 1.0;
         assert!(error.abs() < 1e-4, "{error}");
         for (path, slope) in [
             ("adhesion.work", 1.5 * PI * 1e-4),
@@ -421,7 +421,7 @@ mod tests {
         );
     }
 
-    /// At each preload that the search finds, the adhesion force jumps, to the stated precision. On
+    /// At each preload that the search finds, the pull-off force jumps, to the stated precision. On
     /// a fine grid of preloads, no smaller preload reaches the target.
     #[test]
     fn preloads_are_at_the_steps_that_runs_show() {
@@ -435,14 +435,8 @@ mod tests {
         let (mut inside, mut steps) = (0, 0);
         for (answer, value) in found.answers.iter().zip(found.values()) {
             let (seed, value) = (answer.seed.unwrap(), value.unwrap());
-            let force = |preload| {
-                alone(
-                    &rough,
-                    seed,
-                    Move::ToForce(preload),
-                    Quantity::AdhesionForce,
-                )
-            };
+            let force =
+                |preload| alone(&rough, seed, Move::ToForce(preload), Quantity::PullOffForce);
             assert!(force(value) >= target, "{seed}");
             if answer.crossings.is_empty() {
                 assert_eq!(answer.step, None);
@@ -477,8 +471,8 @@ mod tests {
         let rough = scene("pressure-sensitive", 2048)
             .with(|scene| scene.adhesion = None)
             .unwrap();
-        let (patches, target) = (Quantity::Fragments, 12.0);
-        let found = asked(&rough, "preload", "fragments = 12", 1, None, 1).unwrap();
+        let (patches, target) = (Quantity::Patches, 12.0);
+        let found = asked(&rough, "preload", "patches = 12", 1, None, 1).unwrap();
         let answer = &found.answers[0];
         let value = |preload| alone(&rough, 5, Move::ToForce(preload), patches);
         assert!(answer.crossings.len() >= 2, "{answer:?}");
@@ -512,7 +506,7 @@ mod tests {
                     &scene,
                     answer.seed.unwrap(),
                     Move::ToForce(1e-5),
-                    Quantity::AdhesionForce,
+                    Quantity::PullOffForce,
                 );
                 force >= 10e-6
             };
@@ -539,7 +533,7 @@ mod tests {
     #[test]
     fn ratios_are_found_from_no_preload_upwards() {
         let sphere = scene("jkr-sphere", 1 << 10);
-        let force = alone(&sphere, 0, Move::ToForce(1e-6), Quantity::AdhesionForce);
+        let force = alone(&sphere, 0, Move::ToForce(1e-6), Quantity::PullOffForce);
         for ratio in [1e-2, 1.0, 100.0, 1e6] {
             let found = asked(
                 &sphere,
@@ -610,7 +604,7 @@ mod tests {
                 &scene.unwrap(),
                 0,
                 Move::ToForce(1e-4),
-                Quantity::AdhesionForce,
+                Quantity::PullOffForce,
             )
         };
         let condition = format!("F_a = {:e} N", with_radius(2e-4));
@@ -619,7 +613,7 @@ mod tests {
             assert_eq!(found.values(), [Some(2e-4)], "{ends:?}");
         }
         let rough = scene("pressure-sensitive", 2048);
-        let stair = alone(&rough, 5, Move::ToForce(1e-5), Quantity::AdhesionForce);
+        let stair = alone(&rough, 5, Move::ToForce(1e-5), Quantity::PullOffForce);
         let ask = |range| {
             asked(
                 &rough,
@@ -632,7 +626,7 @@ mod tests {
             .unwrap()
         };
         let preload = ask(None).values()[0].unwrap();
-        let force = |preload| alone(&rough, 5, Move::ToForce(preload), Quantity::AdhesionForce);
+        let force = |preload| alone(&rough, 5, Move::ToForce(preload), Quantity::PullOffForce);
         assert!(
             preload < 1e-5
                 && force(preload) == stair
@@ -728,7 +722,7 @@ mod tests {
         ] {
             let value = |number: f64| {
                 let set = rough.set(path, &format!("{number:?}")).unwrap();
-                alone(set.scene(), 5, Move::ToForce(2e-5), Quantity::AdhesionForce)
+                alone(set.scene(), 5, Move::ToForce(2e-5), Quantity::PullOffForce)
             };
             let scene = rough
                 .scene()
@@ -738,7 +732,7 @@ mod tests {
                     rough.scene(),
                     5,
                     Move::ToForce(2e-5),
-                    Quantity::AdhesionForce,
+                    Quantity::PullOffForce,
                 );
             let found = asked(
                 &scene.unwrap(),

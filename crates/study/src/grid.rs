@@ -17,17 +17,17 @@ pub struct GridCell {
     /// [`Grid::layers`]; `None` if the quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
     /// Number of profiles in each regime of adhesion, as two counts. In the first count, the regime
-    /// follows from F_a(d=0), the adhesion force of a loading that turns at first touch
-    /// ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion force of
+    /// follows from F_a(d=0), the pull-off force of a loading that turns at first touch
+    /// ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the pull-off force of
     /// a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
     /// Returns the number of profiles in each regime of adhesion. If `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], the regime follows from F_a(F=0), the adhesion force of
+    /// [`Quantity::RegimeAfterZeroForce`], the regime follows from F_a(F=0), the pull-off force of
     /// a loading that turns at zero force. For any other quantity it follows from F_a(d=0), the
-    /// adhesion force of a loading that turns at first touch.
+    /// pull-off force of a loading that turns at first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -145,8 +145,8 @@ impl Grid {
 
     /// Returns the quantities that the grid shows, in the order of the layers. If the regimes of
     /// adhesion are known, they are added. The first quantity is then the regime that follows from
-    /// the adhesion force after first touch, F_a(d=0), and the last quantity is the regime that
-    /// follows from the adhesion force after zero force, F_a(F=0).
+    /// the pull-off force after first touch, F_a(d=0), and the last quantity is the regime that
+    /// follows from the pull-off force after zero force, F_a(F=0).
     pub fn quantities(&self) -> Vec<Quantity> {
         let [after_touch, after_zero_force] = Quantity::REGIMES;
         let mut quantities = Vec::with_capacity(self.layers.len() + 2);
@@ -221,8 +221,8 @@ impl Grid {
 
     /// Returns the most frequent regime of each [cell](GridCell), row by row. The list is empty if
     /// no regime is known in any cell. An element is `None` if the regime of the cell is not known.
-    /// The regime follows from the adhesion force after zero force, F_a(F=0), if `quantity` is
-    /// [`Quantity::RegimeAfterZeroForce`], and from the adhesion force after first touch, F_a(d=0),
+    /// The regime follows from the pull-off force after zero force, F_a(F=0), if `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], and from the pull-off force after first touch, F_a(d=0),
     /// for any other quantity. If `whole` is true, a cell that is not computed yet gets the regime
     /// of the computed cell that a map shows in its place.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {

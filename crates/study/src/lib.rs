@@ -12,7 +12,7 @@
 //! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and
 //!   [`RegimeCounts`].
 //! * One scene on many profiles: an [`Ensemble`]. [`Found`] answers a [`Question`], with an
-//!   [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a
+//!   [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the pull-off force as a
 //!   function of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene:
 //!   the [`Changed`] results for a smaller and a larger value of this number.
 //! * Functions that may take long have three arguments in common. The first states what is to be
@@ -136,7 +136,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Errors of an adhesion force, one for each source, and criteria by which other theories decide
+/// Errors of a pull-off force, one for each source, and criteria by which other theories decide
 /// whether bodies adhere.
 pub mod trust {
     pub use crate::budget::Budget;

@@ -28,21 +28,21 @@ const SHARE: f64 = 1.0 / 32.0;
 pub struct ProfileAdhesion {
     /// Seed of the random phases of the profile.
     pub seed: u64,
-    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the
+    /// Pull-off force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
-    pub adhesion_force: Option<f64>,
+    pub pull_off_force: Option<f64>,
     /// Change of F_a in N, computed to first order, if the spectrum changes at random within the
     /// uncertainty of its fit. The change is limited so that the changed force is between zero and
-    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
+    /// [`ProfileAdhesion::largest_force`]. `None` if there is no pull-off force before or after the
     /// change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion with the fitted spectrum, which follows from F_a(d=0), the adhesion force
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(d=0), the pull-off force
     /// of a loading that turns at first touch. `None` if the regime is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, which follows from F_a(F=0), the adhesion force
+    /// Regime of adhesion with the fitted spectrum, which follows from F_a(F=0), the pull-off force
     /// of a loading that turns at zero force. `None` if the regime is unknown.
     pub regime_after_zero_force: Option<Regime>,
-    /// Ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as the profile.
+    /// Ideal pull-off force F_a,max in N: the pull-off force of a flat face as long as the profile.
     /// No rough profile exceeds it. `None` if it is not known.
     #[serde(skip)]
     pub largest_force: Option<f64>,
@@ -68,20 +68,20 @@ impl ProfileAdhesion {
             })?;
         }
         let moved = run_on(&scene, line.drawn(seed, SHARE), stop)?;
-        let adhesion_force = fitted.figures.adhesion_force;
+        let pull_off_force = fitted.figures.pull_off_force;
         let mut fit_change = None;
-        if let (Some(before), Some(after)) = (adhesion_force, moved.figures.adhesion_force) {
+        if let (Some(before), Some(after)) = (pull_off_force, moved.figures.pull_off_force) {
             let change = (after - before) / SHARE;
-            let largest = fitted.ideal_adhesion_force.unwrap_or(f64::INFINITY);
+            let largest = fitted.ideal_pull_off_force.unwrap_or(f64::INFINITY);
             fit_change = Some(change.max(-before).min((largest - before).max(0.0)));
         }
         Ok(ProfileAdhesion {
             seed,
-            adhesion_force,
+            pull_off_force,
             fit_change,
             regime: fitted.regime,
             regime_after_zero_force: fitted.regime_after_zero_force,
-            largest_force: fitted.ideal_adhesion_force,
+            largest_force: fitted.ideal_pull_off_force,
         })
     }
 }
@@ -103,7 +103,7 @@ fn run_on(
 pub struct MeasuredAdhesion {
     /// Adhesion of each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
-    /// True if the uncertainty of the adhesion force due to the spectrum is known. This is so if
+    /// True if the uncertainty of the pull-off force due to the spectrum is known. This is so if
     /// the error of the elastic energy of the spectrum is at most as large as the elastic energy.
     pub is_fit_known: bool,
 }
@@ -118,7 +118,7 @@ impl MeasuredAdhesion {
         }
     }
 
-    /// Returns the ideal adhesion force F_a,max in N: the adhesion force of a flat face as long as
+    /// Returns the ideal pull-off force F_a,max in N: the pull-off force of a flat face as long as
     /// the profiles. No rough profile exceeds it. `None` if it is not known.
     pub fn largest_force(&self) -> Option<f64> {
         self.profiles.first()?.largest_force
@@ -149,7 +149,7 @@ impl MeasuredAdhesion {
     ///     folder.path().join("line.txt"),
     ///     format!("x [um] z [nm]\n{rows}"),
     /// )?;
-    /// let text = r#"(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4,
+    /// let text = r#"(version: 1, material: (modulus: 1.0e6), length: 2.56e-4,
     /// adhesion: (work: 0.05),
     /// roughness: Measured(file: "line.txt"), numerics: (points: 1024),
     /// loading: [ToForce(1.0e-4), ToSeparation])"#;
@@ -159,7 +159,7 @@ impl MeasuredAdhesion {
     /// let (low, high) = found.fit_interval().ok_or("no force")?;
     /// assert!(
     ///     found
-    ///         .adhesion_force()
+    ///         .pull_off_force()
     ///         .is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high)
     /// );
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -184,7 +184,7 @@ impl MeasuredAdhesion {
     /// a result.
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
-    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
+    /// Returns the standard deviation of the pull-off force in N due to the uncertainty of the
     /// measured spectrum, computed on `count` random profiles of a scene. `None` if the scene has
     /// more than [`MeasuredAdhesion::MOST_SPRINGS`] springs, does not make random profiles from a
     /// measured surface, or cannot be computed.
@@ -240,18 +240,18 @@ impl MeasuredAdhesion {
         })
     }
 
-    /// Returns the statistics of the adhesion force in N over the profiles, for the fitted
-    /// spectrum; `None` if no profile has an adhesion force.
-    pub fn adhesion_force(&self) -> Option<Statistics> {
+    /// Returns the statistics of the pull-off force in N over the profiles, for the fitted
+    /// spectrum; `None` if no profile has a pull-off force.
+    pub fn pull_off_force(&self) -> Option<Statistics> {
         let forces = self
             .profiles
             .iter()
-            .filter_map(|profile| profile.adhesion_force)
+            .filter_map(|profile| profile.pull_off_force)
             .collect();
-        Statistics::of(forces, Quantity::AdhesionForce.bounds())
+        Statistics::of(forces, Quantity::PullOffForce.bounds())
     }
 
-    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
+    /// Returns the standard deviation of the pull-off force in N due to the uncertainty of the
     /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles.
     /// `None` for fewer than two profiles, or if [the uncertainty is unknown](Self::is_fit_known).
     pub fn fit_deviation(&self) -> Option<f64> {
@@ -262,13 +262,13 @@ impl MeasuredAdhesion {
         rms(changes.flatten())
     }
 
-    /// Returns the interval of the median adhesion force in N: the median minus and plus the
+    /// Returns the interval of the median pull-off force in N: the median minus and plus the
     /// standard deviation due to the uncertainty of the spectrum,
     /// [`MeasuredAdhesion::fit_deviation`]. Both ends are limited to the range from zero to
     /// [`MeasuredAdhesion::largest_force`]. `None` if the deviation is unknown.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let deviation = self.fit_deviation()?;
-        let median = self.adhesion_force()?.quartiles[1];
+        let median = self.pull_off_force()?.quartiles[1];
         let largest = self.largest_force().unwrap_or(f64::INFINITY).max(median);
         let low = (median - deviation).max(0.0);
         let high = (median + deviation).min(largest);
@@ -276,8 +276,8 @@ impl MeasuredAdhesion {
     }
 
     /// Returns the number of profiles in each regime of adhesion, as two counts. In the first
-    /// count, the regime follows from F_a(d=0), the adhesion force of a loading that turns at first
-    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the adhesion
+    /// count, the regime follows from F_a(d=0), the pull-off force of a loading that turns at first
+    /// touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0), the pull-off
     /// force of a loading that turns at zero force ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let after_touch = self.profiles.iter().map(|profile| profile.regime);
@@ -307,7 +307,7 @@ mod tests {
 
     fn scene_and_line(adhesion: &str) -> (CheckedScene, EquivalentLine) {
         let text = format!(
-            "(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
+            "(version: 1, material: (modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
              roughness: Measured(file: \"none.txt\", seed: 5), numerics: (points: 1024), \
              loading: [ToForce(1.0e-4), ToSeparation])"
         );
@@ -342,7 +342,7 @@ mod tests {
                 .run(&scene, &|| false, &mut |_, _, _| Ok(()))
                 .unwrap()
                 .figures
-                .adhesion_force
+                .pull_off_force
                 .unwrap()
         };
         let (mut fitted, mut square) = (Vec::new(), 0.0);
@@ -351,7 +351,7 @@ mod tests {
                 force(line.clone(), seed),
                 force(line.drawn(seed, SHARE), seed),
             );
-            assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
+            assert_eq!((profile.seed, profile.pull_off_force), (seed, Some(one)));
             let change = (other - one) / SHARE;
             assert_eq!(profile.fit_change, Some(change));
             // The change is computed to first order: half the change of the spectrum changes the
@@ -365,7 +365,7 @@ mod tests {
             square += change.powi(2) / 6.0;
         }
         assert_eq!(
-            found.adhesion_force(),
+            found.pull_off_force(),
             Statistics::of(fitted, (0.0, f64::INFINITY))
         );
         let deviation = found.fit_deviation().unwrap();
@@ -396,7 +396,7 @@ mod tests {
         .unwrap();
         for periodic in [true, false] {
             let text = format!(
-                "(version: 1, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
+                "(version: 1, material: (modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
                  Measured(file: \"line.txt\", periodic: {periodic}), numerics: (points: 512), loading: [ToTouch, \
                  ToSeparation])"
             );
@@ -408,7 +408,7 @@ mod tests {
             let found = MeasuredAdhesion::of(&document, 1, Control::default()).unwrap();
             let outcome = asperity_scene::run(&document).unwrap();
             assert_eq!(
-                found.profiles[0].adhesion_force, outcome.figures.adhesion_force,
+                found.profiles[0].pull_off_force, outcome.figures.pull_off_force,
                 "{periodic}"
             );
         }
@@ -431,7 +431,7 @@ mod tests {
         let found = MeasuredAdhesion::of_line(&scene, &line, 6, control()).unwrap();
         let largest = found.largest_force().unwrap();
         for profile in &found.profiles {
-            let changed = profile.adhesion_force.unwrap() + profile.fit_change.unwrap();
+            let changed = profile.pull_off_force.unwrap() + profile.fit_change.unwrap();
             assert!((0.0..=largest).contains(&changed), "{profile:?}");
         }
         let (low, high) = found.fit_interval().unwrap();
@@ -440,7 +440,7 @@ mod tests {
             profiles: (0..4)
                 .map(|seed| ProfileAdhesion {
                     seed,
-                    adhesion_force: Some(0.4 * largest),
+                    pull_off_force: Some(0.4 * largest),
                     fit_change: Some(0.6 * largest),
                     regime: None,
                     regime_after_zero_force: None,

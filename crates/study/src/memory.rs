@@ -29,7 +29,7 @@ impl Plan {
                 continue;
             };
             spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
-            let peak = asperity_scene::stages::Workload::of(&scene).peak_bytes;
+            let peak = asperity_scene::workload::Workload::of(&scene).peak_bytes;
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT {
                 KEPT * points

@@ -115,7 +115,7 @@ impl Plan {
     ///     &scene,
     ///     &axes,
     ///     16,
-    ///     &[Quantity::AdhesionForce, Quantity::Regime],
+    ///     &[Quantity::PullOffForce, Quantity::Regime],
     /// )?;
     /// assert_eq!((plan.cells(), plan.records_in_all()), (6, 96));
     /// assert_eq!(

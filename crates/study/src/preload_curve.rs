@@ -1,4 +1,4 @@
-//! The adhesion force of a scene as a function of the preload.
+//! The pull-off force of a scene as a function of the preload.
 
 use crate::axis::Axis;
 use crate::error::StudyError;
@@ -24,13 +24,13 @@ const DECADES: f64 = 6.0;
 /// Relative difference up to which two preloads count as equal.
 const SAME: f64 = 1e-9;
 
-/// Adhesion force of a scene as a function of the preload, for the scene's own profile and for
+/// Pull-off force of a scene as a function of the preload, for the scene's own profile and for
 /// further random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads in N at which the random profiles are computed, as an axis.
     pub axis: Axis,
-    /// Adhesion force of the scene's own profile as a function of the preload.
+    /// Pull-off force of the scene's own profile as a function of the preload.
     pub staircase: Staircase,
     /// Results on the computed random profiles, for the preloads of `axis`. The first profile is
     /// the scene's own profile.
@@ -41,7 +41,7 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the adhesion force of a scene as a function of the preload. `outcome` is the known
+    /// Computes the pull-off force of a scene as a function of the preload. `outcome` is the known
     /// outcome of the scene, and `scale` is the scale of the preloads, linear or logarithmic. If
     /// `begun` is an incomplete curve on the same scale, only its missing parts are computed.
     /// `control` receives the curve computed so far after each part.
@@ -124,7 +124,7 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns the statistics of the adhesion force in N after a preload in N, over the computed
+    /// Returns the statistics of the pull-off force in N after a preload in N, over the computed
     /// profiles. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two
     /// profiles are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
@@ -137,7 +137,7 @@ impl PreloadCurve {
     }
 }
 
-/// Returns the preload of a computed scene in N. If the scene has no preload, its adhesion force is
+/// Returns the preload of a computed scene in N. If the scene has no preload, its pull-off force is
 /// returned.
 ///
 /// # Errors
@@ -155,10 +155,10 @@ fn preload_of(scene: &CheckedScene, outcome: &Outcome) -> Result<f64, StudyError
     }
     let Figures {
         preload,
-        adhesion_force,
+        pull_off_force,
         ..
     } = outcome.figures;
-    let preload = preload.filter(|force| *force > 0.0).or(adhesion_force);
+    let preload = preload.filter(|force| *force > 0.0).or(pull_off_force);
     preload.filter(|force| *force > 0.0).ok_or_else(|| {
         let found = "no stage presses the bodies together";
         StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
@@ -252,10 +252,10 @@ mod tests {
             (Some(4), PreloadCurve::PROFILES, true)
         );
         assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
-        // The preload of the scene is on the axis, and the adhesion force of the scene lies on the
+        // The preload of the scene is on the axis, and the pull-off force of the scene lies on the
         // staircase.
         let figures = computed.1.figures;
-        let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
+        let (preload, force) = (figures.preload.unwrap(), figures.pull_off_force.unwrap());
         let at = whole
             .staircase
             .forces

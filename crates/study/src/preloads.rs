@@ -1,4 +1,4 @@
-//! Studies in memory with preloads in N on an axis, and the adhesion force of one profile as a
+//! Studies in memory with preloads in N on an axis, and the pull-off force of one profile as a
 //! function of the preload.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
@@ -10,7 +10,7 @@ use super::results::Results;
 use super::statistics::Statistics;
 use asperity_contact::Move;
 use asperity_data::{AxisScale, Control, parse_quantity};
-use asperity_scene::fields::LEG_FORCE;
+use asperity_scene::fields::STAGE_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
 
@@ -21,7 +21,7 @@ const ALLOWED: &str = "two forces, and after colons the number of preloads and `
 
 /// Precision with which each step of a staircase is located, as a share of the axis of preloads.
 const FINEST: f64 = 1.0 / 2048.0;
-/// Relative difference up to which two adhesion forces count as equal.
+/// Relative difference up to which two pull-off forces count as equal.
 pub(super) const SAME: f64 = 1e-9;
 
 impl Axis {
@@ -105,7 +105,7 @@ impl Axis {
     ) -> Result<Axis, StudyError> {
         let (from, to) = ends;
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
-        let range = LEG_FORCE.range;
+        let range = STAGE_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
             let found = format!("from {from:?} to {to:?}");
             return Err(StudyError::refused(None, found, format!("{range} N")));
@@ -144,25 +144,25 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. The force rises in steps: at certain
+/// Pull-off force of one profile as a function of the preload. The force rises in steps: at certain
 /// preloads it jumps to a larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale, linear or logarithmic, of the axis of preloads.
     pub scale: AxisScale,
     /// Two forces of a loop that turns at first touch, in N: the force at first touch, and the
-    /// adhesion force F_a(d=0).
+    /// pull-off force F_a(d=0).
     pub touch: (f64, f64),
-    /// Adhesion force F_a(F=0) in N of a loop that turns at zero force.
+    /// Pull-off force F_a(F=0) in N of a loop that turns at zero force.
     pub zero_force: f64,
-    /// Ascending preloads in N, each with the adhesion force in N after this preload. The adhesion
+    /// Ascending preloads in N, each with the pull-off force in N after this preload. The pull-off
     /// force is 0 if the force of the unloading is never negative.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Computes the adhesion force of a checked scene at the preloads in N of an axis. Further
-    /// preloads are then added near the jumps of the adhesion force, until each jump lies between
+    /// Computes the pull-off force of a checked scene at the preloads in N of an axis. Further
+    /// preloads are then added near the jumps of the pull-off force, until each jump lies between
     /// two preloads that differ by at most 1/2048 of the axis, on the scale of the axis. `control`
     /// receives the staircase after the preloads of the axis, and again after each refinement.
     ///
@@ -180,7 +180,7 @@ impl Staircase {
     /// let simulation = &mut Simulation::default();
     /// let stairs = Staircase::of(scene.scene(), &preloads, simulation, Control::default())?;
     /// assert!(stairs.is_whole());
-    /// // The adhesion force never falls with the preload.
+    /// // The pull-off force never falls with the preload.
     /// assert!(stairs.forces.windows(2).all(|pair| pair[0].1 <= pair[1].1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -204,8 +204,8 @@ impl Staircase {
         }
         let mut staircase = Staircase {
             scale: preloads.scale(),
-            touch: (touched.force, touched.adhesion_force),
-            zero_force: at_zero_force.adhesion_force,
+            touch: (touched.force, touched.pull_off_force),
+            zero_force: at_zero_force.pull_off_force,
             forces: Vec::new(),
         };
         let mut missing = preloads.values.clone();
@@ -213,7 +213,7 @@ impl Staircase {
             let ends: Vec<Move> = missing.iter().map(|&force| Move::ToForce(force)).collect();
             let turns = turns_at(scene, &ends, simulation, stop)?;
             for (preload, turn) in missing.into_iter().zip(turns) {
-                staircase.forces.push((preload, turn.adhesion_force));
+                staircase.forces.push((preload, turn.pull_off_force));
             }
             staircase
                 .forces
@@ -250,8 +250,8 @@ impl Staircase {
         middles
     }
 
-    /// Returns the adhesion force as a function of the preload, as the corners of a polygonal line
-    /// for a chart. Each corner is a preload in N and an adhesion force in N.
+    /// Returns the pull-off force as a function of the preload, as the corners of a polygonal line
+    /// for a chart. Each corner is a preload in N and a pull-off force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let mut corners: Vec<(f64, f64)> = self.forces.first().copied().into_iter().collect();
         for pair in self.forces.windows(2) {
@@ -262,13 +262,13 @@ impl Staircase {
     }
 }
 
-/// Force at a turning point of the loading, and adhesion force of the unloading from this point.
+/// Force at a turning point of the loading, and pull-off force of the unloading from this point.
 #[derive(Clone, Copy, Default)]
 struct Turned {
     /// Force at the turning point, N.
     force: f64,
-    /// Adhesion force of the unloading, N; 0 if the force is never negative.
-    adhesion_force: f64,
+    /// Pull-off force of the unloading, N; 0 if the force is never negative.
+    pull_off_force: f64,
 }
 
 /// Moves a separated body by each of the moves `ends`, and unloads it from the end of this move.
@@ -282,7 +282,7 @@ fn turns_at(
     simulation.reverse(scene, ends, &[], stop, &mut |index, reversal| {
         turns[index] = Turned {
             force: reversal.turn.force,
-            adhesion_force: reversal.adhesion_force().unwrap_or(0.0),
+            pull_off_force: reversal.pull_off_force().unwrap_or(0.0),
         };
         Ok(())
     })?;
@@ -290,23 +290,23 @@ fn turns_at(
 }
 
 impl Results {
-    /// Quantities that are recorded in a study of the adhesion force as a function of the preload.
+    /// Quantities that are recorded in a study of the pull-off force as a function of the preload.
     pub const OF_PRELOADS: [Quantity; 4] = [
         Quantity::PreloadIndentation,
-        Quantity::AdhesionForce,
+        Quantity::PullOffForce,
         Quantity::PullOffIndentation,
         Quantity::DissipatedEnergy,
     ];
 
-    /// Returns each preload in N with the statistics of the adhesion force in N over the profiles.
+    /// Returns each preload in N with the statistics of the pull-off force in N over the profiles.
     /// The axis of the study must have preloads in N. A preload with fewer than two computed
-    /// profiles is left out. A profile on which the force is never negative has the adhesion force
+    /// profiles is left out. A profile on which the force is never negative has the pull-off force
     /// 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let mut spread = Vec::new();
         for cell in 0..self.plan.cells() {
             let (preload, forces) = self.forces_in(cell);
-            let statistics = Statistics::of(forces, Quantity::AdhesionForce.bounds());
+            let statistics = Statistics::of(forces, Quantity::PullOffForce.bounds());
             if let Some(statistics) = statistics
                 && statistics.spread.is_some()
             {
@@ -316,7 +316,7 @@ impl Results {
         spread
     }
 
-    /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in
+    /// Returns the preload in N on the axis that is nearest to `preload`, and the pull-off force in
     /// N after this preload on each computed profile. The axis of the study must have preloads in
     /// N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
@@ -333,11 +333,11 @@ impl Results {
         nearest.map(|cell| self.forces_in(cell))
     }
 
-    /// Returns the preload of a cell, and the adhesion force on each computed profile.
+    /// Returns the preload of a cell, and the pull-off force on each computed profile.
     fn forces_in(&self, cell: u64) -> (f64, Vec<f64>) {
         let mut forces = Vec::new();
         for (line, _) in self.records_of(cell) {
-            let force = self.value(cell, line, Quantity::AdhesionForce);
+            let force = self.value(cell, line, Quantity::PullOffForce);
             forces.push(force.unwrap_or(0.0));
         }
         (self.plan.value(cell, 0), forces)
@@ -399,8 +399,8 @@ mod tests {
             .unwrap();
         let found = |quantity| results.value(4, 3, quantity);
         assert_eq!(
-            found(Quantity::AdhesionForce),
-            outcome.figures.adhesion_force
+            found(Quantity::PullOffForce),
+            outcome.figures.pull_off_force
         );
         assert_eq!(
             found(Quantity::DissipatedEnergy),
@@ -416,7 +416,7 @@ mod tests {
             .map(|(_, one)| one.mean)
             .collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
-        // With twice the preload, the mean adhesion force is about twice as large.
+        // With twice the preload, the mean pull-off force is about twice as large.
         assert!(
             means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2],
             "{means:?}"
@@ -454,7 +454,7 @@ mod tests {
         for base in ["jkr-sphere", "pressure-sensitive"] {
             let text = format!(
                 "(version: 1, base: \"{base}\", set: {{\"numerics.points\": \"2048\"}}, axes: [List(path: \"preload_in_N\", \
-                 values: [2e-6, 1e-5])], record: [adhesion_force, dissipated_energy])"
+                 values: [2e-6, 1e-5])], record: [pull_off_force, dissipated_energy])"
             );
             let plan = Plan::parse(&text, base, &Changes::default()).unwrap();
             assert_eq!(
@@ -479,14 +479,14 @@ mod tests {
                     .run(&scene, &|| false, &mut |_, _, _| Ok(()))
                     .unwrap();
                 let Figures {
-                    adhesion_force,
+                    pull_off_force,
                     dissipated_energy,
                     ..
                 } = outcome.figures;
                 let record: Vec<_> = record.into_iter().map(Some).collect();
                 assert_eq!(
                     record,
-                    [adhesion_force, dissipated_energy],
+                    [pull_off_force, dissipated_energy],
                     "{base} {force}"
                 );
             }

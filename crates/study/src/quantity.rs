@@ -26,10 +26,10 @@ pub(super) enum Needs {
     Profile,
     /// The quantity needs statistics of the heights of the roughness, without the form of the body.
     Heights,
-    /// The quantity needs a loading that turns at first touch, which gives the adhesion force
+    /// The quantity needs a loading that turns at first touch, which gives the pull-off force
     /// F_a(d=0).
     Touch,
-    /// The quantity needs a loading that turns at zero force, which gives the adhesion force
+    /// The quantity needs a loading that turns at zero force, which gives the pull-off force
     /// F_a(F=0).
     ZeroForce,
     /// The quantity needs the loading to the preload or, if the study has no preloads, the loading
@@ -89,32 +89,32 @@ quantities! {
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {
-        name: "work_of_adhesion", meaning: "work of adhesion, the energy per area that opens the interface",
+        name: "work", meaning: "work of adhesion, the energy per area that opens the interface",
         symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
     }
-    IdealAdhesionForce {
-        name: "ideal_adhesion_force", meaning: "adhesion force √(πγE*L³) of a flat face of length L",
+    IdealPullOffForce {
+        name: "ideal_pull_off_force", meaning: "pull-off force √(πγE*L³) of a flat face of length L",
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
-    FirstTouchAdhesionForce {
-        name: "first_touch_adhesion_force",
-        meaning: "adhesion force F_a(d=0) of a loop that turns at first touch",
+    FirstTouchPullOffForce {
+        name: "first_touch_pull_off_force",
+        meaning: "pull-off force F_a(d=0) of a loop that turns at first touch",
         symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.first_touch,
     }
     FirstTouchAdhesionShare {
         name: "first_touch_adhesion_share",
-        meaning: "F_a(d=0) divided by the ideal adhesion force",
+        meaning: "F_a(d=0) divided by the ideal pull-off force",
         symbol: "F_a(d=0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
         of: |case| case.share(case.first_touch),
     }
-    ZeroForceAdhesionForce {
-        name: "zero_force_adhesion_force",
-        meaning: "adhesion force F_a(F=0) of a loop that turns at zero force",
+    ZeroForcePullOffForce {
+        name: "zero_force_pull_off_force",
+        meaning: "pull-off force F_a(F=0) of a loop that turns at zero force",
         symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
     }
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
-        meaning: "F_a(F=0) divided by the ideal adhesion force",
+        meaning: "F_a(F=0) divided by the ideal pull-off force",
         symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
@@ -126,16 +126,16 @@ quantities! {
         name: "preload_indentation", meaning: "indentation at the preload",
         symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.preload_indentation,
     }
-    AdhesionForce {
-        name: "adhesion_force", meaning: "adhesion force after the preload",
-        symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
+    PullOffForce {
+        name: "pull_off_force", meaning: "pull-off force after the preload",
+        symbol: "F_a", unit: "N", of: |case| case.loading.figures.pull_off_force,
     }
     AdhesionShare {
-        name: "adhesion_share", meaning: "adhesion force divided by the ideal adhesion force",
-        symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
+        name: "adhesion_share", meaning: "pull-off force divided by the ideal pull-off force",
+        symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.pull_off_force),
     }
     AdhesionCoefficient {
-        name: "adhesion_coefficient", meaning: "adhesion force divided by the preload",
+        name: "adhesion_coefficient", meaning: "pull-off force divided by the preload",
         symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
     }
     PullOffIndentation {
@@ -156,9 +156,9 @@ quantities! {
         meaning: "largest contact length on the loading, divided by the length L of the profile",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
-    Fragments {
-        name: "fragments", meaning: "number of patches at the preload",
-        of: |case| case.loading.preload.map(|point| point.fragments as f64),
+    Patches {
+        name: "patches", meaning: "number of patches at the preload",
+        of: |case| case.loading.preload.map(|point| point.patches as f64),
     }
     Regime {
         name: "regime", meaning: "regime of adhesion that follows from F_a(d=0)",
@@ -202,7 +202,7 @@ quantities! {
 }
 
 impl Quantity {
-    /// Adhesion forces without a preload, divided by the ideal adhesion force F_a,max. The first is
+    /// Pull-off forces without a preload, divided by the ideal pull-off force F_a,max. The first is
     /// F_a(d=0) of a loading that turns at first touch, the second F_a(F=0) of a loading that turns
     /// at zero force.
     pub const ADHESION_SHARES: [Quantity; 2] = [
@@ -210,12 +210,12 @@ impl Quantity {
         Quantity::ZeroForceAdhesionShare,
     ];
 
-    /// Regimes of adhesion as quantities. The first follows from F_a(d=0), the adhesion force of a
-    /// loading that turns at first touch. The second follows from F_a(F=0), the adhesion force of a
+    /// Regimes of adhesion as quantities. The first follows from F_a(d=0), the pull-off force of a
+    /// loading that turns at first touch. The second follows from F_a(F=0), the pull-off force of a
     /// loading that turns at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns words that state at which point the loading turns before the adhesion force is
+    /// Returns words that state at which point the loading turns before the pull-off force is
     /// taken: `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and `turned at first
     /// touch` for any other quantity.
     pub fn protocol(self) -> &'static str {
@@ -246,7 +246,7 @@ impl Quantity {
     }
 
     /// Returns the name of the quantity in plans and in columns of tables, such as
-    /// `adhesion_force`.
+    /// `pull_off_force`.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
@@ -317,7 +317,7 @@ impl Quantity {
     }
 
     /// Returns the meaning of the quantity as one line of text, such as
-    /// `adhesion force after the preload`.
+    /// `pull-off force after the preload`.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }

@@ -55,10 +55,10 @@ pub(super) enum Course {
     /// The quantity is monotonic: as the sought number increases, it never falls, or it never
     /// rises.
     OneWay,
-    /// The quantity is the ratio F_a/F_n of adhesion force and preload, as a function of the
+    /// The quantity is the ratio F_a/F_n of pull-off force and preload, as a function of the
     /// preload F_n.
     Ratio,
-    /// The quantity depends on the preload only through the adhesion force F_a. F_a rises in steps
+    /// The quantity depends on the preload only through the pull-off force F_a. F_a rises in steps
     /// as the preload increases. Between these steps F_a, and therefore the quantity, is constant.
     Steps,
     /// The quantity may rise and fall.
@@ -91,9 +91,9 @@ pub struct Answer {
     /// True if the quantity is at least the target. The first element is for the smallest tried
     /// number, the second for the largest. Numbers at which the quantity has no value are ignored.
     pub reached: [bool; 2],
-    /// True if F_a(d=0), the adhesion force after first touch, already reaches the target, so that
-    /// no preload is needed. Always false if no preload is sought, or if the quantity is not an
-    /// adhesion force after the preload.
+    /// True if F_a(d=0), the pull-off force after first touch, already reaches the target, so that
+    /// no preload is needed. Always false if no preload is sought, or if the quantity is not a
+    /// pull-off force after the preload.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
     /// if the quantity has no value at any of these numbers.
@@ -256,7 +256,7 @@ impl Question {
             Target::Preload { .. } => match self.quantity {
                 Quantity::AdhesionCoefficient => Course::Ratio,
                 Quantity::PullOffIndentation => Course::Steps,
-                Quantity::Fragments => Course::Unknown,
+                Quantity::Patches => Course::Unknown,
                 // A larger preload leaves more springs in contact at each indentation of the
                 // unloading. Therefore the pull-off force and the dissipated energy never fall with
                 // the preload. Quantities that do not depend on the loading are constant.
@@ -268,7 +268,7 @@ impl Question {
     }
 
     /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is
-    /// the adhesion force of a loop. With a larger work of adhesion more springs stay in contact at
+    /// the pull-off force of a loop. With a larger work of adhesion more springs stay in contact at
     /// each indentation, so this force never falls.
     fn is_adhesion_over_work(&self) -> bool {
         let is_work = matches!(self.axis.target, Target::Number(Field { path: WORK, .. }));
@@ -282,8 +282,8 @@ impl Question {
             _ => false,
         };
         let is_loop_force = match self.quantity {
-            Quantity::AdhesionForce => is_loop,
-            Quantity::FirstTouchAdhesionForce | Quantity::ZeroForceAdhesionForce => true,
+            Quantity::PullOffForce => is_loop,
+            Quantity::FirstTouchPullOffForce | Quantity::ZeroForcePullOffForce => true,
             _ => false,
         };
         let is_rigid = scene.loading_stiffness.is_none() && scene.numerics.solver == Solver::Exact;
@@ -332,13 +332,11 @@ impl Question {
 }
 
 /// Returns the quantity without a preload that corresponds to `quantity`, such as F_a(d=0) for F_a.
-/// `None` if `axis` is not the preload, or if `quantity` is no adhesion force. A loop that turns at
-/// first touch has the smallest adhesion force, since this force never falls with the preload.
+/// `None` if `axis` is not the preload, or if `quantity` is no pull-off force. A loop that turns at
+/// first touch has the smallest pull-off force, since this force never falls with the preload.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
-        (Target::Preload { .. }, Quantity::AdhesionForce) => {
-            Some(Quantity::FirstTouchAdhesionForce)
-        }
+        (Target::Preload { .. }, Quantity::PullOffForce) => Some(Quantity::FirstTouchPullOffForce),
         (Target::Preload { .. }, Quantity::AdhesionShare) => {
             Some(Quantity::FirstTouchAdhesionShare)
         }
@@ -353,7 +351,7 @@ fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
         quantity,
         Quantity::AdhesionCoefficient | Quantity::PullOffIndentation
     );
-    let steps = (axis.is_of_preloads() && follows_steps).then_some(Quantity::AdhesionForce);
+    let steps = (axis.is_of_preloads() && follows_steps).then_some(Quantity::PullOffForce);
     std::iter::once(quantity)
         .chain(at_touch(axis, quantity))
         .chain(steps)

@@ -36,7 +36,7 @@ pub(super) struct Recorder<'p> {
 #[derive(Default)]
 struct SolvedLoops {
     loadings: Vec<LoadingOutcome>,
-    /// Adhesion force F_a(d=0) in N of a loading that turns at first touch.
+    /// Pull-off force F_a(d=0) in N of a loading that turns at first touch.
     first_touch: Option<f64>,
 }
 
@@ -135,7 +135,7 @@ impl<'p> Recorder<'p> {
         let mut zero_force = None;
         if needs_zero_force {
             let loading = loadings.get(count);
-            zero_force = loading.and_then(|loading| loading.figures.adhesion_force);
+            zero_force = loading.and_then(|loading| loading.figures.pull_off_force);
         }
         loadings.truncate(count);
         let cells = (streak.cells.end - streak.cells.start) as usize;
@@ -147,7 +147,7 @@ impl<'p> Recorder<'p> {
             if needs_touch_regime || needs_regime {
                 let figures = &loading.figures;
                 let simulation = &mut self.simulation;
-                smooth = simulation.smooth_adhesion_force(&scene, &governing, figures)?;
+                smooth = simulation.smooth_pull_off_force(&scene, &governing, figures)?;
             }
             let warnings = [&loading.warnings[..], &warnings_of_scene].concat();
             let case = CaseOutcome {
@@ -214,9 +214,9 @@ impl<'p> Recorder<'p> {
         let mut solved = SolvedLoops::default();
         for loading in loops {
             let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
-            solved.first_touch = solved.first_touch.or(outcome.first_touch_adhesion_force);
+            solved.first_touch = solved.first_touch.or(outcome.first_touch_pull_off_force);
             let own_profile = self.simulation.profile(scene)?;
-            let loading = LoadingOutcome::of_legs(outcome.history.legs, &own_profile);
+            let loading = LoadingOutcome::of_stages(outcome.history.stages, &own_profile);
             solved.loadings.push(loading);
         }
         Ok(solved)
@@ -238,7 +238,7 @@ impl<'p> Recorder<'p> {
                 loadings[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
                 Ok(())
             })?;
-        let mut first_touch = loadings.remove(0).figures.adhesion_force;
+        let mut first_touch = loadings.remove(0).figures.pull_off_force;
         if governing.adhesive_work().is_none() {
             first_touch = None;
         }
@@ -315,8 +315,8 @@ impl<'p> Recorder<'p> {
         let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
         let mut lengths = Vec::new();
         let mut forces = Vec::new();
-        for leg in &outcome.history.legs {
-            let Some(end) = leg.curve.last() else {
+        for stage in &outcome.history.stages {
+            let Some(end) = stage.curve.last() else {
                 continue;
             };
             if end.force > 0.0 && end.indentation > 0.0 {

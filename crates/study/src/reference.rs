@@ -22,25 +22,25 @@ pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square surface, a power of two.
     pub cells: usize,
     /// Number of random square surfaces in three dimensions.
-    pub maps: u64,
+    pub surfaces: u64,
     /// Number of random profiles, the one-dimensional model of the surfaces.
-    pub lines: u64,
+    pub profiles: u64,
 }
 
 /// Number of random profiles for each square surface. A profile takes about a thousandth of the
 /// computing time of a square surface.
-const LINES_PER_MAP: u64 = 16;
+const PROFILES_PER_SURFACE: u64 = 16;
 
 impl ReferenceOptions {
     /// Returns the usual options for a scene: 64 grid cells along the side of a square surface, and
-    /// 16 random profiles for each square surface. `maps` is the number of square surfaces. `None`
+    /// 16 random profiles for each square surface. `surfaces` is the number of square surfaces. `None`
     /// means 12 square surfaces for a scene with adhesion, and 24 without adhesion.
-    pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
-        let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
+    pub fn of(scene: &Scene, surfaces: Option<u64>) -> ReferenceOptions {
+        let surfaces = surfaces.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions {
             cells: 64,
-            maps,
-            lines: LINES_PER_MAP * maps,
+            surfaces,
+            profiles: PROFILES_PER_SURFACE * surfaces,
         }
     }
 }
@@ -139,12 +139,12 @@ pub struct Reference {
     /// Forces that are left out of [`Reference::loading`], because fewer than
     /// [`Loaded::LEAST_CELLS`] grid cells of a square surface are in contact.
     pub left_out: Vec<LeftOut>,
-    /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
+    /// Comparison of the pull-off force F_a in N after the preload; `None` for a scene without
     /// adhesion.
-    pub adhesion_force: Option<Compared>,
-    /// Comparison of the adhesion force F_a(d=0) in N of a loop that turns at first touch; `None`
+    pub pull_off_force: Option<Compared>,
+    /// Comparison of the pull-off force F_a(d=0) in N of a loop that turns at first touch; `None`
     /// for a scene without adhesion.
-    pub first_touch_adhesion_force: Option<Compared>,
+    pub first_touch_pull_off_force: Option<Compared>,
     /// Comparison of the energy in J that the contact loses in the loop to the preload and back;
     /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
@@ -152,7 +152,7 @@ pub struct Reference {
     /// exact. Every difference between profile and square surface is then an error of the square
     /// surface.
     pub line_is_exact: bool,
-    /// Errors of the comparison, one for each source of errors. They are errors of the adhesion
+    /// Errors of the comparison, one for each source of errors. They are errors of the pull-off
     /// force, or of the indentation at the preload for a scene without adhesion.
     pub budget: ReferenceBudget,
     /// Premises of the model that profiles of the scene do not meet, each with the number of
@@ -180,7 +180,7 @@ pub enum ReferenceEvent {
     /// estimated.
     Begins {
         /// Number of square surfaces. It is 1 for a body without random roughness.
-        maps: u64,
+        surfaces: u64,
         /// Number of threads that share the square surfaces.
         threads: usize,
         /// Memory in bytes that all threads need together.
@@ -199,7 +199,7 @@ pub enum ReferenceEvent {
     },
     /// All profiles are computed, and the computation of the square surfaces begins.
     ProfilesEnd {
-        /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene
+        /// Pull-off force of each profile in N, or its indentation at the preload in m if the scene
         /// has no adhesion.
         lines: Vec<f64>,
     },
@@ -214,7 +214,7 @@ pub enum ReferenceEvent {
         /// Points of the force curve of the square surface, each with indentation in m and force in
         /// N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square surface in N, or its indentation at the preload in m if the
+        /// Pull-off force of the square surface in N, or its indentation at the preload in m if the
         /// scene has no adhesion.
         headline: f64,
     },
@@ -224,14 +224,14 @@ impl Reference {
     /// Returns the number of profiles on which the premises of the model were checked. These are
     /// the first profiles of the comparison, at most [`Ensemble::PROFILES`].
     pub fn profiles_for_warnings(&self) -> u64 {
-        self.options.lines.min(Ensemble::PROFILES)
+        self.options.profiles.min(Ensemble::PROFILES)
     }
 
-    /// Returns the comparison of the adhesion force, or of the indentation at the preload if the
+    /// Returns the comparison of the pull-off force, or of the indentation at the preload if the
     /// scene has no adhesion. `None` if the scene has no adhesion and no force is compared, because
     /// too few grid cells are in contact.
     pub fn headline(&self) -> Option<&Compared> {
-        self.adhesion_force
+        self.pull_off_force
             .as_ref()
             .or(self.loading.last().map(|last| &last.indentation))
     }
@@ -249,13 +249,13 @@ mod tests {
     fn reference(
         scene: &CheckedScene,
         cells: usize,
-        maps: u64,
+        surfaces: u64,
         jobs: usize,
     ) -> Result<Reference, StudyError> {
         let options = ReferenceOptions {
             cells,
-            maps,
-            lines: 16 * maps,
+            surfaces,
+            profiles: 16 * surfaces,
         };
         let control = Control::default().on_threads(jobs);
         Reference::of(scene, options, &mut Simulation::default(), control)
@@ -287,7 +287,7 @@ mod tests {
         let scene = open("jkr-sphere").unwrap();
         let found = reference(scene.scene(), 64, 3, 1).unwrap();
         assert_eq!(
-            (found.options.maps, found.options.lines, found.waves),
+            (found.options.surfaces, found.options.profiles, found.waves),
             (1, 1, None)
         );
         assert!(found.loading.len() >= 3, "{:?}", found.left_out);
@@ -302,7 +302,7 @@ mod tests {
         let last = found.loading.last().unwrap();
         assert!(last.indentation.difference().abs() < 0.01, "{last:?}");
         assert!(last.stiffness.difference().abs() < 0.03, "{last:?}");
-        let force = found.adhesion_force.unwrap();
+        let force = found.pull_off_force.unwrap();
         assert!((force.ratio - 1.0).abs() < 0.15, "{force:?}");
         let budget = found.budget;
         assert!(found.line_is_exact && found.roughness.is_none());
@@ -435,8 +435,8 @@ mod tests {
             };
             let options = ReferenceOptions {
                 cells: 32,
-                maps: 3,
-                lines: 48,
+                surfaces: 3,
+                profiles: 48,
             };
             let control = Control::default().on_threads(1).reporting_to(&mut report);
             let reference = Reference::of(
@@ -481,8 +481,8 @@ mod tests {
         let few = reference(document.scene(), 32, 1, 1).unwrap();
         let many = reference(coarse_square().scene(), 32, 1, 1).unwrap();
         assert_eq!(
-            (few.loading, few.adhesion_force),
-            (many.loading, many.adhesion_force)
+            (few.loading, few.pull_off_force),
+            (many.loading, many.pull_off_force)
         );
         assert_eq!(few.dissipated_energy, many.dissipated_energy);
     }
@@ -495,7 +495,7 @@ mod tests {
             "{light:?}"
         );
         assert!(
-            light.adhesion_force.is_some() && light.left_out[5].cells < 4.0,
+            light.pull_off_force.is_some() && light.left_out[5].cells < 4.0,
             "{:?}",
             light.left_out
         );
@@ -533,8 +533,8 @@ mod tests {
         let found = reference(document.scene(), 64, 3, 2).unwrap();
         let last = found.loading.last().unwrap().indentation;
         let pulled = [
-            found.adhesion_force,
-            found.first_touch_adhesion_force,
+            found.pull_off_force,
+            found.first_touch_pull_off_force,
             found.dissipated_energy,
         ]
         .map(Option::unwrap);

@@ -5,7 +5,7 @@ use super::compared::Compared;
 use serde::Serialize;
 
 /// Errors of a [`Reference`](super::reference::Reference), one for each source of errors. All
-/// except `solver` are relative errors of the adhesion force, or of the indentation at the preload
+/// except `solver` are relative errors of the pull-off force, or of the indentation at the preload
 /// if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
@@ -13,7 +13,7 @@ pub struct ReferenceBudget {
     /// square surface. The gap is the distance between the bodies at a grid cell, and the largest
     /// error over all grid cells of all surfaces is taken.
     pub solver: f64,
-    /// Error due to the grid of the square surfaces: that of the mean adhesion force (without
+    /// Error due to the grid of the square surfaces: that of the mean pull-off force (without
     /// adhesion, of the mean indentation) over these surfaces. It is the relative difference
     /// between this mean and the mean over the same surfaces with half as many grid cells along the
     /// side. `None` if half as many cells are too few.
@@ -26,7 +26,7 @@ pub struct ReferenceBudget {
     /// confidence interval of [`Compared::ratio`], divided by this ratio. `None` for fewer than two
     /// profiles or square surfaces.
     pub sample: Option<f64>,
-    /// Relative difference of the adhesion force (without adhesion, of the indentation) between
+    /// Relative difference of the pull-off force (without adhesion, of the indentation) between
     /// profiles and square surfaces: its mean over the profiles divided by its mean over the square
     /// surfaces, minus 1. `None` if the difference is unknown.
     pub difference: Option<f64>,
@@ -48,7 +48,7 @@ pub(super) struct Bodies {
 }
 
 impl ReferenceBudget {
-    /// Collects the errors. `headline` is the comparison of the adhesion force or, without
+    /// Collects the errors. `headline` is the comparison of the pull-off force or, without
     /// adhesion, of the indentation. `solver` is the error [`ReferenceBudget::solver`].
     pub(super) fn new(solver: f64, headline: Option<&Compared>, bodies: Bodies) -> ReferenceBudget {
         let mut budget = ReferenceBudget {

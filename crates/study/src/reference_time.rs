@@ -69,27 +69,27 @@ impl SquareTime {
         }
     }
 
-    /// Returns the computing time in s of `maps` square surfaces on `threads` threads.
-    pub fn of_squares(&self, maps: u64, threads: usize) -> f64 {
-        self.seconds * maps.div_ceil(threads as u64) as f64
+    /// Returns the computing time in s of `surfaces` square surfaces on `threads` threads.
+    pub fn of_squares(&self, surfaces: u64, threads: usize) -> f64 {
+        self.seconds * surfaces.div_ceil(threads as u64) as f64
     }
 
     /// Returns the share of one load (force or indentation) of one square surface in the
-    /// computation of `maps` square surfaces.
-    pub fn share_of_load(&self, maps: u64) -> f64 {
-        1.0 / (self.loads.max(1) as f64 * maps as f64)
+    /// computation of `surfaces` square surfaces.
+    pub fn share_of_load(&self, surfaces: u64) -> f64 {
+        1.0 / (self.loads.max(1) as f64 * surfaces as f64)
     }
 }
 
-/// Returns an error if the comparison takes longer than a day. The comparison has `maps` square
+/// Returns an error if the comparison takes longer than a day. The comparison has `surfaces` square
 /// surfaces with `cells` grid cells along the side.
 pub fn check_time(
     cells: usize,
-    maps: u64,
+    surfaces: u64,
     threads: usize,
     time: &SquareTime,
 ) -> Result<(), StudyError> {
-    let seconds = time.of_squares(maps, threads);
+    let seconds = time.of_squares(surfaces, threads);
     if seconds <= LONGEST {
         return Ok(());
     }
@@ -104,12 +104,12 @@ pub fn check_time(
         String::new()
     };
     let days = format_rounded(seconds / LONGEST, 2, "1");
-    let squares_found = if maps == 1 {
+    let squares_found = if surfaces == 1 {
         "square takes"
     } else {
         "squares take"
     };
-    let found = format!("{maps} {squares_found} about {days} days, longer than one day");
+    let found = format!("{surfaces} {squares_found} about {days} days, longer than one day");
     let allowed = format!("a grid of at most {grid} cells along the side{squares}");
     Err(StudyError::refused(
         Some(&format!("{cells} cells")),
@@ -129,8 +129,8 @@ mod tests {
             loads: 100,
             is_adhesive: false,
         };
-        let refused = |maps, days| {
-            check_time(1024, maps, 1, &time(days))
+        let refused = |surfaces, days| {
+            check_time(1024, surfaces, 1, &time(days))
                 .unwrap_err()
                 .to_string()
         };

@@ -81,7 +81,7 @@ impl Resolved {
                 shells: None,
                 adhesive_height_factor: 1.0,
                 side: scene.length,
-                effective_modulus: governing.effective_modulus,
+                modulus: governing.modulus,
                 works: governing.adhesive_works(),
             },
             line_roughness: None,
@@ -180,9 +180,9 @@ impl Resolved {
         let line = ComparedRoughness {
             rms_height: amplitude.rms_height,
             rms_gradient: amplitude.rms_gradient,
-            elastic_energy: amplitude.elastic_energy(self.body.effective_modulus),
+            elastic_energy: amplitude.elastic_energy(self.body.modulus),
         };
-        let square = shells.roughness(self.body.effective_modulus);
+        let square = shells.roughness(self.body.modulus);
         if square.elastic_energy > 0.0 {
             self.body.adhesive_height_factor = (line.elastic_energy / square.elastic_energy).sqrt();
         }

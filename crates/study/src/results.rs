@@ -475,11 +475,11 @@ impl Results {
     /// use asperity_study::{Plan, Quantity, compute};
     ///
     /// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "1024")?;
-    /// let plan = Plan::new(&scene, &[], 5, &[Quantity::AdhesionForce, Quantity::Regime])?;
+    /// let plan = Plan::new(&scene, &[], 5, &[Quantity::PullOffForce, Quantity::Regime])?;
     /// let results = compute(&plan, Control::default())?;
-    /// let force = results.statistics(0, Quantity::AdhesionForce).ok_or("no profile pulls")?;
+    /// let force = results.statistics(0, Quantity::PullOffForce).ok_or("no profile pulls")?;
     /// assert_eq!((force.count, results.regimes(0)[0].profiles()), (5, 5));
-    /// assert_eq!(results.values(0, Quantity::AdhesionForce).len(), 5);
+    /// assert_eq!(results.values(0, Quantity::PullOffForce).len(), 5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
@@ -487,9 +487,9 @@ impl Results {
     }
 
     /// Returns the number of profiles of a [cell](Plan) in each regime of adhesion, as two counts.
-    /// In the first count, the regime follows from F_a(d=0), the adhesion force of a loading that
+    /// In the first count, the regime follows from F_a(d=0), the pull-off force of a loading that
     /// turns at first touch ([`Quantity::Regime`]). In the second count, it follows from F_a(F=0),
-    /// the adhesion force of a loading that turns at zero force
+    /// the pull-off force of a loading that turns at zero force
     /// ([`Quantity::RegimeAfterZeroForce`]).
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         Quantity::REGIMES.map(|quantity| {

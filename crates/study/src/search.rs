@@ -15,7 +15,7 @@ use asperity_scene::{RunError, Simulation};
 use std::cmp::Ordering;
 
 /// Relative difference up to which a value counts as equal to the target. Energies are constant
-/// between two steps of the adhesion force, but have rounding errors.
+/// between two steps of the pull-off force, but have rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 impl Question {
@@ -157,7 +157,7 @@ impl Search<'_> {
             let stairs = self.climb(&[from.max(0.0), to])?;
             let is_zero = stairs
                 .first()
-                .is_some_and(|stair| stair.adhesion_force <= 0.0);
+                .is_some_and(|stair| stair.pull_off_force <= 0.0);
             answer
                 .crossings
                 .extend((to > 0.0 && is_zero).then_some(from.max(0.0)));
@@ -207,7 +207,7 @@ impl Search<'_> {
         let jumps = coordinates.is_discrete()
             || matches!(
                 self.question.quantity,
-                Quantity::Fragments | Quantity::PullOffIndentation
+                Quantity::Patches | Quantity::PullOffIndentation
             );
         answer.may_miss = scan.may_miss() || (jumps && !scan.is_complete());
         // The quantity may be equal to the target at the first number.
@@ -287,7 +287,7 @@ impl Search<'_> {
         Ok(self.compute(&[number])?[0][0])
     }
 
-    /// Computes the adhesion force and the quantity at several preloads. The adhesion force is 0 if
+    /// Computes the pull-off force and the quantity at several preloads. The pull-off force is 0 if
     /// the force of the unloading is never negative.
     fn climb(&mut self, preloads: &[f64]) -> Result<Vec<Stair>, RunError> {
         let records = self.compute(preloads)?;
@@ -296,7 +296,7 @@ impl Search<'_> {
             let force = values.last().copied().unwrap_or_default();
             stairs.push(Stair {
                 preload,
-                adhesion_force: force.max(0.0),
+                pull_off_force: force.max(0.0),
                 value: values[0],
             });
         }

@@ -125,7 +125,7 @@ impl Selection {
             }
         };
         let mut scale = self.scale;
-        // The adhesion forces turned at first touch and at zero force share one scale, so that
+        // The pull-off forces turned at first touch and at zero force share one scale, so that
         // their panels can be compared.
         let are_shares = quantities
             .iter()
@@ -165,7 +165,7 @@ impl Selection {
             Quantity::FirstTouchAdhesionShare,
             Quantity::AdhesionCoefficient,
         ];
-        // If F_a/F_n is not recorded, the figure compares the two adhesion forces without a
+        // If F_a/F_n is not recorded, the figure compares the two pull-off forces without a
         // preload.
         let usual = if recorded.contains(&Quantity::AdhesionCoefficient) {
             paper

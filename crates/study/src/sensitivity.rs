@@ -105,11 +105,11 @@ impl Sensitivity {
     /// changes by at least one. [`Influence::step`] returns the actual change.
     pub const STEP: f64 = 0.1;
 
-    /// Results whose changes are computed: the adhesion force F_a, the adhesion force F_a(d=0)
+    /// Results whose changes are computed: the pull-off force F_a, the pull-off force F_a(d=0)
     /// after first touch, and the dissipated energy.
     pub const RESULTS: [Quantity; 3] = [
-        Quantity::AdhesionForce,
-        Quantity::FirstTouchAdhesionForce,
+        Quantity::PullOffForce,
+        Quantity::FirstTouchPullOffForce,
         Quantity::DissipatedEnergy,
     ];
 
@@ -216,12 +216,12 @@ impl Sensitivity {
         })
     }
 
-    /// Returns a sentence with the reason why no changes of the adhesion force are known; `None` if
-    /// the scene has an adhesion force.
+    /// Returns a sentence with the reason why no changes of the pull-off force are known; `None` if
+    /// the scene has a pull-off force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known).then_some(
-            "The scene has no pull-off: there is no adhesion force that a number could change.",
+            "The scene has no pull-off: there is no pull-off force that a number could change.",
         )
     }
 
@@ -437,7 +437,7 @@ mod tests {
         found
     }
 
-    /// The adhesion force of a sphere is (3/2)πγR. It is proportional to γ and to R, and depends on
+    /// The pull-off force of a sphere is (3/2)πγR. It is proportional to γ and to R, and depends on
     /// no other number.
     #[test]
     fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
@@ -485,7 +485,7 @@ mod tests {
             let run = Simulation::default()
                 .run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
                 .unwrap();
-            run.figures.adhesion_force
+            run.figures.pull_off_force
         };
         for (waves, modes, path, sides) in [
             (
@@ -632,7 +632,7 @@ mod tests {
                 let run =
                     Simulation::default()
                         .run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(()));
-                run.unwrap().figures.adhesion_force.unwrap()
+                run.unwrap().figures.pull_off_force.unwrap()
             };
             (5..21).map(force).collect::<Vec<f64>>()
         };

@@ -153,8 +153,8 @@ impl Shells {
         self.spectrum.variance_of_surface(waves, self.side) / waves
     }
 
-    /// Returns the roughness of the square surface. `effective_modulus` is in Pa.
-    pub fn roughness(&self, effective_modulus: f64) -> ComparedRoughness {
+    /// Returns the roughness of the square surface. `modulus` is in Pa.
+    pub fn roughness(&self, modulus: f64) -> ComparedRoughness {
         let mut height = 0.0;
         let mut slope = 0.0;
         let mut gradient = 0.0;
@@ -168,7 +168,7 @@ impl Shells {
         ComparedRoughness {
             rms_height: height.sqrt(),
             rms_gradient: gradient.sqrt(),
-            elastic_energy: 0.25 * effective_modulus * slope,
+            elastic_energy: 0.25 * modulus * slope,
         }
     }
 }

@@ -36,7 +36,7 @@ pub(super) struct Body {
     /// Side L of the square, m.
     pub side: f64,
     /// Effective modulus E*, Pa.
-    pub effective_modulus: f64,
+    pub modulus: f64,
     /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
 }
@@ -136,9 +136,9 @@ pub(super) struct Pressing {
 /// Results of the loops of a square surface with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
-    /// Adhesion force, N.
-    pub adhesion_force: f64,
-    /// Adhesion force in N of a loop that turns at first touch.
+    /// Pull-off force, N.
+    pub pull_off_force: f64,
+    /// Pull-off force in N of a loop that turns at first touch.
     pub at_touch: f64,
     /// Dissipated energy, J.
     pub dissipated_energy: f64,
@@ -159,11 +159,11 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Returns the main result: the adhesion force in N or, without adhesion, the indentation in m
+    /// Returns the main result: the pull-off force in N or, without adhesion, the indentation in m
     /// at the last force. `None` if no load is computed.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
-            Some(pulling) => Some(pulling.adhesion_force),
+            Some(pulling) => Some(pulling.pull_off_force),
             None => Some(self.pressings.last()?.indentation),
         }
     }
@@ -213,8 +213,8 @@ impl Body {
         loads.convolutions += touched.body.convolutions() + pressed.body.convolutions();
         loads.count += (touched.curve.len() + pressed.curve.len()) as u64;
         loads.pulling = Some(Pulling {
-            at_touch: touched.adhesion_force(),
-            adhesion_force: pressed.adhesion_force(),
+            at_touch: touched.pull_off_force(),
+            pull_off_force: pressed.pull_off_force(),
             dissipated_energy: work(&pressed.curve).max(0.0),
             curve: pressed.curve,
         });
@@ -266,7 +266,7 @@ impl Body {
         Square {
             heights,
             side: self.side,
-            effective_modulus: self.effective_modulus,
+            modulus: self.modulus,
         }
     }
 
@@ -382,7 +382,7 @@ impl<'a> Loop<'a> {
     }
 
     /// Returns the largest tensile force of the loop in N.
-    fn adhesion_force(&self) -> f64 {
+    fn pull_off_force(&self) -> f64 {
         self.curve
             .iter()
             .map(|(_, force)| -force)

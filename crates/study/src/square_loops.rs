@@ -14,14 +14,14 @@ use asperity_scene::{CheckedScene, Simulation};
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of square surfaces in the complete comparison.
-    pub maps: u64,
+    pub surfaces: u64,
     /// Force curve of each computed square surface from first touch on: points with indentation in
     /// m and force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force of each random profile in N, or its indentation at the preload in m if the
+    /// Pull-off force of each random profile in N, or its indentation at the preload in m if the
     /// scene has no adhesion.
     pub lines: Vec<f64>,
-    /// Adhesion force of each computed square surface in N, or its indentation at the preload in m
+    /// Pull-off force of each computed square surface in N, or its indentation at the preload in m
     /// if the scene has no adhesion.
     pub squares: Vec<f64>,
     /// Estimated share of the computation of the square surfaces that is done, from 0 to 1.
@@ -62,7 +62,7 @@ impl SquareLoops {
     /// Adds the data of an event. Returns true if the loops on the screen have to be drawn again.
     fn take_in(&mut self, event: &ReferenceEvent) -> bool {
         match event {
-            ReferenceEvent::Begins { maps, .. } => self.maps = *maps,
+            ReferenceEvent::Begins { surfaces, .. } => self.surfaces = *surfaces,
             ReferenceEvent::Profiles { .. } => return false,
             ReferenceEvent::ProfilesEnd { lines } => {
                 self.lines.clone_from(lines);
@@ -83,7 +83,7 @@ impl SquareLoops {
         true
     }
 
-    /// Returns the comparison of the adhesion force on profiles with the adhesion force on square
+    /// Returns the comparison of the pull-off force on profiles with the pull-off force on square
     /// surfaces. If the scene has no adhesion, the indentations at the preload are compared. `None`
     /// before the first square surface is computed.
     pub fn headline(&self) -> Option<Compared> {
@@ -199,7 +199,7 @@ mod tests {
         let mut counts = Vec::new();
         let mut shares = Vec::new();
         let mut report = |loops: &SquareLoops| {
-            counts.push((loops.maps, loops.curves.len()));
+            counts.push((loops.surfaces, loops.curves.len()));
             shares.push(loops.share);
         };
         let control = Control::default().on_threads(1).reporting_to(&mut report);
@@ -220,7 +220,7 @@ mod tests {
             .map(|point| -point.1)
             .fold(0.0, f64::max);
         assert_eq!(vec![lowest], loops.squares);
-        let compared = loops.reference.as_ref().unwrap().adhesion_force;
+        let compared = loops.reference.as_ref().unwrap().pull_off_force;
         let ratio = compared.unwrap().ratio;
         assert_eq!(Some(ratio), loops.headline().map(|headline| headline.ratio));
         assert!((ratio - 1.0).abs() < 0.15, "{ratio}");

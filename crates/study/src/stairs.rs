@@ -1,5 +1,5 @@
 //! Crossings of quantities that depend on the preload only through the preload itself and the
-//! adhesion force F_a. F_a rises in steps and is constant between two steps.
+//! pull-off force F_a. F_a rises in steps and is constant between two steps.
 
 use super::bracket::WITHIN;
 use super::coordinates::Coordinates;
@@ -21,11 +21,11 @@ const FROM_ZERO: f64 = 16.0;
 /// share of the range in coordinates.
 const NARROWEST: f64 = 1.0 / 4096.0;
 
-/// A preload in N with the adhesion force F_a in N after this preload, and the value of a quantity.
+/// A preload in N with the pull-off force F_a in N after this preload, and the value of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stair {
     pub preload: f64,
-    pub adhesion_force: f64,
+    pub pull_off_force: f64,
     pub value: f64,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Crossings {
     pub may_miss: bool,
 }
 
-/// Interval between two preloads, with the adhesion force at each end.
+/// Interval between two preloads, with the pull-off force at each end.
 #[derive(Clone, Copy, Debug)]
 struct Flight {
     low: Stair,
@@ -57,8 +57,8 @@ enum Found {
 
 impl Flight {
     fn has_step(&self) -> bool {
-        let low = self.low.adhesion_force;
-        let high = self.high.adhesion_force;
+        let low = self.low.pull_off_force;
+        let high = self.high.pull_off_force;
         high - low > SAME * high.abs()
     }
 
@@ -68,10 +68,10 @@ impl Flight {
     fn look(&self, ratio: f64, depth: usize, range: f64) -> Found {
         let low = self.low;
         let high = self.high;
-        let is_above = [low, high].map(|stair| stair.adhesion_force - ratio * stair.preload > 0.0);
+        let is_above = [low, high].map(|stair| stair.pull_off_force - ratio * stair.preload > 0.0);
         let crossed = is_above[0] != is_above[1];
         if !self.has_step() {
-            let crossing = (low.adhesion_force / ratio).clamp(low.preload, high.preload);
+            let crossing = (low.pull_off_force / ratio).clamp(low.preload, high.preload);
             return if crossed {
                 Found::Crossing(crossing)
             } else {
@@ -80,7 +80,7 @@ impl Flight {
         }
         // F_a never falls, so inside the interval it lies between its values at the ends. These
         // values show that F_a over the preload cannot cross the target `ratio`.
-        if high.adhesion_force < ratio * low.preload || low.adhesion_force > ratio * high.preload {
+        if high.pull_off_force < ratio * low.preload || low.pull_off_force > ratio * high.preload {
             return Found::Nothing;
         }
         let width = high.preload - low.preload;
@@ -97,7 +97,7 @@ impl Flight {
         // the lower end is below the target, the interval is divided where F_a of the upper end
         // gives the target: at higher preloads the quotient is smaller than the target.
         let stair = if is_above[0] { low } else { high };
-        let preload = at_most(stair.adhesion_force, ratio);
+        let preload = at_most(stair.pull_off_force, ratio);
         if depth.is_multiple_of(2) && low.preload < preload && preload < high.preload {
             return Found::Split(preload);
         }
@@ -125,7 +125,7 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Returns the preloads in N at which the adhesion force F_a is `ratio` times the preload. `ends`
+/// Returns the preloads in N at which the pull-off force F_a is `ratio` times the preload. `ends`
 /// are the smallest and the largest searched preload in N, zero or above. `ratio` is above zero.
 pub(super) fn ratio_crossings(
     ends: [f64; 2],
@@ -179,7 +179,7 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Finds the crossings of a quantity that is constant except where the adhesion force F_a jumps.
+/// Finds the crossings of a quantity that is constant except where the pull-off force F_a jumps.
 /// Returns pairs of neighbouring preloads between which the quantity crosses the target. The second
 /// value is true if a pair may be missing. A pair may be missing if two jumps are closer together
 /// than the computed preloads.
@@ -239,19 +239,19 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns a stair at each preload. Its adhesion force is that of the last step at or below the
-    /// preload. `steps` are pairs of preload and adhesion force.
+    /// Returns a stair at each preload. Its pull-off force is that of the last step at or below the
+    /// preload. `steps` are pairs of preload and pull-off force.
     fn stairs(steps: &[(f64, f64)], preloads: &[f64]) -> Vec<Stair> {
         let stair = |&preload: &f64| {
-            let adhesion_force = steps
+            let pull_off_force = steps
                 .iter()
                 .rev()
                 .find(|step| step.0 <= preload)
                 .map_or(0.0, |step| step.1);
             Stair {
                 preload,
-                adhesion_force,
-                value: adhesion_force / preload,
+                pull_off_force,
+                value: pull_off_force / preload,
             }
         };
         preloads.iter().map(stair).collect()

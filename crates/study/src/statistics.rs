@@ -64,7 +64,7 @@ pub struct Spread {
     /// this bound.
     ///
     /// The interval assumes that the mean of the values is normally distributed. If few of many
-    /// profiles make most of the mean, the interval is too narrow: for the adhesion force after
+    /// profiles make most of the mean, the interval is too narrow: for the pull-off force after
     /// first touch, F_a(d=0), it contains the mean of infinitely many profiles in about 82 of 100
     /// cases with 8 profiles, in 86 with 32 and in 92 with 64. [`Statistics::median_interval`] has
     /// no such assumption.
@@ -84,7 +84,7 @@ impl Statistics {
     /// use asperity_study::{Quantity, Statistics};
     ///
     /// let forces = vec![1e-6, 4e-6, 2e-6, 3e-6, f64::NAN]; // N; a missing value is left out
-    /// let all = Statistics::of(forces, Quantity::AdhesionForce.bounds()).expect("four values");
+    /// let all = Statistics::of(forces, Quantity::PullOffForce.bounds()).expect("four values");
     /// assert_eq!((all.count, all.range, all.quartiles[0]), (4, (1e-6, 4e-6), 1.75e-6));
     /// assert_eq!(Statistics::of(Vec::new(), (0.0, 1.0)), None);
     /// ```

@@ -99,7 +99,7 @@ impl Folder {
     ///     &scene,
     ///     &[("adhesion.work", &[0.01, 0.02])],
     ///     1,
-    ///     &[Quantity::AdhesionForce],
+    ///     &[Quantity::PullOffForce],
     /// )?;
     /// let place = tempfile::tempdir()?;
     /// let folder = Folder::create(place.path(), &plan)?;

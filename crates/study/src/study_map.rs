@@ -244,7 +244,7 @@ mod tests {
         title: "A study",
         scene: (
             version: 1,
-            material: (effective_modulus: 2.0e6),
+            material: (modulus: 2.0e6),
             length: 1.0e-4,
             roughness: SelfAffine(hurst: 0.5, rms_height: 1.0e-7, modes: (1, 32), seed: 1),
             numerics: (points: 128),
@@ -388,9 +388,9 @@ mod tests {
             assert_eq!(place(followed.scene()), Some((3.0, 0.25)));
         }
         let unpressed = self::study_map(&PLAN.replace("preloads: [0.5, 2.0],", ""));
-        let legs = unpressed.document().unwrap().scene().loading.clone();
-        assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
-        let other = document.set("material.effective_modulus", "3.0e6").unwrap();
+        let stages = unpressed.document().unwrap().scene().loading.clone();
+        assert_eq!(stages, unpressed.plan().scene.loading, "that of the plan");
+        let other = document.set("material.modulus", "3.0e6").unwrap();
         assert!(!study_map.is_of(0, other.scene()));
         assert!(!study_map.is_of(0, asperity_scene::open("jkr-sphere").unwrap().scene()));
     }

@@ -287,7 +287,7 @@ impl Results {
         let record = &self.plan.record;
         let rows = Table::of(|| (0..self.plan.cells()).filter_map(|cell| self.summary_row(cell)));
         let mut table = with_cell(&self.plan, rows, |row: &SummaryRow<'_>| row.cell);
-        table = table.whole("lines", |row| row.results.regimes[0].profiles() as u64);
+        table = table.whole("profiles", |row| row.results.regimes[0].profiles() as u64);
         for (place, quantity) in record.iter().enumerate() {
             if quantity.is_regime() {
                 for (index, regime) in Regime::ALL.into_iter().enumerate() {

@@ -17,7 +17,7 @@ Examples:
   asperity sweep plot study                          A figure for the terminal
   asperity sweep plot study --width 85mm -o map.pdf  ... and one for a paper
   asperity sweep plot study --at roughness.hurst=0.3 A curve over the axis that is left
-  asperity sweep plot study --quantity adhesion_force --x adhesion.kappa --y roughness.hurst
+  asperity sweep plot study --quantity pull_off_force --x adhesion.kappa --y roughness.hurst
 
 Two free axes make a map: colours are means, signs are regimes, and the line is where adhesion
 without a load vanishes. One free axis makes a curve: the mean with its 95 % confidence, and a

@@ -217,8 +217,8 @@ pub fn editable(app: &App, parameter: &Parameter) -> String {
     }
     if parameter.group == "loading" {
         let loading = &app.edit.document.scene().loading;
-        let stages = match parameter.leg {
-            Some(leg) => loading.get(leg..=leg),
+        let stages = match parameter.stage {
+            Some(index) => loading.get(index..=index),
             None => Some(&loading[..]),
         };
         return loading_text(stages.unwrap_or_default(), exact_quantity);
@@ -259,8 +259,8 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
         return Err("this row is no part of the scene".to_owned());
     }
     let typed = &typed::with_unit(app, parameter, typed);
-    if let Some(leg) = parameter.leg {
-        return with_typed_stage(app, leg, typed);
+    if let Some(index) = parameter.stage {
+        return with_typed_stage(app, index, typed);
     }
     match parameter.field.read_typed(typed) {
         Ok(written) => with_selected(app, &written),
@@ -268,12 +268,12 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// Returns the scene in which the typed stage replaces the loading stage `leg`. If the user types
+/// Returns the scene in which the typed stage replaces the loading stage `stage`. If the user types
 /// only a number, the kind of the stage does not change.
-fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, String> {
+fn with_typed_stage(app: &App, index: usize, typed: &str) -> Result<Document, String> {
     let document = &app.edit.document;
     let mut stages = document.stages();
-    let (present_kind, _) = StageKind::of(&stages[leg].1);
+    let (present_kind, _) = StageKind::of(&stages[index].1);
     let stage = read_stage(typed, Some(present_kind)).map_err(|error| error.to_string())?;
     let (kind, number) = StageKind::of(&stage);
     if let Some(number) = number
@@ -281,7 +281,7 @@ fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, Stri
     {
         return with_selected(app, &ron_float(number));
     }
-    stages[leg] = (None, stage);
+    stages[index] = (None, stage);
     let changed = document.with_stages(&stages);
     within_reach(app, changed.map_err(|errors| reasons(&errors))?)
 }

@@ -61,7 +61,7 @@ fn end(app: &mut App, message: &str) {
 /// Returns a path that starts at the state that the animation shows; `None` while the scene is not
 /// computed.
 fn new_path(app: &App) -> Option<ManualPath> {
-    if !app.is_current() || app.legs().is_empty() {
+    if !app.is_current() || app.stages().is_empty() {
         return None;
     }
     Some(ManualPath::starting_at(app.play))
@@ -107,18 +107,18 @@ fn select_force_curve(app: &mut App) {
 /// answered yet and the indentation does not follow from the last move.
 fn end_of(app: &App, path: &ManualPath) -> Option<f64> {
     if let Some(player) = app.play_of_path {
-        return Some(player.indentation(app.played_legs()));
+        return Some(player.indentation(app.played_stages()));
     }
     if app.edit.path.is_some()
         && let Some(followed) = app.followed()
-        && let Some(last) = followed.legs.last()
+        && let Some(last) = followed.stages.last()
     {
         return Some(last.end());
     }
     match path.moves.last() {
         Some(Move::ToIndentation(indentation)) => Some(*indentation),
         Some(_) => None,
-        None => Some(path.start.indentation(app.legs())),
+        None => Some(path.start.indentation(app.stages())),
     }
 }
 
@@ -270,9 +270,11 @@ pub fn take_note(app: &mut App, before: Option<&ContactSnapshot>) {
     }
     let moves = followed.path.moves.len();
     let reached = followed.count();
-    let leads_to_start = followed.legs.len() >= followed.before;
+    let leads_to_start = followed.stages.len() >= followed.before;
     let stopped = followed.stopped.clone();
-    let player = app.play_of_path.map(|player| player.within(&followed.legs));
+    let player = app
+        .play_of_path
+        .map(|player| player.within(&followed.stages));
     app.play_of_path = player;
     let Some(why) = stopped else {
         app.edit.accept_move();
@@ -328,7 +330,7 @@ fn become_loading(app: &mut App) {
     );
     app.play_of_path = None;
     app.play = Player {
-        leg: loading.len() - 1,
+        stage: loading.len() - 1,
         at: At::End,
         playing: false,
     };

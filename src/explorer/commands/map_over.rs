@@ -25,7 +25,7 @@ const BEFORE_OPEN_END: f64 = 0.9;
 /// Paths of the numbers that are proposed if the user has not edited two rows yet.
 const PROPOSED: [&str; 6] = [
     "material.youngs_modulus",
-    "material.effective_modulus",
+    "material.modulus",
     "roughness.rms_height",
     "form.radius",
     "adhesion.work",
@@ -44,7 +44,7 @@ pub fn ask(app: &mut App) {
     let preload = pressing_stage(&app.edit.document.scene().loading);
     let preload = rows
         .iter()
-        .find(|row| row.leg.is_some() && row.leg == preload);
+        .find(|row| row.stage.is_some() && row.stage == preload);
     if selected.is_some_and(|row| row.group == "loading") {
         paths.extend(preload.map(|row| row.path.as_str()));
     }
@@ -99,7 +99,7 @@ fn numbers(app: &App) -> Vec<&Parameter> {
 
 /// Returns the number of a row in its SI unit, the first one of a pair; `None` if it has none.
 fn value_of(app: &App, row: &Parameter) -> Option<f64> {
-    if row.leg.is_some() && row.field.unit.is_empty() {
+    if row.stage.is_some() && row.field.unit.is_empty() {
         return None;
     }
     let written = app.written(row)?;
@@ -117,9 +117,9 @@ fn value_of(app: &App, row: &Parameter) -> Option<f64> {
 /// the name.
 fn name_of(app: &App, row: &Parameter) -> String {
     let stage = pressing_stage(&app.edit.document.scene().loading);
-    if row.leg.is_some() && row.leg == stage {
+    if row.stage.is_some() && row.stage == stage {
         Quantity::PreloadForce.symbol().to_owned()
-    } else if row.leg.is_some() || row.field.symbol.is_empty() {
+    } else if row.stage.is_some() || row.field.symbol.is_empty() {
         row.name()
     } else {
         row.field.symbol.to_owned()

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Time that the animation takes for a loading stage at speed 1.
-const LEG_TIME: Duration = Duration::from_secs(6);
+const STAGE_TIME: Duration = Duration::from_secs(6);
 /// If the animation has passed less than this share of a loading stage, it counts as being at the
 /// start of the stage.
 const NEAR_START: f64 = 0.05;
@@ -30,9 +30,9 @@ pub fn toggle_play(app: &mut App) {
 
 /// Returns true if the animation is at its end.
 fn is_at_rest(app: &App, player: Player) -> bool {
-    let legs = app.played_legs();
-    let is_at_end = player.at == At::End && player.leg + 1 >= legs.len();
-    is_at_end || app.edit.path.is_none() && player == Player::at_rest(legs)
+    let stages = app.played_stages();
+    let is_at_end = player.at == At::End && player.stage + 1 >= stages.len();
+    is_at_end || app.edit.path.is_none() && player == Player::at_rest(stages)
 }
 
 /// Plays the loading of the scene from its beginning or, under manual loading, the path from its
@@ -48,25 +48,25 @@ pub fn restart(app: &mut App) {
     }
     let first = followed.before;
     app.set_playhead(Player {
-        leg: first,
+        stage: first,
         ..Player::START
     });
 }
 
-/// Moves the animation to the start of another loading stage, which is `legs` stages after the
-/// present stage. If `legs` is negative and the animation is inside a stage, it moves to the start
+/// Moves the animation to the start of another loading stage, which is `stages` stages after the
+/// present stage. If `stages` is negative and the animation is inside a stage, it moves to the start
 /// of this stage instead.
-pub fn go_to_leg(app: &mut App, legs: i32) {
+pub fn go_to_stage(app: &mut App, stages: i32) {
     let player = app.playhead();
     // While the animation plays, it moves on between two presses of the key. Therefore a position
     // shortly after the start counts as the start. Otherwise the user could not get back to earlier
     // stages.
-    let is_inside = player.share(app.played_legs()) > NEAR_START;
-    let distance = if legs < 0 && is_inside { 0 } else { legs };
-    let leg = player.leg.saturating_add_signed(distance as isize);
-    let last = app.played_legs().len().saturating_sub(1);
+    let is_inside = player.share(app.played_stages()) > NEAR_START;
+    let distance = if stages < 0 && is_inside { 0 } else { stages };
+    let stage = player.stage.saturating_add_signed(distance as isize);
+    let last = app.played_stages().len().saturating_sub(1);
     app.set_playhead(Player {
-        leg: leg.min(last),
+        stage: stage.min(last),
         at: At::Start,
         ..player
     });
@@ -75,7 +75,7 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
 /// Moves the animation to the pull-off, just before the contact is lost. The animation of the
 /// scene's loading also shows this state after it has been played to its end.
 pub fn go_to_pull_off(app: &mut App) {
-    let rest = Player::at_rest(app.played_legs());
+    let rest = Player::at_rest(app.played_stages());
     if rest.at == At::End {
         app.set_error(
             "there is no pull-off: the force does not fall below 0 N in the last unloading",
@@ -87,32 +87,32 @@ pub fn go_to_pull_off(app: &mut App) {
 
 /// Advances the animation by the time that has passed since the last call.
 pub fn elapse(app: &mut App, time: Duration) {
-    let legs = app.played_legs();
-    if !app.is_playing() || legs.is_empty() {
+    let stages = app.played_stages();
+    if !app.is_playing() || stages.is_empty() {
         return;
     }
-    let last = legs.len() - 1;
+    let last = stages.len() - 1;
     let mut player = app.playhead();
-    let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
+    let mut share = app.config.speed * time.as_secs_f64() / STAGE_TIME.as_secs_f64();
     // If the step goes beyond the end of a stage, its rest is made in the next stage. In this way
     // the speed does not depend on the frame rate.
-    while player.leg < last && share > 1.0 - player.share(legs) {
-        share -= 1.0 - player.share(legs);
+    while player.stage < last && share > 1.0 - player.share(stages) {
+        share -= 1.0 - player.share(stages);
         player = Player {
-            leg: player.leg + 1,
+            stage: player.stage + 1,
             at: At::Start,
             ..player
         };
     }
-    player.at = player.advanced(legs, share);
-    if player.leg < last || player.at != At::End {
+    player.at = player.advanced(stages, share);
+    if player.stage < last || player.at != At::End {
         app.set_playhead(player);
     } else if app.config.repeat {
         restart(app);
     } else if app.edit.path.is_some() {
         app.set_playhead(player);
     } else {
-        app.set_playhead(Player::at_rest(legs));
+        app.set_playhead(Player::at_rest(stages));
     }
 }
 

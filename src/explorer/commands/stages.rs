@@ -19,7 +19,7 @@ fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
     match app.edit.parameter() {
-        Some(parameter) if parameter.group == "loading" => Some(parameter.leg.unwrap_or(last)),
+        Some(parameter) if parameter.group == "loading" => Some(parameter.stage.unwrap_or(last)),
         _ => {
             app.set_error("no loading stage is selected; select a row of the loading");
             None
@@ -135,8 +135,8 @@ fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
     /// Indentation in m for a stage that is not computed.
     const USUAL_INDENTATION: f64 = 1e-7;
     let end = app.current().and_then(|solved| {
-        let leg = solved.outcome.history.legs.get(stage)?;
-        leg.curve.last()
+        let record = solved.outcome.history.stages.get(stage)?;
+        record.curve.last()
     });
     if kind.unit == "m" {
         let Some(end) = end else {
@@ -193,7 +193,7 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;
     };
-    match parameter.leg {
+    match parameter.stage {
         None if matches!(parameter.setting, Setting::CurveOption(_)) => {
             measured::step_option(app, steps, coarse)
         }

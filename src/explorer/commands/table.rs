@@ -202,7 +202,7 @@ fn is_manual(app: &App) -> bool {
 fn is_stage(app: &App) -> bool {
     app.edit
         .parameter()
-        .is_some_and(|parameter| parameter.leg.is_some())
+        .is_some_and(|parameter| parameter.stage.is_some())
 }
 
 fn takes_number(app: &App) -> bool {
@@ -218,8 +218,8 @@ static TABLE: &[Entry] = &[
     row(";", EXPLORE, "next-event", Do(|app| timeline::go_to_event(app, true)), "jump", "go to the next jump or mark of the loading", ANIMATION).words("event step forwards").rank(2),
     row("e", EXPLORE, "toggle-events", Do(timeline::toggle_events), "events", "show the list of events, or the results", ANIMATION).words("jumps list energies merge split").rank(2),
     row("r", EXPLORE, "toggle-repeat", Do(timeline::toggle_repeat), "", "repeat the animation, or stop it at its end", ANIMATION).words("loop again"),
-    row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the next stage", ANIMATION),
-    row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
+    row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_stage(app, 1)), "", "jump to the next stage", ANIMATION),
+    row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_stage(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
     row("← → h l Shift+← Shift+→ H L Home End g G", TIMELINE, "move-playhead", Key(timeline::step), "move", "move along the loading by a small or a large step, or to an end", ANIMATION).rank(1).unlisted(),

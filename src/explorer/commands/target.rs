@@ -81,8 +81,8 @@ fn proposed(app: &App) -> String {
         .and_then(|ensemble| ensemble.statistics(Quantity::AdhesionShare))
         .map(|shares| shares.quartiles[1]);
     let of_this_profile = || {
-        let force = app.outcome()?.figures.adhesion_force?;
-        Some(force / app.ideal_adhesion_force()?)
+        let force = app.outcome()?.figures.pull_off_force?;
+        Some(force / app.ideal_pull_off_force()?)
     };
     if app.edit.document.scene().adhesion.is_none() {
         let name = Quantity::ContactFraction.symbol_or_name();

@@ -23,12 +23,12 @@ pub fn go_to_event(app: &mut App, forwards: bool) {
     let Some(list) = listed(app) else {
         return;
     };
-    let legs = app.played_legs();
+    let stages = app.played_stages();
     let player = app.playhead();
     let found = if forwards {
-        next(legs, &list, player)
+        next(stages, &list, player)
     } else {
-        previous(legs, &list, player)
+        previous(stages, &list, player)
     };
     match found {
         Some(index) => show(app, &list[index]),
@@ -57,7 +57,7 @@ fn listed(app: &mut App) -> Option<Vec<Event>> {
 
 /// Moves the animation to an event. The close-up shows the patch that changes.
 fn show(app: &mut App, event: &Event) {
-    let player = position_of(app.played_legs(), event);
+    let player = position_of(app.played_stages(), event);
     if let Some(jump) = event.jump
         && let Some(patch) = jump.after.or(jump.before)
     {
@@ -74,7 +74,7 @@ pub fn select_event(app: &mut App, key: &KeyEvent) {
     let Some(last) = list.len().checked_sub(1) else {
         return;
     };
-    let present = passed(app.played_legs(), &list, app.playhead()).saturating_sub(1);
+    let present = passed(app.played_stages(), &list, app.playhead()).saturating_sub(1);
     let page = 10;
     let index = match key.code {
         KeyCode::Up | KeyCode::Char('k') => return go_to_event(app, false),
@@ -108,27 +108,27 @@ pub fn step(app: &mut App, key: &KeyEvent) {
         SMALL_STEP
     };
     let share = f64::from(direction.columns) * size;
-    let legs = app.played_legs();
+    let stages = app.played_stages();
     let player = Player {
         playing: false,
         ..app.playhead()
     };
-    let reached = player.share(legs) + share;
-    let moved = if reached > 1.0 && player.leg + 1 < legs.len() {
+    let reached = player.share(stages) + share;
+    let moved = if reached > 1.0 && player.stage + 1 < stages.len() {
         Player {
-            leg: player.leg + 1,
+            stage: player.stage + 1,
             at: At::Start,
             ..player
         }
-    } else if reached < 0.0 && player.leg > 0 {
+    } else if reached < 0.0 && player.stage > 0 {
         Player {
-            leg: player.leg - 1,
+            stage: player.stage - 1,
             at: At::End,
             ..player
         }
     } else {
         Player {
-            at: player.advanced(legs, share),
+            at: player.advanced(stages, share),
             ..player
         }
     };
@@ -139,7 +139,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
 fn go_to_end(app: &mut App, forwards: bool) {
     let player = if forwards {
         Player {
-            leg: app.played_legs().len().saturating_sub(1),
+            stage: app.played_stages().len().saturating_sub(1),
             at: At::End,
             playing: false,
         }
@@ -186,20 +186,20 @@ pub fn toggle_events(app: &mut App) {
 /// Moves the playhead to a column of the timeline, which is `columns` wide. If a tick is at or
 /// beside the column, the playhead moves to the largest jump of this tick.
 pub fn go_to_column(app: &mut App, column: usize, columns: usize) {
-    let legs = app.played_legs();
-    let timeline = Timeline::new(legs, columns);
+    let stages = app.played_stages();
+    let timeline = Timeline::new(stages, columns);
     if let Some(Ok(events)) = app.listed_events()
         && let Some(event) = jump_near(&timeline, &events.list, column)
     {
         return show(app, &event);
     }
-    if let Some((leg, share)) = timeline.position(column) {
+    if let Some((stage, share)) = timeline.position(column) {
         let player = Player {
-            leg,
+            stage,
             at: At::Start,
             playing: false,
         };
-        let at = player.advanced(legs, share);
+        let at = player.advanced(stages, share);
         app.set_playhead(Player { at, ..player });
     }
 }

@@ -48,7 +48,7 @@ pub const TOUR: &[Cue] = &[
     Wait(2.0),
     Open("non-adhesive"),
     Wait(LOOP),
-    Open("fragment-closeup"),
+    Open("patch-closeup"),
     Wait(6.0),
     Do("toggle-play"),
     Repeat(4, 1.0, "next-patch"),

@@ -30,7 +30,7 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text("Contact patch".to_owned(), "");
     };
     let section = &snapshot.close_up.section;
-    let patches = snapshot.point.fragments;
+    let patches = snapshot.point.patches;
     let title = match snapshot.close_up.patch {
         Some(patch) => format!("Patch {} of {patches} ·", patch.number + 1),
         None => "Nothing in contact ·".to_owned(),

@@ -60,7 +60,7 @@ fn panel(app: &App, size: Size) -> Panel {
             "nothing happens at once: no jump and no mark on this loading",
         );
     }
-    let selected = passed(app.played_legs(), &listed.list, app.playhead()).checked_sub(1);
+    let selected = passed(app.played_stages(), &listed.list, app.playhead()).checked_sub(1);
     let mut rows = Vec::new();
     for (index, event) in listed.list.iter().enumerate() {
         rows.push(row(app, event, selected == Some(index), size.width));

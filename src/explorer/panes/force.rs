@@ -12,7 +12,7 @@ use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::FollowedPath;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
-use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
+use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
 use asperity_data::{AxisScale, counted, format_rounded, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{
@@ -198,7 +198,7 @@ fn panel(app: &App, size: Size) -> Panel {
 fn names_of_marks(app: &App) -> Vec<Name> {
     const BY_IMPORTANCE: [Mark; 3] = [Mark::PullOff, Mark::Preload, Mark::JumpIn];
     let units = units(app);
-    let mut marks = Mark::all(marked_legs(app));
+    let mut marks = Mark::all(marked_stages(app));
     marks.retain(|(mark, _)| units.shows(*mark));
     marks.sort_by_key(|(mark, _)| {
         let place = BY_IMPORTANCE.iter().position(|listed| listed == mark);
@@ -219,8 +219,8 @@ fn names_of_marks(app: &App) -> Vec<Name> {
 
 /// Returns the loading stages whose marked points are shown: those of the scene or, under manual
 /// loading, those of the whole path with its way to the first move, as on the timeline.
-fn marked_legs(app: &App) -> &[LegRecord] {
-    app.played_legs()
+fn marked_stages(app: &App) -> &[StageRecord] {
+    app.played_stages()
 }
 
 /// Returns the letters of the ghosts, which are written beside the curves, the newest first.
@@ -296,7 +296,7 @@ fn state(app: &App) -> Vec<String> {
         Some(moves) => {
             let last = moves.last();
             let changed = last.map_or(0, |last| last.attached + last.detached);
-            let released: f64 = moves.iter().map(|leg| leg.released_energy).sum();
+            let released: f64 = moves.iter().map(|stage| stage.released_energy).sum();
             let released = format_rounded(released + 0.0, 2, "J");
             parts.push(format!("{} changed", counted(changed, "spring")));
             parts.push(format!("released {released}"));
@@ -306,8 +306,8 @@ fn state(app: &App) -> Vec<String> {
             parts.push(format!("contact {} %", format_rounded(percent, 2, "1")));
         }
     }
-    parts.push(counted(point.fragments, "patch"));
-    let stiffness = outcome.governing.effective_modulus * point.contact_length;
+    parts.push(counted(point.patches, "patch"));
+    let stiffness = outcome.governing.modulus * point.contact_length;
     parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
     let radius = snapshot.contact_radius;
     if radius > 0.0 {
@@ -323,7 +323,7 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
         LoopQuantities::LengthForce => "Contact length",
-        LoopQuantities::FragmentsIndentation => "Contact patches",
+        LoopQuantities::PatchesIndentation => "Contact patches",
     };
     let name = match y {
         Some(axis) => format!("{name} {}", axis.symbol_with_unit()),
@@ -373,11 +373,11 @@ const PLACES_INSIDE: usize = 24;
 fn places_inside(app: &App) -> Vec<CurvePoint> {
     /// Smallest distance between the two curves, as a share of the largest distance.
     const LEAST_SHARE: f64 = 0.5;
-    let mut legs = app.legs().iter();
-    let Some(loading) = legs.find(|leg| leg.direction == Direction::Loading) else {
+    let mut stages = app.stages().iter();
+    let Some(loading) = stages.find(|stage| stage.direction == Direction::Loading) else {
         return Vec::new();
     };
-    let Some(unloading) = legs.find(|leg| leg.direction == Direction::Unloading) else {
+    let Some(unloading) = stages.find(|stage| stage.direction == Direction::Unloading) else {
         return Vec::new();
     };
     let mut places: Vec<(CurvePoint, f64)> = Vec::new();
@@ -525,7 +525,7 @@ fn chart(app: &App) -> Option<Chart> {
         insert_area(&mut chart, units, Ink::Kept, border);
     }
     if shows_loss(app) {
-        let border = app.legs().iter().flat_map(|leg| &leg.curve);
+        let border = app.stages().iter().flat_map(|stage| &stage.curve);
         insert_area(&mut chart, units, Ink::Loop, border);
     }
     Some(chart)
@@ -658,7 +658,7 @@ fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> Fo
 /// the former curve is drawn in a weaker colour until the new one is computed.
 fn path_loop<'a>(app: &App, followed: &'a FollowedPath) -> ForceLoop<'a> {
     let path = ForceLoop {
-        marks: Mark::all(&followed.legs),
+        marks: Mark::all(&followed.stages),
         ..ForceLoop::new(followed.moves())
     };
     let stiffness = stiffness(app).filter(|stiffness| stiffness.is_finite());
@@ -688,26 +688,26 @@ const PLACES: usize = 8;
 /// Returns the points beside which the letter of a ghost may be written, the best first: its marks,
 /// beginning with the pull-off, and then points on its curve, beginning with the last stage.
 fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
-    let legs = &ghost.outcome.history.legs;
-    let mut marks = Mark::all(legs);
+    let stages = &ghost.outcome.history.stages;
+    let mut marks = Mark::all(stages);
     marks.retain(|(mark, _)| *mark != Mark::JumpOut);
     let mut places: Vec<CurvePoint> = marks.into_iter().rev().map(|(_, point)| point).collect();
-    for leg in legs.iter().rev() {
-        let step = (leg.curve.len() / PLACES).max(1);
-        places.extend(leg.curve.iter().step_by(step).copied());
+    for stage in stages.iter().rev() {
+        let step = (stage.curve.len() / PLACES).max(1);
+        places.extend(stage.curve.iter().step_by(step).copied());
     }
     places
 }
 
-/// Returns the adhesion force of a ghost, and by how much the adhesion force of the present scene
+/// Returns the pull-off force of a ghost, and by how much the pull-off force of the present scene
 /// is larger or smaller: `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
-    let kept = ghost.outcome.figures.adhesion_force?;
+    let kept = ghost.outcome.figures.pull_off_force?;
     let kept_in_words = units.force_in_words(kept);
     let present = app
         .current()
-        .and_then(|computed| computed.outcome.figures.adhesion_force);
+        .and_then(|computed| computed.outcome.figures.pull_off_force);
     let Some(present) = present.filter(|present| *present != kept) else {
         return Some(format!("F_a {kept_in_words}"));
     };

@@ -346,7 +346,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         return Vec::new();
     };
     let governing = app.governing().unwrap_or(outcome.governing);
-    let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
+    let mut values = vec![("E*", format_quantity(governing.modulus, "Pa"))];
     // A measured surface has no rows for its amplitude, so the amplitude is shown here. Random
     // roughness has such rows.
     let roughness = &app.edit.document.scene().roughness;
@@ -361,7 +361,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     if has_failed {
         return values;
     }
-    if let Some(force) = outcome.ideal_adhesion_force {
+    if let Some(force) = outcome.ideal_pull_off_force {
         values.push(("F_a,max", format_quantity(force, "N")));
     }
     values

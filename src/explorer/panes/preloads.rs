@@ -1,6 +1,6 @@
-//! The pane of the adhesion force as a function of the preload. It shows the steps of the adhesion
+//! The pane of the pull-off force as a function of the preload. It shows the steps of the pull-off
 //! force of the scene's own profile, the scatter over random profiles, and the present preload. It
-//! also shows the adhesion forces of loadings that turn at first touch and at zero force.
+//! also shows the pull-off forces of loadings that turn at first touch and at zero force.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -41,7 +41,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Preloads",
-        "key i: adhesion force against preload: the staircase of this profile, and mean, median, quartiles and range over \
+        "key i: pull-off force against preload: the staircase of this profile, and mean, median, quartiles and range over \
          random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of \
          profiles up to each force",
     )],
@@ -78,7 +78,7 @@ fn report(app: &App) -> Exported<'_> {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
-    let name = "Adhesion force";
+    let name = "Pull-off force";
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
         let failure = app.studies.failure::<PreloadCurve>();
         return Panel::of_text(name.to_owned(), failure.unwrap_or("computing …"));
@@ -107,20 +107,20 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// The charts of the pane.
 struct Charts {
-    /// Adhesion force against preload, with a marker at the preload of the scene.
+    /// Pull-off force against preload, with a marker at the preload of the scene.
     curves: Chart,
-    /// Distribution of the adhesion force over the random profiles, at the preload of the crosshair
+    /// Distribution of the pull-off force over the random profiles, at the preload of the crosshair
     /// or, without crosshair, of the scene; `None` if this preload is unknown.
     distribution: Option<Chart>,
 }
 
 impl Charts {
     fn new(app: &App, curve: &PreloadCurve) -> Self {
-        let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
+        let ideal = app.ideal_pull_off_force().filter(|_| app.is_normalised());
         let spread = curve.results.spread_of_adhesion();
         let mut curves = preload_chart(&curve.staircase, &spread, ideal.is_none());
         let figures = app.current().map(|solved| solved.outcome.figures);
-        let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
+        let present = figures.and_then(|figures| figures.preload.zip(figures.pull_off_force));
         if let Some((preload, force)) = present {
             let sign = Shape::signs(vec![(preload, force)], Sign::Diamond);
             let layer = Layer::new("present preload".into(), Ink::Cursor, sign);

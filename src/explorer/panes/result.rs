@@ -1,4 +1,4 @@
-//! The pane of the main results: the adhesion forces of the random profiles as a strip, and the
+//! The pane of the main results: the pull-off forces of the random profiles as a strip, and the
 //! results in one line each. In a small pane, the last lines are left out.
 
 use super::force;
@@ -21,14 +21,14 @@ pub static ROW: PaneRow = PaneRow {
     report: outcome,
     help: &[(
         "Result",
-        "adhesion force of each random profile, ● on a linear axis from zero, ◆ this profile; │ is the median. Below it \
+        "pull-off force of each random profile, ● on a linear axis from zero, ◆ this profile; │ is the median. Below it \
          medians and quartiles over the profiles, and which theories say that the bodies adhere without a preload \
          (details: key A); key e shows the events instead",
     )],
     ..PaneRow::EMPTY
 };
 
-/// Number of rows of the strip of adhesion forces.
+/// Number of rows of the strip of pull-off forces.
 const STRIP_ROWS: usize = 2;
 /// Smallest height in rows of a pane with the strip.
 const WITH_STRIP: u16 = 6;
@@ -89,18 +89,18 @@ fn edge(ensemble: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
     vec![vec![Span::raw(text)]]
 }
 
-/// Returns the adhesion forces of the random profiles as a strip with its axis: a point for each
+/// Returns the pull-off forces of the random profiles as a strip with its axis: a point for each
 /// profile, stacked where several are in one column.
 fn strip(app: &App, outcome: &Outcome, ensemble: &Ensemble, width: usize) -> Vec<Line<'static>> {
     let forces: Vec<f64> = ensemble
-        .values(Quantity::AdhesionForce)
+        .values(Quantity::PullOffForce)
         .into_iter()
         .flatten()
         .collect();
-    let Some(statistics) = ensemble.statistics(Quantity::AdhesionForce) else {
+    let Some(statistics) = ensemble.statistics(Quantity::PullOffForce) else {
         return Vec::new();
     };
-    let present = outcome.figures.adhesion_force;
+    let present = outcome.figures.pull_off_force;
     let largest = forces.iter().copied().chain(present).fold(0.0, f64::max);
     if largest <= 0.0 || width < 12 {
         return Vec::new();
@@ -182,11 +182,11 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
     let mut results = Vec::new();
     let figures = &outcome.figures;
     let share = figures
-        .adhesion_force
-        .zip(app.ideal_adhesion_force())
+        .pull_off_force
+        .zip(app.ideal_pull_off_force())
         .map(|(force, ideal)| force / ideal);
     let rows = [
-        ("F_a", Quantity::AdhesionForce, figures.adhesion_force, "N"),
+        ("F_a", Quantity::PullOffForce, figures.pull_off_force, "N"),
         ("F_a/F_a,max", Quantity::AdhesionShare, share, "%"),
         (
             "energy lost",

@@ -62,7 +62,7 @@ pub fn outcome(app: &App) -> Exported<'_> {
     if app.edit.path.is_some() {
         let report = PathReport {
             scene,
-            legs: &app.followed()?.legs,
+            stages: &app.followed()?.stages,
         };
         return Some((OPEN_COMMAND.into(), Box::new(report)));
     }

@@ -10,7 +10,7 @@ use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::format_quantity;
 use asperity_plot::{Chart, Figure, Ink, Label, Layer, Shape, Span, Stroke, value_label};
 use asperity_report::{Part as LinePart, Report, Section};
-use asperity_scene::stages::LineFacts;
+use asperity_scene::workload::LineFacts;
 use ratatui::text::Span as Text;
 
 /// Returns the panel of a section, a part of the profile with its contact. `width` is the width of
@@ -139,7 +139,7 @@ fn at_crosshair(snapshot: &ContactSnapshot, probe: Probe) -> Vec<String> {
     } else {
         format!("compressed {}", format_quantity(-distance, "m"))
     });
-    let patches = snapshot.point.fragments;
+    let patches = snapshot.point.patches;
     texts.push(format!("patch {} of {patches}", patch + 1));
     texts
 }

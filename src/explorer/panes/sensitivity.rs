@@ -1,5 +1,5 @@
 //! Sensitivity of the results to each number of the scene: a table of all changes, with bars for
-//! the adhesion force.
+//! the pull-off force.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;

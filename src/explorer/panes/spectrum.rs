@@ -60,7 +60,7 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Returns the texts below the chart: the moments with their errors and the adhesion force, or the
+/// Returns the texts below the chart: the moments with their errors and the pull-off force, or the
 /// reason why there is no chart.
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
@@ -113,7 +113,7 @@ fn relative_error(moment: Moment) -> String {
     per_cent(moment.error / moment.value)
 }
 
-/// Returns the adhesion force with two kinds of scatter: over the random profiles, and due to the
+/// Returns the pull-off force with two kinds of scatter: over the random profiles, and due to the
 /// fit of the spectrum. A scatter that is not computed yet is left out. `None` if the profile of
 /// the scene is not the equivalent line of a measured surface.
 fn adhesion(app: &App) -> Option<String> {
@@ -145,7 +145,7 @@ fn is_sampled(scene: &Scene) -> bool {
     is_measured && is_adhesive && !scene.measured_as_line()
 }
 
-/// Returns the study (background computation) that computes the adhesion force of those random
+/// Returns the study (background computation) that computes the pull-off force of those random
 /// profiles that have not been computed yet.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();

@@ -11,7 +11,7 @@ use crate::explorer::panel::{Body, Panel, title_line};
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::{Tick, Timeline, passed, speed_in_words};
-use asperity_contact::{Direction, LegRecord, Mark};
+use asperity_contact::{Direction, Mark, StageRecord};
 use asperity_data::grouped;
 use asperity_plot::Ink;
 use asperity_report::{event_words, signed_energy};
@@ -50,11 +50,11 @@ struct Cell {
 fn panel(app: &App, size: Size) -> Panel {
     let mut panel = Panel::of_text(String::new(), "");
     let width = usize::from(size.width);
-    let legs = app.played_legs();
-    if legs.is_empty() || width == 0 {
+    let records = app.played_stages();
+    if records.is_empty() || width == 0 {
         return panel;
     }
-    let timeline = Timeline::new(legs, width);
+    let timeline = Timeline::new(records, width);
     let mut lines = Vec::new();
     if STRIP_WITH_TITLE.contains(&size.height) {
         let is_selected = app.view.pane == Pane::Timeline;
@@ -72,7 +72,7 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     let rows = usize::from(size.height).saturating_sub(lines.len() + 1);
     let playhead = app.playhead();
-    let head = timeline.column(playhead.leg, playhead.share(legs));
+    let head = timeline.column(playhead.stage, playhead.share(records));
     lines.extend(tick_lines(app, &timeline, width, rows, head));
     lines.push(stage_line(app, &timeline, width, head));
     panel.body = Body::Lines(lines);
@@ -100,8 +100,8 @@ fn event(app: &App) -> Vec<Part> {
         Some(Err(why)) => return vec![vec![Span::raw(why.to_owned())]],
         Some(Ok(listed)) => listed,
     };
-    let legs = app.played_legs();
-    let last = passed(legs, &listed.list, app.playhead()).checked_sub(1);
+    let records = app.played_stages();
+    let last = passed(records, &listed.list, app.playhead()).checked_sub(1);
     match last.map(|index| &listed.list[index]) {
         Some(event) => {
             parts.push(vec![Span::raw(event_words(event))]);
@@ -181,7 +181,7 @@ fn tick_symbol(tick: Tick, row: usize, rows: usize) -> Option<char> {
 /// Returns the line with the stages: a segment for each stage with its number and its target, the
 /// marks of the force curve, and the position of the animation.
 fn stage_line(app: &App, timeline: &Timeline, width: usize, head: Option<usize>) -> Line<'static> {
-    let legs = app.played_legs();
+    let records = app.played_stages();
     let quiet = app.style(Meaning::Quiet);
     let mut cells = vec![
         Cell {
@@ -198,7 +198,7 @@ fn stage_line(app: &App, timeline: &Timeline, width: usize, head: Option<usize>)
     for (stage, columns) in timeline.stages.iter().enumerate() {
         draw_segment(&mut cells, columns, last == Some(stage));
         let taken: Vec<usize> = marks.iter().map(|mark| mark.column).collect();
-        write_name(app, &mut cells, &legs[stage], stage, columns, &taken);
+        write_name(app, &mut cells, &records[stage], stage, columns, &taken);
     }
     for mark in marks {
         if let Some(cell) = cells.get_mut(mark.column) {
@@ -238,16 +238,16 @@ fn draw_segment(cells: &mut [Cell], columns: &Range<usize>, is_last: bool) {
 fn write_name(
     app: &App,
     cells: &mut [Cell],
-    leg: &LegRecord,
+    record: &StageRecord,
     stage: usize,
     columns: &Range<usize>,
     taken: &[usize],
 ) {
-    let verb = match leg.direction {
+    let verb = match record.direction {
         Direction::Loading => "press",
         Direction::Unloading => "pull",
     };
-    let target = manual_path::in_words(leg.target);
+    let target = manual_path::in_words(record.target);
     let number = stage + 1;
     let texts = [
         format!(" {number} {verb} to {target} "),

@@ -1,4 +1,4 @@
-//! The pane that shows the accuracy of the adhesion force. The first part is the cost of accuracy:
+//! The pane that shows the accuracy of the pull-off force. The first part is the cost of accuracy:
 //! the error as a function of the computing time. The second part has the errors from each source.
 //! The third part has the verdicts of other theories on the adhesion of the same surface.
 
@@ -192,7 +192,7 @@ fn chart(app: &App) -> Option<Chart> {
 struct Words {
     /// Error and computing time of the scene, and the computing time for smaller errors.
     cost: Vec<Line<'static>>,
-    /// Errors of the adhesion force from each source, the largest first.
+    /// Errors of the pull-off force from each source, the largest first.
     errors: Vec<Line<'static>>,
     /// Criteria of other theories.
     theories: Vec<Line<'static>>,
@@ -232,7 +232,7 @@ fn words(app: &App, width: u16) -> Words {
     }
 }
 
-/// Returns the errors of the adhesion force, each as the name of its source and a text.
+/// Returns the errors of the pull-off force, each as the name of its source and a text.
 pub(super) fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let estimate = app.studies.value::<Estimate>();

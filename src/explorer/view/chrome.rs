@@ -314,7 +314,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     facts
 }
 
-/// Returns the adhesion force for the value that the user is typing.
+/// Returns the pull-off force for the value that the user is typing.
 fn facts_of_preview(app: &App) -> Vec<Fact> {
     if !app.is_typing_value() {
         return Vec::new();
@@ -322,7 +322,7 @@ fn facts_of_preview(app: &App) -> Vec<Fact> {
     let Some(tried) = app.tried_outcome() else {
         return Vec::new();
     };
-    let shown = match tried.figures.adhesion_force {
+    let shown = match tried.figures.pull_off_force {
         _ if !app.is_tried() => "computing…".to_owned(),
         None => "F_a none".to_owned(),
         Some(adhesion) => format!("F_a {}", app.force_in_words(adhesion)),
@@ -333,12 +333,12 @@ fn facts_of_preview(app: &App) -> Vec<Fact> {
     ]
 }
 
-/// Returns the adhesion force over the random profiles, and that of the shown profile with its
+/// Returns the pull-off force over the random profiles, and that of the shown profile with its
 /// error. If the force is never tensile, returns the largest force instead.
 fn facts_of_force(app: &App, outcome: &Outcome, width: usize) -> Vec<Fact> {
     let is_wide = width >= WITH_ERROR;
     let error = if is_wide { error(app) } else { None };
-    let adhesion = outcome.figures.adhesion_force;
+    let adhesion = outcome.figures.pull_off_force;
     let Some(adhesion) = adhesion.filter(|force| *force != 0.0) else {
         let largest = outcome.figures.preload;
         let Some(largest) = largest.filter(|force| *force != 0.0) else {
@@ -440,14 +440,14 @@ fn fact_of_squares(app: &App, width: usize) -> Fact {
     Fact::new(text, Meaning::Title)
 }
 
-/// Returns the median and the quartiles of the adhesion force over the random profiles computed so
+/// Returns the median and the quartiles of the pull-off force over the random profiles computed so
 /// far. If `is_wide` is true, also states the number of profiles.
 fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     let ensemble = app.studies.value::<Ensemble>()?;
     let (quantity, symbol, unit) = if app.is_normalised() {
         (Quantity::AdhesionShare, "F_a/F_a,max", "1")
     } else {
-        (Quantity::AdhesionForce, "F_a", "N")
+        (Quantity::PullOffForce, "F_a", "N")
     };
     let [lower, median, upper] = ensemble.statistics(quantity)?.quartiles;
     let median = format_rounded(median, 3, unit);
@@ -465,7 +465,7 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     Some(Fact::new(text, Meaning::Title))
 }
 
-/// Returns the estimated error of the adhesion force as text: `± …` while the error is being
+/// Returns the estimated error of the pull-off force as text: `± …` while the error is being
 /// computed, `None` if no error is computed.
 fn error(app: &App) -> Option<String> {
     if let Some(estimate) = app.studies.value::<Estimate>() {
@@ -473,7 +473,7 @@ fn error(app: &App) -> Option<String> {
     }
     let has_failed = app.studies.failure::<Estimate>().is_some();
     let text = if has_failed {
-        app.outcome()?.figures.adhesion_force?;
+        app.outcome()?.figures.pull_off_force?;
         "error unknown"
     } else if app.view.shows_times {
         "± …"

@@ -8,7 +8,7 @@ fn the_headline_is_that_of_the_computed_curve() {
     for document in [default_scene(), rough(), smooth(), punch()] {
         let mut driver = mid_retraction(document);
         let outcome = driver.outcome().clone();
-        let force = format_rounded(outcome.figures.adhesion_force.unwrap(), 3, "N");
+        let force = format_rounded(outcome.figures.pull_off_force.unwrap(), 3, "N");
         for size in &SIZES[..4] {
             driver.resize(*size);
             assert!(

@@ -36,7 +36,7 @@ fn on_the_force_curve_the_crosshair_reads_both_branches() {
     driver.press("* End Shift+Left");
     assert_eq!(driver.app.keys(), Context::Crosshair);
     assert!(driver.footer().contains("hide"), "{}", driver.text());
-    let (shown, end) = (driver.point(), driver.app.legs()[0].largest);
+    let (shown, end) = (driver.point(), driver.app.stages()[0].largest);
     for keys in ["", "Left", "Shift+Left"] {
         driver.press(keys);
         let edge = edge(&driver, Pane::Force);

@@ -44,7 +44,7 @@ fn the_tour_shows_what_it_is_to_show() {
             "ideal-adhesion",
             "pressure-sensitive",
             "non-adhesive",
-            "fragment-closeup",
+            "patch-closeup",
             "rough-sphere",
         ]
     );

@@ -92,7 +92,7 @@ fn the_work_or_kappa_is_solved_for_from_the_other() {
         let governing = driver.outcome().governing;
         let (amplitude, kappa) = (governing.amplitude.unwrap(), governing.kappa.unwrap());
         let work = governing.work_of_adhesion.unwrap();
-        let stiffness = amplitude.rms_height * amplitude.rms_gradient * governing.effective_modulus;
+        let stiffness = amplitude.rms_height * amplitude.rms_gradient * governing.modulus;
         assert!(
             (work * kappa.powi(2) / stiffness - 1.0).abs() < 1e-12,
             "{kappa} {work}"

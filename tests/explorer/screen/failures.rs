@@ -18,7 +18,7 @@ fn reports_of_another_scene_change_nothing() {
         Action::Reply(Reply::Shown(snapshot.into())),
         Action::Reply(Reply::Progress {
             generation,
-            legs: 1,
+            stages: 1,
         }),
         Action::Reply(Reply::Failed {
             generation,

@@ -76,7 +76,7 @@ fn a_file_that_is_there_is_asked_about() {
     assert!(
         fs::read_to_string(&path)
             .unwrap()
-            .contains("\nleg,indentation")
+            .contains("\nstage,indentation")
     );
     assert!(driver.app.prompt.is_none());
     // An error of the system is shown.
@@ -246,7 +246,7 @@ fn every_pane_is_exported_as_a_figure() {
             computed_preloads(rough()),
             Pane::Preloads,
             "asperity run --preloads=-",
-            "preload,adhesion_force,",
+            "preload,pull_off_force,",
         ),
         (
             trust::measured(rough()),
@@ -264,7 +264,7 @@ fn every_pane_is_exported_as_a_figure() {
             map::mapped(rough()),
             Pane::Map,
             "asperity",
-            "roughness.hurst,adhesion.kappa,lines,regime,",
+            "roughness.hurst,adhesion.kappa,profiles,regime,",
         ),
     ];
     for (mut driver, pane, command, column) in tables {

@@ -155,7 +155,7 @@ fn opened_with_files() -> (TempDir, Driver) {
     let scene = smooth().text().to_owned();
     let axes = "[Linear(path: \"adhesion.work\", from: 0.01, to: 0.02, count: 2)]";
     let plan = format!(
-        "(version: 1, scene: {scene}, axes: {axes}, profiles: 1, record: [adhesion_force])"
+        "(version: 1, scene: {scene}, axes: {axes}, profiles: 1, record: [pull_off_force])"
     );
     write("plan.ron", &plan);
     write("curve.txt", &curve("displacement (nm),force (uN)\n"));

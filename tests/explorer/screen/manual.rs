@@ -36,7 +36,7 @@ fn edit(driver: &mut Driver, path: &str, value: &str) {
 fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()).max(1e-12);
     one.indentation == other.indentation
-        && (one.springs, one.fragments) == (other.springs, other.fragments)
+        && (one.springs, one.patches) == (other.springs, other.patches)
         && same(one.force, other.force)
 }
 
@@ -104,7 +104,7 @@ fn small_and_large_steps_press_and_pull() {
         let way = (driver.point().indentation - before) / (high - low);
         assert!((way - share).abs() < 1e-9, "{keys}: {way}");
         assert_eq!(
-            followed(&driver).legs.last().map(|leg| leg.end()),
+            followed(&driver).stages.last().map(|stage| stage.end()),
             Some(driver.point().indentation),
             "{keys}: the way ends there"
         );
@@ -139,11 +139,11 @@ fn every_key_of_manual_loading_is_on_every_keyboard() {
 }
 
 #[test]
-fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
+fn pulled_off_by_hand_it_loses_what_the_stage_loses() {
     let mut driver = mid_retraction(rough());
     driver.press("< d S");
-    let leg = &driver.app.legs()[1];
-    assert_eq!(followed(&driver).moves(), std::slice::from_ref(leg));
+    let stage = &driver.app.stages()[1];
+    assert_eq!(followed(&driver).moves(), std::slice::from_ref(stage));
     assert_eq!((driver.point().springs, driver.point().force), (0, 0.0));
     // From there the body does not touch before the foundation is reached again.
     while driver.point().springs == 0 {
@@ -244,7 +244,7 @@ fn a_target_is_a_force_an_indentation_or_a_share() {
             (found, expected) => assert_eq!(found, expected, "{typed}"),
         }
     }
-    let ideal = driver.outcome().ideal_adhesion_force.unwrap();
+    let ideal = driver.outcome().ideal_pull_off_force.unwrap();
     driver.press("N 0 . 2");
     driver.states("F_a,max, nm): 0.2");
     driver.press("Enter");
@@ -293,7 +293,7 @@ fn an_edit_replays_the_path() {
     assert_eq!(driver.app.drive(), Drive::Manual);
     let after = followed(&driver);
     assert_eq!(*after.path, *before.path);
-    assert_ne!(after.legs, before.legs);
+    assert_ne!(after.stages, before.stages);
     driver.press("u");
     assert_eq!(*followed(&driver), before);
     driver.states("undo: ");
@@ -417,7 +417,7 @@ fn the_animation_plays_the_path() {
     assert!(!driver.app.is_playing(), "{:?}", driver.app.playhead());
     assert_eq!(driver.point(), end);
     let lowest = shown.iter().copied().fold(f64::INFINITY, f64::min);
-    let turn = followed(&driver).legs[followed(&driver).before].end();
+    let turn = followed(&driver).stages[followed(&driver).before].end();
     assert!(
         lowest >= turn && lowest < end.indentation,
         "{lowest} {turn}"
@@ -510,7 +510,7 @@ fn a_move_continues_from_the_shown_point_of_the_path() {
     let shown = driver.point();
     go(&mut driver, "8 µN");
     assert_eq!(path(&driver).moves, [Move::ToForce(8e-6)]);
-    let way = &followed(&driver).legs[followed(&driver).before - 1];
+    let way = &followed(&driver).stages[followed(&driver).before - 1];
     assert_eq!(way.end(), shown.indentation.max(0.0));
     // A whole stage is kept as it is.
     go(&mut driver, "2 µN");

@@ -30,10 +30,10 @@ fn write_curve(path: &Path) {
         .run(&scene, &|| false, &mut |_, _, _| Ok(()))
         .unwrap();
     let free = |from: f64| (0..100).map(move |index| (from - 1e-8 * f64::from(index), 0.0));
-    let legs = &outcome.history.legs;
-    let touching = |leg: usize| legs[leg].curve.iter().filter(|point| point.springs > 0);
-    let points = |leg: usize| touching(leg).map(|point| (point.indentation, point.force));
-    let last = legs[1].curve.last().unwrap().indentation;
+    let stages = &outcome.history.stages;
+    let touching = |stage: usize| stages[stage].curve.iter().filter(|point| point.springs > 0);
+    let points = |stage: usize| touching(stage).map(|point| (point.indentation, point.force));
+    let last = stages[1].curve.last().unwrap().indentation;
     let approach = free(-1e-8)
         .collect::<Vec<_>>()
         .into_iter()

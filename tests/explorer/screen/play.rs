@@ -25,13 +25,13 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     assert!((driver.point().indentation - here).abs() < 1e-15);
     driver.press("Space Right");
     assert!(!driver.app.play.playing, "a step pauses");
-    for (keys, leg, at) in [
+    for (keys, stage, at) in [
         ("> >", 1, At::Start),
         ("<", 0, At::Start),
-        // First to the start of this leg, and nothing is before.
+        // First to the start of this stage, and nothing is before.
         ("Right Right <", 0, At::Start),
         ("Left", 0, At::Start),
-        // Steps go from leg to leg in both directions.
+        // Steps go from stage to stage in both directions.
         ("> Left", 0, At::End),
         ("Right Left", 0, At::End),
         ("Shift+Right End", 1, At::End),
@@ -41,8 +41,8 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     ] {
         driver.press(keys);
         assert_eq!(
-            (driver.app.play.leg, driver.app.play.at),
-            (leg, at),
+            (driver.app.play.stage, driver.app.play.at),
+            (stage, at),
             "{keys}"
         );
     }
@@ -64,7 +64,7 @@ fn a_key_goes_to_the_pull_off_of_the_loading() {
         let mut driver = Driver::start(document);
         driver.resize(size);
         driver.press("d Right Esc !");
-        let expected = -driver.outcome().figures.adhesion_force.unwrap();
+        let expected = -driver.outcome().figures.pull_off_force.unwrap();
         let point = driver.point();
         assert!(
             expected < 0.0 && (point.force / expected - 1.0).abs() < 1e-9,
@@ -81,9 +81,9 @@ fn an_edit_keeps_the_place_of_the_animation() {
     driver.select("roughness.hurst");
     driver.press("l");
     assert_eq!(driver.app.play, before);
-    // Unless the leg is gone.
+    // Unless the stage is gone.
     driver.set("loading", "[ToForce(2.0e-5)]");
-    assert_eq!((driver.app.play.leg, driver.app.play.playing), (0, false));
+    assert_eq!((driver.app.play.stage, driver.app.play.playing), (0, false));
     assert!(is_up_to_date(&driver.app));
 }
 
@@ -94,7 +94,7 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
         let mut driver = Driver::start(rough().set("loading", three).unwrap());
         (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
         let player = driver.app.play;
-        (player, player.share(driver.app.legs()), driver.point())
+        (player, player.share(driver.app.stages()), driver.point())
     };
     for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
         let (player, share, point) = place(1, seconds);
@@ -104,14 +104,14 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
         }
         let expected = (seconds / 6.0).min(3.0);
         assert!(
-            (player.leg as f64 + share - expected).abs() < 1e-9,
+            (player.stage as f64 + share - expected).abs() < 1e-9,
             "{seconds}: {player:?}"
         );
         for steps in [3, 70, 211] {
             let (other, _, there) = place(steps, seconds);
             assert_eq!(
-                (other.leg, other.playing),
-                (player.leg, player.playing),
+                (other.stage, other.playing),
+                (player.stage, player.playing),
                 "{seconds}, {steps}"
             );
             assert!(
@@ -132,8 +132,8 @@ fn the_configuration_sets_speed_and_end() {
         (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
         let player = driver.app.play;
         (
-            player.leg,
-            (10.0 * player.share(driver.app.legs())).round(),
+            player.stage,
+            (10.0 * player.share(driver.app.stages())).round(),
             player.playing,
         )
     };
@@ -145,13 +145,13 @@ fn the_configuration_sets_speed_and_end() {
     // It ends at the pull-off, and the next play begins anew.
     let mut driver = Driver::start(rough());
     (0..200).for_each(|_| drop(driver.elapse(0.1)));
-    let expected = -driver.outcome().figures.adhesion_force.unwrap();
+    let expected = -driver.outcome().figures.pull_off_force.unwrap();
     assert!((driver.point().force / expected - 1.0).abs() < 1e-9 && !driver.app.play.playing);
     driver.shows("· pull-off");
     // An edit shows its own pull-off.
     driver.select("roughness.hurst");
     driver.press("l");
-    let expected = -driver.outcome().figures.adhesion_force.unwrap();
+    let expected = -driver.outcome().figures.pull_off_force.unwrap();
     assert!(
         (driver.point().force / expected - 1.0).abs() < 1e-9,
         "{:?}",
@@ -159,6 +159,6 @@ fn the_configuration_sets_speed_and_end() {
     );
     driver.press("Space");
     assert_eq!(driver.app.play, Player::START);
-    let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
-    assert!(leg == 0 && playing, "it begins again");
+    let (stage, _, playing) = place(config("(version: 1, repeat: true)"), 14);
+    assert!(stage == 0 && playing, "it begins again");
 }

@@ -51,7 +51,7 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
             driver.shows_all([
-                "Adhesion force F_a (",
+                "Pull-off force F_a (",
                 "present preload",
                 "Parameters",
                 "this profile",
@@ -67,12 +67,12 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
 }
 
 #[test]
-fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
+fn forces_are_shown_in_units_of_the_ideal_pull_off_force() {
     let mut driver = shown(rough(), 3);
-    driver.shows_all(["Adhesion force F_a (", "F_n (", "nN, turned at first touch"]);
+    driver.shows_all(["Pull-off force F_a (", "F_n (", "nN, turned at first touch"]);
     driver.press("N");
     driver.shows_all([
-        "Adhesion force F_a/F_a,max",
+        "Pull-off force F_a/F_a,max",
         "F_n/F_a,max",
         "Force F/F_a,max",
         "d/h",
@@ -92,7 +92,7 @@ fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
     };
     let share = read(&mut driver, "* End");
     let force = read(&mut driver, "N");
-    let ideal = driver.outcome().ideal_adhesion_force.unwrap() * 1e6;
+    let ideal = driver.outcome().ideal_pull_off_force.unwrap() * 1e6;
     assert!(
         (force / ideal / share - 1.0).abs() < 0.01,
         "{force} µN of {ideal} µN, {share}"

@@ -83,7 +83,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
         driver
             .outcome()
             .figures
-            .adhesion_force
+            .pull_off_force
             .is_some_and(|force| force > 0.0)
     );
     driver.press("Q");

@@ -15,10 +15,10 @@ fn loaded(loading: &str, stage: usize) -> Driver {
 fn select(driver: &mut Driver, stage: usize) {
     let rows = &driver.app.edit.parameters;
     let is_row =
-        |leg: Option<usize>, path: &str| leg == stage.checked_sub(1) && path.starts_with("loading");
+        |row: Option<usize>, path: &str| row == stage.checked_sub(1) && path.starts_with("loading");
     driver.app.edit.selected = rows
         .iter()
-        .position(|one| is_row(one.leg, &one.path))
+        .position(|one| is_row(one.stage, &one.path))
         .expect("a row");
 }
 
@@ -35,8 +35,8 @@ fn loading(app: &App) -> String {
 fn selected(app: &App) -> Option<usize> {
     app.edit
         .parameter()
-        .and_then(|one| one.leg)
-        .map(|leg| leg + 1)
+        .and_then(|one| one.stage)
+        .map(|row| row + 1)
 }
 
 #[test]
@@ -129,8 +129,8 @@ fn arrows_leave_a_stage_without_a_number_as_it_is() {
 #[test]
 fn a_stage_of_another_kind_has_the_state_at_its_end() {
     let mut driver = loaded("[ToForce(2.0e-5), ToSeparation]", 1);
-    let end = driver.app.legs()[0].end();
-    let preload = driver.outcome().figures.adhesion_force;
+    let end = driver.app.stages()[0].end();
+    let preload = driver.outcome().figures.pull_off_force;
     driver.press("V");
     let Move::ToIndentation(to) = driver.document().scene().loading[0] else {
         panic!("an indentation")
@@ -138,7 +138,7 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     assert!((to / end - 1.0).abs() < 1e-3, "{to} {end}");
     assert_eq!(selected(&driver.app), Some(1));
     // The turning point is nearly the same.
-    assert!(preload.is_some() && driver.outcome().figures.adhesion_force.is_some());
+    assert!(preload.is_some() && driver.outcome().figures.pull_off_force.is_some());
     // Back to a force by the text of one.
     driver.enter("20 µN");
     assert_eq!(loading(&driver.app), "[ToForce(2.0e-5), ToSeparation]");
@@ -220,14 +220,14 @@ fn the_path_of_manual_loading_becomes_the_loading() {
         driver.states("the path is the loading, ");
         assert!(driver.app.edit.path.is_none());
         assert_eq!(driver.document().scene().loading, followed.loading());
-        assert_eq!(driver.outcome().history.legs, followed.legs, "{keys}");
+        assert_eq!(driver.outcome().history.stages, followed.stages, "{keys}");
         // The body stays where it is.
         assert_eq!(driver.point().indentation, point.indentation, "{keys}");
         assert_eq!(driver.point().springs, point.springs, "{keys}");
         // One undo reverts both.
         driver.press("u");
         assert_eq!(driver.document().text(), scene.text());
-        assert_eq!(driver.app.followed().unwrap().legs, followed.legs);
+        assert_eq!(driver.app.followed().unwrap().stages, followed.stages);
         assert_eq!(driver.point(), point);
     }
 }

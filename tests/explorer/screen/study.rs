@@ -48,7 +48,7 @@ fn glyphs_show_all_that_was_recorded() {
             "F_a(d=0)/F_a,max over H, κ",
         ),
         (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
-        (Quantity::AdhesionForce, "F_a (µN) "),
+        (Quantity::PullOffForce, "F_a (µN) "),
     ] {
         driver.press("V");
         assert_eq!(driver.app.mapped(), quantity);

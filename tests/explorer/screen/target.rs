@@ -15,7 +15,7 @@ fn asked(document: Document) -> Driver {
     driver
 }
 
-/// Adhesion forces of the scene on the profiles of this number of seeds, ascending, N.
+/// Pull-off forces of the scene on the profiles of this number of seeds, ascending, N.
 fn forces(driver: &Driver, profiles: u64) -> Vec<f64> {
     let scene = driver.document().scene();
     let force = |line: u64| {
@@ -23,7 +23,7 @@ fn forces(driver: &Driver, profiles: u64) -> Vec<f64> {
         let outcome = Simulation::default()
             .run(&scene, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
-        outcome.figures.adhesion_force.unwrap()
+        outcome.figures.pull_off_force.unwrap()
     };
     let mut forces: Vec<f64> = (0..profiles).map(force).collect();
     forces.sort_by(f64::total_cmp);
@@ -48,7 +48,7 @@ fn the_headline_is_the_median_of_random_profiles() {
     driver.shows("F_a/F_a,max ");
     // In units of F_a,max.
     driver.press("N");
-    let ideal = driver.outcome().ideal_adhesion_force.unwrap();
+    let ideal = driver.outcome().ideal_pull_off_force.unwrap();
     let share = asperity::data::format_rounded(median / ideal, 3, "1");
     driver.states(format!("F_a/F_a,max median {share}"));
     // A title changes no profile, another number does.
@@ -81,7 +81,7 @@ fn a_value_is_found_for_a_target_and_taken() {
     driver.press("Enter");
     let work = driver.document().scene().adhesion.unwrap().work().unwrap();
     assert!((work / exact - 1.0).abs() < 1e-3, "{work} {exact}");
-    assert!((driver.outcome().figures.adhesion_force.unwrap() / 5e-6 - 1.0).abs() < 1e-6);
+    assert!((driver.outcome().figures.pull_off_force.unwrap() / 5e-6 - 1.0).abs() < 1e-6);
     driver.press("u");
     assert_ne!(
         driver.document().scene().adhesion.unwrap().work(),

@@ -3,7 +3,7 @@
 use super::*;
 use asperity::explorer::player::At;
 use asperity::explorer::theme::Marker;
-use asperity_contact::{Direction, Event, LegRecord};
+use asperity_contact::{Direction, Event, StageRecord};
 
 fn listed(driver: &Driver) -> Vec<Event> {
     match driver.app.listed_events() {
@@ -35,7 +35,7 @@ fn keys_visit_all_events_in_the_order_of_the_motion() {
                     || point.springs == 0,
                 "{event:?}: {point:?}"
             );
-            assert_eq!(driver.app.play.leg, event.stage);
+            assert_eq!(driver.app.play.stage, event.stage);
             if let Some(jump) = event.jump {
                 let [before, after] = event.forces;
                 let scale = before.abs().max(after.abs()).max(1e-12);
@@ -43,7 +43,7 @@ fn keys_visit_all_events_in_the_order_of_the_motion() {
                     (point.force - after).abs() <= 1e-6 * scale,
                     "{event:?}: {point:?}"
                 );
-                assert_eq!(point.fragments, jump.patches[1], "{event:?}");
+                assert_eq!(point.patches, jump.patches[1], "{event:?}");
             }
         }
         driver.press(";");
@@ -108,19 +108,19 @@ fn a_click_on_a_tick_goes_to_its_jump() {
     let mut driver = at_beginning(open("pressure-sensitive").unwrap());
     driver.resize((120, 36));
     let events = listed(&driver);
-    let largest = |direction: Direction, legs: &[LegRecord]| {
+    let largest = |direction: Direction, stages: &[StageRecord]| {
         let mut jumps: Vec<&Event> = events.iter().filter(|event| event.jump.is_some()).collect();
-        jumps.retain(|event| legs[event.stage].direction == direction);
+        jumps.retain(|event| stages[event.stage].direction == direction);
         let energy = |event: &&Event| event.jump.map_or(0.0, |jump| jump.energy.abs());
         **jumps
             .iter()
             .max_by(|event, other| energy(event).total_cmp(&energy(other)))
             .unwrap()
     };
-    let legs = driver.outcome().history.legs.clone();
+    let stages = driver.outcome().history.stages.clone();
     let area = driver.area(Pane::Timeline);
     for direction in [Direction::Loading, Direction::Unloading] {
-        let wanted = largest(direction, &legs);
+        let wanted = largest(direction, &stages);
         let mut reached = false;
         for column in area.left()..area.right() {
             driver.mouse(column, area.bottom() - 2, Gesture::Press);
@@ -130,7 +130,7 @@ fn a_click_on_a_tick_goes_to_its_jump() {
         assert!(reached, "{wanted:?}");
     }
     driver.mouse(area.right() - 1, area.bottom() - 1, Gesture::Press);
-    assert_eq!(driver.app.play.leg, 1);
+    assert_eq!(driver.app.play.stage, 1);
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn the_list_follows_the_playhead_and_moves_it() {
     let third = driver.point().indentation;
     assert!((third - events[1].indentation).abs() <= 1e-9 * third.abs());
     driver.press("End");
-    assert!(driver.app.play.leg == 1);
+    assert!(driver.app.play.stage == 1);
     driver.press("Home");
     let area = driver.area(Pane::Events);
     driver.mouse(area.x + 3, area.y + 2, Gesture::Press);
@@ -167,7 +167,11 @@ fn a_path_by_hand_has_its_own_stages_and_events() {
     let followed = driver.app.followed().expect("a path").clone();
     assert!(followed.moves().len() >= 2);
     let events = listed(&driver);
-    assert!(events.iter().all(|event| event.stage < followed.legs.len()));
+    assert!(
+        events
+            .iter()
+            .all(|event| event.stage < followed.stages.len())
+    );
     assert!(driver.text().contains("press to"), "{}", driver.text());
     driver.press("d");
     assert!(driver.app.edit.path.is_none());

@@ -70,7 +70,7 @@ fn between<'t>(text: &'t str, before: &str, after: &str) -> &'t str {
 /// Pull-off force of the shown profile with this number of digits.
 fn pull_off(driver: &Driver, digits: usize) -> String {
     format_rounded(
-        driver.outcome().figures.adhesion_force.expect("a pull-off"),
+        driver.outcome().figures.pull_off_force.expect("a pull-off"),
         digits,
         "N",
     )
@@ -120,7 +120,7 @@ fn the_first_step_finds_the_preload() {
         .app
         .edit
         .parameter()
-        .and_then(|parameter| parameter.leg);
+        .and_then(|parameter| parameter.stage);
     assert_eq!(
         stage,
         Some(0),

@@ -13,7 +13,7 @@ use asperity::scene::discretisation::{
 fn chosen(tolerance: f64) -> Result<Choosing, String> {
     let choice = Choice {
         tolerance,
-        target: Target::AdhesionForce,
+        target: Target::PullOffForce,
         points: 2048,
         edges: Edges::SubCell,
         error: 4e-4,
@@ -83,7 +83,7 @@ fn table() -> CostTable {
     );
     let reference = CostReference {
         springs: 16384,
-        adhesion_force: Some(1e-5),
+        pull_off_force: Some(1e-5),
         closed_form: false,
         errors: [Some(1e-5), None, None, None],
     };
@@ -100,7 +100,7 @@ fn table() -> CostTable {
 fn estimate(error: f64) -> Option<Estimate> {
     let evidence = Evidence::Solutions(vec![512, 2048]);
     Some(Estimate {
-        target: Target::AdhesionForce,
+        target: Target::PullOffForce,
         error,
         near_step: error > 1.0,
         evidence,

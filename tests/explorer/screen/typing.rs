@@ -271,13 +271,13 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
         driver.type_text("300 nm");
         let tried = driver.app.tried_outcome().expect("a preview").figures;
         assert_ne!(
-            tried.adhesion_force,
-            computed.outcome.figures.adhesion_force
+            tried.pull_off_force,
+            computed.outcome.figures.pull_off_force
         );
         let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
         let alone = Driver::start(alone).app.solved.clone().unwrap();
         assert_eq!(tried, alone.outcome.figures);
-        let force = format_quantity(tried.adhesion_force.unwrap(), "N");
+        let force = format_quantity(tried.pull_off_force.unwrap(), "N");
         assert!(
             driver
                 .status()
@@ -315,7 +315,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
         driver
             .app
             .tried_outcome()
-            .and_then(|one| one.figures.adhesion_force)
+            .and_then(|one| one.figures.pull_off_force)
     };
     let first = force(&driver).expect("a preview");
     // The next value is typed, and its curve is not there yet: the previous one remains.
@@ -342,7 +342,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
     driver.shows("preview");
     driver.perform(accepted);
     assert_eq!(driver.app.tried_outcome(), None);
-    assert_eq!(driver.outcome().figures.adhesion_force, Some(second));
+    assert_eq!(driver.outcome().figures.pull_off_force, Some(second));
 }
 
 #[test]

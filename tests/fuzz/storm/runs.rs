@@ -1,11 +1,11 @@
 //! Allowed scenes, computed: a valid result, or one error with its place and the allowed values.
 
 use super::*;
-use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
+use asperity::contact::{ContactError, CurvePoint, Direction, StageRecord};
 use asperity::contact::{Edges, Move};
 use asperity::scene::Roughness;
 use asperity::scene::fields::target_field;
-use asperity::scene::stages::BeyondFullContact;
+use asperity::scene::workload::BeyondFullContact;
 use asperity::scene::{Outcome, RunError, Simulation};
 use asperity::surface::Form;
 use asperity::surface::{Place, SurfaceError};
@@ -27,16 +27,16 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
             assert_numbers(&outcome)?;
             let ends = outcome
                 .history
-                .legs
+                .stages
                 .iter()
-                .filter_map(|leg| leg.curve.last().copied());
+                .filter_map(|stage| stage.curve.last().copied());
             let starts = std::iter::once(CurvePoint::default()).chain(ends);
             outcome
                 .history
-                .legs
+                .stages
                 .iter()
                 .zip(starts)
-                .try_for_each(|(leg, start)| assert_leg(leg, &start, &outcome))?;
+                .try_for_each(|(stage, start)| assert_stage(stage, &start, &outcome))?;
             assert_energy(&outcome, scene.numerics.edges)
         }
         Err(RunError::BeyondFullContact(beyond)) => {
@@ -74,9 +74,9 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     prop_assert_eq!(
         outcome
             .history
-            .legs
+            .stages
             .iter()
-            .map(|leg| leg.attached)
+            .map(|stage| stage.attached)
             .sum::<u64>(),
         work.attached
     );
@@ -87,7 +87,7 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
             .as_ref()
             .is_none_or(|histogram| histogram.low <= histogram.high)
     );
-    for patches in outcome.fragments.iter().chain([&outcome.history.contacts]) {
+    for patches in outcome.patches.iter().chain([&outcome.history.contacts]) {
         prop_assert!(
             patches
                 .iter()
@@ -102,13 +102,17 @@ fn assert_numbers(outcome: &Outcome) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Asserts the properties of a leg that begins at a point.
-fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<(), TestCaseError> {
+/// Asserts the properties of a stage that begins at a point.
+fn assert_stage(
+    stage: &StageRecord,
+    start: &CurvePoint,
+    outcome: &Outcome,
+) -> Result<(), TestCaseError> {
     let line = &outcome.line;
     // L/N is rounded, and N of them may exceed L by that.
     let length = line.length.max(line.points as f64 * line.spacing);
-    let is_loading = leg.direction == Direction::Loading;
-    for point in leg.curve.iter().chain([&leg.largest, &leg.smallest]) {
+    let is_loading = stage.direction == Direction::Loading;
+    for point in stage.curve.iter().chain([&stage.largest, &stage.smallest]) {
         prop_assert!(
             (0.0..=length).contains(&point.contact_length),
             "{:?} on {} m",
@@ -116,14 +120,14 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
             length
         );
         prop_assert!(
-            point.springs.max(point.fragments) <= line.points as u64,
+            point.springs.max(point.patches) <= line.points as u64,
             "{:?}",
             point
         );
         let is_free = point.force == 0.0 && point.contact_length == 0.0;
-        prop_assert!(point.fragments > 0 || is_free, "{:?}", point);
+        prop_assert!(point.patches > 0 || is_free, "{:?}", point);
     }
-    for pair in leg.curve.windows(2) {
+    for pair in stage.curve.windows(2) {
         let [one, other] = if is_loading {
             [pair[0], pair[1]]
         } else {
@@ -139,34 +143,34 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
     }
     // All springs at the deepest compression and the largest gap.
     let gap = line.deepest.max(f64::MIN_POSITIVE);
-    let deepest = leg
+    let deepest = stage
         .curve
         .iter()
         .map(|point| point.indentation.abs())
         .fold(gap, f64::max);
-    let rounding = ROUNDING * outcome.governing.effective_modulus * line.length * deepest;
+    let rounding = ROUNDING * outcome.governing.modulus * line.length * deepest;
     // Extremes are those of the contact; outside of contact there is no force.
-    for point in leg.curve.iter().filter(|point| point.fragments > 0) {
+    for point in stage.curve.iter().filter(|point| point.patches > 0) {
         let is_inside = if is_loading {
-            point.force <= leg.largest.force + rounding
+            point.force <= stage.largest.force + rounding
         } else {
-            point.force >= leg.smallest.force - rounding
+            point.force >= stage.smallest.force - rounding
         };
         let may_pull = outcome.governing.adhesive_work().is_some() || point.force >= 0.0;
         prop_assert!(
             is_inside && may_pull,
             "{:?} {:?} {:?}",
             point,
-            leg.largest,
-            leg.smallest
+            stage.largest,
+            stage.smallest
         );
     }
-    let Some(end) = leg.curve.last() else {
-        return Err(TestCaseError::fail("a leg without points"));
+    let Some(end) = stage.curve.last() else {
+        return Err(TestCaseError::fail("a stage without points"));
     };
-    prop_assert_eq!(start.springs + leg.attached - leg.detached, end.springs);
+    prop_assert_eq!(start.springs + stage.attached - stage.detached, end.springs);
     let is_at = |force: f64| (end.force - force).abs() <= rounding + ROUNDING * force.abs();
-    let is_reached = match leg.target {
+    let is_reached = match stage.target {
         Move::ToForce(force) => is_at(force),
         Move::ToZeroForce => is_at(0.0),
         Move::ToIndentation(indentation) => end.indentation == indentation,
@@ -180,24 +184,24 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
             _ => end.indentation == at,
         },
         Move::ToTouch => end.indentation == 0.0,
-        Move::ToSeparation => (end.springs, end.fragments) == (0, 0),
+        Move::ToSeparation => (end.springs, end.patches) == (0, 0),
     };
-    prop_assert!(is_reached, "{:?} ends at {:?}", leg.target, end);
+    prop_assert!(is_reached, "{:?} ends at {:?}", stage.target, end);
     Ok(())
 }
 
 /// From separation to separation energy is dissipated, never gained; without adhesion none is
 /// dissipated.
 fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
-    let legs = &outcome.history.legs;
-    let size: f64 = legs.iter().map(|leg| leg.released_energy.abs()).sum();
+    let stages = &outcome.history.stages;
+    let size: f64 = stages.iter().map(|stage| stage.released_energy.abs()).sum();
     let (mut sum, mut least) = (0.0, f64::INFINITY);
-    for leg in legs {
-        sum += leg.released_energy;
-        if leg
+    for stage in stages {
+        sum += stage.released_energy;
+        if stage
             .curve
             .last()
-            .is_some_and(|point| point.springs == 0 && point.fragments == 0)
+            .is_some_and(|point| point.springs == 0 && point.patches == 0)
         {
             least = least.min(sum);
         }
@@ -210,7 +214,7 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
         // Squares over parts of cells are rounded numbers, of which only differences are released.
         Edges::SubCell => f64::EPSILON * deepest * deepest,
     };
-    let rounded = 0.5 * outcome.governing.effective_modulus * outcome.line.length * squares;
+    let rounded = 0.5 * outcome.governing.modulus * outcome.line.length * squares;
     prop_assert!(
         least >= -ROUNDING * size - rounded,
         "{:e} J won of {:e}",
@@ -225,7 +229,7 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// An error names a leg, a field or the excessive size, and a refused force comes with the allowed
+/// An error names a stage, a field or the excessive size, and a refused force comes with the allowed
 /// ones.
 fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> {
     let message = error.to_string();
@@ -238,7 +242,7 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
         }) => {
             // Without adhesion every pressing force has its indentation, unless that exceeds all
             // numbers.
-            let stiffness = scene.material.effective_modulus() * scene.length;
+            let stiffness = scene.material.modulus_in_pascals() * scene.length;
             let presses = matches!(target, Move::ToForce(force) if *force > 0.0 && (force / stiffness).is_finite());
             let is_out_of_reach =
                 **reason == ContactError::OutOfReach && (scene.adhesion.is_some() || !presses);
@@ -290,7 +294,7 @@ fn gaps_far_above_the_stretches() {
         ("1.0e13", "SubCell"),
     ] {
         let text = format!(
-            "(version: 1, material: (effective_modulus: {modulus}), length: 1.0e-9, form: Paraboloid(radius: 1.0e-3),
+            "(version: 1, material: (modulus: {modulus}), length: 1.0e-9, form: Paraboloid(radius: 1.0e-3),
             roughness: SelfAffine(hurst: 0.7, rms_height: 100.0, modes: (91, 315), seed: 0),
             adhesion: (work: 1.2563377122730193), loading: [ToForce(1.0e30), ToSeparation],
             numerics: (points: 630, edges: {edges}, samples: 10))"

@@ -2,7 +2,7 @@
 
 use asperity::data::is_control;
 use asperity::scene::Document;
-use asperity::scene::fields::{FIELDS, Field, LEG_FIELDS, Range};
+use asperity::scene::fields::{FIELDS, Field, Range, STAGE_FIELDS};
 use asperity::scene::library::{DEFAULT, find_scene};
 use asperity::scene::text::{ron_float, ron_string};
 use proptest::prelude::*;
@@ -99,17 +99,17 @@ impl Drawn {
                 .prop_map(|value| (field.path.to_string(), value))
                 .boxed()
         };
-        let legs = LEG_FIELDS.map(|leg| {
+        let stages = STAGE_FIELDS.map(|stage| {
             let value = Drawn {
                 extreme: EXTREME[0],
                 ..self.clone()
             }
-            .value(leg);
+            .value(stage);
             (0..3_usize, value)
                 .prop_map(|(index, value)| (format!("loading.{index}.0"), value))
                 .boxed()
         });
-        let one = proptest::strategy::Union::new(FIELDS.iter().map(of).chain(legs));
+        let one = proptest::strategy::Union::new(FIELDS.iter().map(of).chain(stages));
         prop::collection::vec(one, 1..=most).boxed()
     }
 
@@ -161,9 +161,9 @@ impl Drawn {
         if arguments.is_empty() {
             return Just(name.to_string()).boxed();
         }
-        let argument = LEG_FIELDS
+        let argument = STAGE_FIELDS
             .into_iter()
-            .find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
+            .find(|stage| (stage.path, stage.variant) == (field.path, Some(name)));
         match argument {
             Some(argument) => self
                 .value(argument)

@@ -120,7 +120,7 @@ impl Place {
     /// Result of a scene with this version and roughness; the scene remains as `scene.ron`.
     fn scene(&self, roughness: &str) -> Value {
         let text = format!(
-            "(version: 1, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
+            "(version: 1, material: (modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
              roughness: Measured({roughness}), numerics: (points: 2048))"
         );
         self.write("scene.ron", &text);
@@ -128,7 +128,7 @@ impl Place {
     }
 
     fn rms_height(&self, roughness: &str) -> f64 {
-        number(&self.scene(roughness)["line"]["rms_height"])
+        number(&self.scene(roughness)["profile"]["rms_height"])
     }
 }
 
@@ -267,7 +267,8 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
             }
         }
         let lines = place.run(&["run", &scene, "--profiles", "2", "--format", "csv"]);
-        let stated: Vec<f64> = numbers(&report, &["adhesion", "lines", "adhesion_force"]).collect();
+        let stated: Vec<f64> =
+            numbers(&report, &["adhesion", "per_profile", "pull_off_force"]).collect();
         assert_eq!(
             table(&lines).map(|row| row[1]).collect::<Vec<_>>(),
             stated,
@@ -303,31 +304,34 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     // The moments are those of the spectrum, with modes in place of integrals.
     for name in ["rms_height", "rms_gradient"] {
         assert_equal(
-            number(&first["line"][name]),
+            number(&first["profile"][name]),
             number(&report["equivalent_line"][name]["value"]),
             0.03,
         );
     }
     // Other seeds are other lines with the same moments, and those that the report states.
     let seven = run(&["--set", "roughness.seed=7"]);
-    assert_eq!(seven["line"]["rms_height"], first["line"]["rms_height"]);
-    assert_ne!(seven["adhesion_force"], first["adhesion_force"]);
+    assert_eq!(
+        seven["profile"]["rms_height"],
+        first["profile"]["rms_height"]
+    );
+    assert_ne!(seven["pull_off_force"], first["pull_off_force"]);
     let adhesion = &report["adhesion"];
     assert_eq!(
-        (&adhesion["preload"], &adhesion["adhesion_force"]["count"]),
+        (&adhesion["preload"], &adhesion["pull_off_force"]["count"]),
         (&json!(1e-5), &json!(4))
     );
     assert!(number(&adhesion["fit_deviation"]) > 0.0, "{adhesion}");
     let lines = place.run(&["run", "rough.ron", "--profiles", "4", "--format", "csv"]);
-    for (row, line) in table(&lines).zip(adhesion["lines"].as_array().unwrap()) {
-        assert_equal(row[1], number(&line["adhesion_force"]), 1e-9);
+    for (row, line) in table(&lines).zip(adhesion["per_profile"].as_array().unwrap()) {
+        assert_equal(row[1], number(&line["pull_off_force"]), 1e-9);
     }
     assert_equal(
         table(&lines).next().unwrap()[1],
-        number(&first["adhesion_force"]),
+        number(&first["pull_off_force"]),
         1e-12,
     );
-    // Without a work of adhesion there is no adhesion force.
+    // Without a work of adhesion there is no pull-off force.
     assert_eq!(
         place.json(&["surface", "line.txt", "--modulus", "1MPa"])["adhesion"],
         Value::Null

@@ -116,7 +116,7 @@ fn rows_that_no_merge_wrote_are_refused() {
             "line 2 is not a row of this study",
         ),
         (
-            text.replacen(",fragments", ",skewness_again", 1),
+            text.replacen(",patches", ",skewness_again", 1),
             "its columns are not those of the plan",
         ),
         (

@@ -10,7 +10,7 @@ const PLAN: &str = r#"(
     version: 1,
     scene: (
         version: 1,
-        material: (effective_modulus: 2.0e6),
+        material: (modulus: 2.0e6),
         length: 1.0e-4,
         roughness: Measured(file: "line.csv", as_line: true),
         adhesion: (work: 0.01),
@@ -18,7 +18,7 @@ const PLAN: &str = r#"(
         numerics: (points: 64, edges: Grid),
     ),
     axes: [List(path: "numerics.points", values: [64, 128, 256]), List(path: "adhesion.work", values: [0.01, 0.1])],
-    record: [adhesion_force, preload_indentation],
+    record: [pull_off_force, preload_indentation],
 )"#;
 
 fn profile(amplitude: f64) -> String {

@@ -22,7 +22,7 @@ impl HessRule {
     pub fn new(foundation: Foundation, work: f64) -> Self {
         // The quotient γ/E* is computed first: if γ and E* are both multiplied by the same power of
         // two, no bit of the result changes.
-        let range = work / foundation.effective_modulus;
+        let range = work / foundation.modulus;
         HessRule {
             stretch: (PI * foundation.spacing * range).sqrt(),
         }

@@ -48,12 +48,12 @@ impl DetachmentRule for SearchedHess {
 
 /// A motion of a body on a profile, with its runs. A run is a patch over a range of indentations in
 /// which its edges do not jump.
-struct Leg<'a, const SLIDES: bool, R> {
+struct Stage<'a, const SLIDES: bool, R> {
     ground: Ground<'a, SLIDES, R>,
     runs: Vec<Run>,
 }
 
-impl<const SLIDES: bool, R: DetachmentRule> Leg<'_, SLIDES, R> {
+impl<const SLIDES: bool, R: DetachmentRule> Stage<'_, SLIDES, R> {
     fn along(&self) -> Runs<'_, SLIDES, R> {
         Runs {
             ground: self.ground,
@@ -105,11 +105,11 @@ impl Line {
         &self,
         rule: R,
         held: &[HeldPatch],
-    ) -> Leg<'_, SLIDES, R> {
+    ) -> Stage<'_, SLIDES, R> {
         let ground = self.ground(rule, false);
         let closing = Closing::new(&ground).unwrap();
         let runs = closing.list(&ground, held).unwrap().runs;
-        Leg { ground, runs }
+        Stage { ground, runs }
     }
 
     fn unloading<const SLIDES: bool, R: DetachmentRule>(
@@ -117,10 +117,10 @@ impl Line {
         rule: R,
         held: &[HeldPatch],
         from: f64,
-    ) -> Leg<'_, SLIDES, R> {
+    ) -> Stage<'_, SLIDES, R> {
         let ground = self.ground(rule, true);
         let runs = ground.open(held, from).unwrap().runs;
-        Leg { ground, runs }
+        Stage { ground, runs }
     }
 }
 
@@ -307,7 +307,7 @@ fn cases(cases: u32) -> ProptestConfig {
 fn hess(stretch: f64) -> HessRule {
     let foundation = Foundation {
         spacing: 1.0,
-        effective_modulus: 1.0,
+        modulus: 1.0,
         length: f64::INFINITY,
     };
     HessRule::new(foundation, stretch * stretch / std::f64::consts::PI)
@@ -329,7 +329,7 @@ proptest! {
         let mut held = Vec::new();
         let mut start = 0.0;
         for turn in turns {
-            let leg: Leg<'_, false, _> = if turn > start {
+            let stage: Stage<'_, false, _> = if turn > start {
                 line.loading(rule, &held)
             } else {
                 line.unloading(opening, &held, start)
@@ -341,9 +341,9 @@ proptest! {
                 } else {
                     relaxed.pull(opening, indentation);
                 }
-                prop_assert_eq!(leg.patches(indentation), relaxed.patches(), "at {}", indentation);
+                prop_assert_eq!(stage.patches(indentation), relaxed.patches(), "at {}", indentation);
             }
-            held = leg.held(turn, false);
+            held = stage.held(turn, false);
             start = turn;
         }
     }
@@ -353,8 +353,8 @@ proptest! {
     #[test]
     fn a_power_of_the_length_has_exact_extremes(gaps in distinct_gaps(), rule in power_rules()) {
         let line = Line::new(&gaps, Edges::SubCell);
-        let loading: Leg<'_, true, _> = line.loading(rule, &[]);
-        let unloading: Leg<'_, true, _> = line.unloading(rule, &loading.held(1.0, false), 1.0);
+        let loading: Stage<'_, true, _> = line.loading(rule, &[]);
+        let unloading: Stage<'_, true, _> = line.unloading(rule, &loading.held(1.0, false), 1.0);
         let coarse = unloading.along().sample(Grid::new(-3.0, 1.0, 8)).unwrap();
         let ends = intervals(&coarse, |_, _| true);
         let mut searched = Intervals::new(&ends, true, line.tree.scale, 0.0);
@@ -411,14 +411,14 @@ proptest! {
     fn the_solver_finds_the_same_with_searched_roots(gaps in gaps(30), stretch in 0.01..0.6_f64, turn in 0.0..1.2_f64) {
         let closed = hess(stretch);
         let line = Line::new(&gaps, Edges::SubCell);
-        let loading: Leg<'_, true, _> = line.loading(closed, &[]);
-        let searched: Leg<'_, true, _> = line.loading(SearchedHess(closed), &[]);
+        let loading: Stage<'_, true, _> = line.loading(closed, &[]);
+        let searched: Stage<'_, true, _> = line.loading(SearchedHess(closed), &[]);
         let is_near = |found: &[f64], expected: &[f64]| {
             found.iter().zip(expected).all(|(one, other)| one == other || (one - other).abs() < 1e-9)
         };
         prop_assert!(is_near(&searched.along().thresholds(), &loading.along().thresholds()));
-        let unloading: Leg<'_, true, _> = line.unloading(closed, &loading.held(turn, false), turn);
-        let searched: Leg<'_, true, _> =
+        let unloading: Stage<'_, true, _> = line.unloading(closed, &loading.held(turn, false), turn);
+        let searched: Stage<'_, true, _> =
             line.unloading(SearchedHess(closed), &searched.held(turn, false), turn);
         prop_assert!(is_near(&searched.along().thresholds(), &unloading.along().thresholds()));
         let squares = [
@@ -441,10 +441,10 @@ proptest! {
     ) {
         let line = Line::new(&gaps, Edges::SubCell);
         let stepped = Stepped { gaps: &gaps };
-        let loading: Leg<'_, true, _> = line.loading(rule, &[]);
+        let loading: Stage<'_, true, _> = line.loading(rule, &[]);
         let opening = PowerRule { stretch: rule.stretch * more, ..rule };
         let held = loading.held(turn, more > 1.0);
-        let unloading: Leg<'_, true, _> = line.unloading(opening, &held, turn);
+        let unloading: Stage<'_, true, _> = line.unloading(opening, &held, turn);
         // A step of the level moves each edge by less than a cell.
         let slack = 20.0 * gaps.len() as f64 * STEP;
         let near = 3.0 * STEP;
@@ -472,12 +472,12 @@ proptest! {
     #[test]
     fn a_power_of_the_length_keeps_the_energy(gaps in distinct_gaps(), rule in power_rules()) {
         let line = Line::new(&gaps, Edges::SubCell);
-        let loading: Leg<'_, true, _> = line.loading(rule, &[]);
-        let unloading: Leg<'_, true, _> = line.unloading(rule, &loading.held(1.2, false), 1.2);
+        let loading: Stage<'_, true, _> = line.loading(rule, &[]);
+        let unloading: Stage<'_, true, _> = line.unloading(rule, &loading.held(1.2, false), 1.2);
         let indentations: Vec<f64> = (0..=40_000).map(|step| -4.0 + 1.3e-4 * f64::from(step)).collect();
         let high = indentations[40_000];
-        for leg in [&loading, &unloading] {
-            let states = leg.states(&indentations);
+        for stage in [&loading, &unloading] {
+            let states = stage.states(&indentations);
             let mut work = 0.0;
             let mut variation = 0.0;
             for pair in states.windows(2) {
@@ -486,7 +486,7 @@ proptest! {
                 variation += width * (pair[1].compression - pair[0].compression).abs();
             }
             let end = states[40_000];
-            let squared_stretch = leg.along().squared_stretch(indentations[0], high);
+            let squared_stretch = stage.along().squared_stretch(indentations[0], high);
             let expected = 0.5 * (end.squares - squared_stretch);
             prop_assert!((work - expected).abs() <= variation + 1e-9, "{} against {}", work, expected);
         }

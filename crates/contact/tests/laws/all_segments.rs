@@ -1,9 +1,9 @@
-//! The force along a leg straight from its thresholds: all of them sorted, nothing bounded or
+//! The force along a stage straight from its thresholds: all of them sorted, nothing bounded or
 //! skipped.
 
 use crate::body::Body;
 
-/// All segments of a leg: between two thresholds the same springs are in contact.
+/// All segments of a stage: between two thresholds the same springs are in contact.
 pub struct Segments {
     stiffness: f64,
     /// Thresholds in ascending order, with the springs in contact from there on.

@@ -4,8 +4,8 @@
 
 use asperity_contact::motion::load_body;
 use asperity_contact::{
-    self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move,
-    Patch, Profile,
+    self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, Modulus, Move, Patch,
+    Profile, StageRecord,
 };
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -17,26 +17,23 @@ pub struct Foundation {
     /// Δx, m.
     pub spacing: f64,
     /// E*, Pa.
-    pub effective_modulus: f64,
+    pub modulus: f64,
 }
 
 impl Foundation {
-    pub const fn new(spacing: f64, effective_modulus: f64) -> Self {
-        Foundation {
-            spacing,
-            effective_modulus,
-        }
+    pub const fn new(spacing: f64, modulus: f64) -> Self {
+        Foundation { spacing, modulus }
     }
 
     /// E* Δx, N/m.
     pub fn spring_stiffness(&self) -> f64 {
-        self.effective_modulus * self.spacing
+        self.modulus * self.spacing
     }
 
     /// Largest stretch √(π n Δx γ/E*), m, of a patch of n = `springs` springs under a work of
     /// adhesion γ, J/m²; eq. (10).
     pub fn largest_stretch(&self, work: f64, springs: usize) -> f64 {
-        (PI * self.spacing * (work / self.effective_modulus)).sqrt() * (springs as f64).sqrt()
+        (PI * self.spacing * (work / self.modulus)).sqrt() * (springs as f64).sqrt()
     }
 
     /// The contact of a line with these gaps (m) for works of adhesion on closing and on opening,
@@ -47,10 +44,7 @@ impl Foundation {
 
     pub fn builder(&self, gaps: &[f64], edges: Edges, works: [f64; 2]) -> ContactBuilder {
         let profile = Profile::from_gaps(gaps.to_vec(), self.spacing).unwrap();
-        let contact = Contact::builder(
-            &profile,
-            Modulus::effective(self.effective_modulus).unwrap(),
-        );
+        let contact = Contact::builder(&profile, Modulus::effective(self.modulus).unwrap());
         contact.edges(edges).works_of_adhesion(works)
     }
 }
@@ -127,7 +121,7 @@ impl Body {
     /// Largest stretch of a patch as long as the whole line, eq. (10), m.
     pub fn largest_stretch(&self) -> f64 {
         let length = self.gaps.len() as f64 * self.foundation.spacing;
-        (PI * length * self.work / self.foundation.effective_modulus).sqrt()
+        (PI * length * self.work / self.foundation.modulus).sqrt()
     }
 
     /// Stiffness of all springs, N/m.
@@ -356,8 +350,8 @@ pub fn cases(whole: u32) -> ProptestConfig {
     }
 }
 
-/// End of a leg; separated at d = 0 if the leg has no point.
-pub fn end(record: &LegRecord) -> CurvePoint {
+/// End of a stage; separated at d = 0 if the stage has no point.
+pub fn end(record: &StageRecord) -> CurvePoint {
     record.curve.last().copied().unwrap_or_default()
 }
 
@@ -368,15 +362,15 @@ pub fn bits(point: &CurvePoint) -> [u64; 6] {
         force,
         contact_length,
         springs,
-        fragments,
+        patches,
         stored_energy,
     } = *point;
     let [d, force, length, energy] =
         [indentation, force, contact_length, stored_energy].map(f64::to_bits);
-    [d, force, length, energy, springs, fragments]
+    [d, force, length, energy, springs, patches]
 }
 
-pub fn curve_bits(record: &LegRecord) -> Vec<[u64; 6]> {
+pub fn curve_bits(record: &StageRecord) -> Vec<[u64; 6]> {
     record.curve.iter().map(bits).collect()
 }
 

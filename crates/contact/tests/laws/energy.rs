@@ -1,19 +1,19 @@
-//! The work of the force is the stored energy and the dissipated one on each leg, and no loop gains
+//! The work of the force is the stored energy and the dissipated one on each stage, and no loop gains
 //! energy.
 
 use super::all_segments::Segments;
 use super::*;
 
-/// ∫F dd of a leg that was recorded, J: over all segments of whole springs; else over the points of
+/// ∫F dd of a stage that was recorded, J: over all segments of whole springs; else over the points of
 /// the curve, with a jump anywhere between two of them.
-fn work_done(body: &Body, record: &LegRecord, leg: &Leg) -> f64 {
+fn work_done(body: &Body, record: &StageRecord, stage: &Stage) -> f64 {
     if body.edges == Edges::SubCell {
         let trapezium = |pair: &[CurvePoint]| {
             0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
         };
         return record.curve.windows(2).map(trapezium).sum();
     }
-    let segments = Segments::new(&leg.thresholds(), body);
+    let segments = Segments::new(&stage.thresholds(), body);
     let (start, end) = (record.start(), record.end());
     if start < end {
         segments.work(start, end)
@@ -26,7 +26,7 @@ proptest! {
     #![proptest_config(cases(400))]
 
     #[test]
-    fn the_work_of_each_leg_is_stored_or_dissipated(body in bodies(60), turns in indentations(8)) {
+    fn the_work_of_each_stage_is_stored_or_dissipated(body in bodies(60), turns in indentations(8)) {
         let (samples, allowed) = if body.edges == Edges::Grid { (2, 1e-14) } else { (20_000, 3e-4) };
         let mut solver = body.on(samples);
         let [_, scale] = body.scales();
@@ -35,10 +35,10 @@ proptest! {
             let record = solver.advance(target).unwrap();
             let end = end(&record);
             if body.edges == Edges::Grid && end.springs > 0 {
-                let expected = Segments::new(&solver.leg().thresholds(), &body).stored_energy(end.indentation);
+                let expected = Segments::new(&solver.stage().thresholds(), &body).stored_energy(end.indentation);
                 prop_assert!((end.stored_energy - expected).abs() <= 1e-14 * scale, "{:?} {}", end, expected);
             }
-            let expected = work_done(&body, &record, &solver.leg()) - (end.stored_energy - stored);
+            let expected = work_done(&body, &record, &solver.stage()) - (end.stored_energy - stored);
             prop_assert!(
                 (record.released_energy - expected).abs() <= allowed * scale,
                 "{} against {} on {:?}", record.released_energy, expected, target
@@ -50,7 +50,7 @@ proptest! {
     }
 
     #[test]
-    fn a_leg_divided_at_an_event_loses_no_more(
+    fn a_stage_divided_at_an_event_loses_no_more(
         body in bodies(200),
         deep in 0.2..1.2_f64,
         springs in prop::array::uniform4(any::<prop::sample::Index>()),
@@ -58,7 +58,7 @@ proptest! {
         let mut solver = body.on(2);
         let whole = [Move::ToIndentation(deep), Move::ToSeparation].map(|target| {
             let record = solver.advance(target).unwrap();
-            let mut thresholds = solver.leg().thresholds();
+            let mut thresholds = solver.stage().thresholds();
             thresholds.retain(|threshold| threshold.is_finite());
             (record.released_energy, thresholds, target)
         });

@@ -51,11 +51,9 @@ impl<'a> Blind<'a> {
     /// Largest stretch of this number of springs under a work of adhesion, m.
     fn stretch(&self, springs: usize, work: f64) -> f64 {
         let Foundation {
-            spacing,
-            effective_modulus,
-            ..
+            spacing, modulus, ..
         } = self.body.foundation;
-        (PI * springs as f64 * spacing * (work / effective_modulus)).sqrt()
+        (PI * springs as f64 * spacing * (work / modulus)).sqrt()
     }
 
     /// Springs in the run of contact to the left and to the right of a spring.
@@ -129,7 +127,7 @@ fn order() -> impl Strategy<Value = Order> {
     ]
 }
 
-/// Numbers of compared contact states, of springs in them, and of refused legs.
+/// Numbers of compared contact states, of springs in them, and of refused stages.
 static COMPARED: [AtomicU64; 3] = [const { AtomicU64::new(0) }; 3];
 
 fn count(index: usize, number: usize) {
@@ -145,7 +143,7 @@ fn compare(
 ) -> Result<(), TestCaseError> {
     let (mut solver, mut blind) = (body.on(2), Blind::new(body, order));
     let agree = |solver: &contact::motion::Body, blind: &Blind, d: f64| {
-        prop_assert_eq!(solver.leg().patches(d), blind.patches(), "at {}", d);
+        prop_assert_eq!(solver.stage().patches(d), blind.patches(), "at {}", d);
         count(0, 1);
         count(1, body.gaps.len());
         Ok(())
@@ -156,7 +154,7 @@ fn compare(
         let record = match solver.advance(target) {
             Ok(record) => record,
             Err(ContactError::NothingToPull | ContactError::DetachesBefore { .. }) => {
-                // The body has not moved. The leg of a separation still has the contact of its end.
+                // The body has not moved. The stage of a separation still has the contact of its end.
                 if blind.contact.contains(&true) {
                     agree(&solver, &blind, present)?;
                 }
@@ -194,7 +192,7 @@ fn compare(
         let patches = blind.patches();
         let counts = (indices(&patches).len() as u64, patches.len() as u64);
         prop_assert_eq!(
-            (end.springs, end.fragments),
+            (end.springs, end.patches),
             counts,
             "at the end of {:?}",
             target
@@ -224,12 +222,12 @@ fn contact_states_agree_with_blind_relaxation() {
     let [states, springs, refused] = COMPARED
         .each_ref()
         .map(|count| count.load(Ordering::Relaxed));
-    println!("{states} contact states, {springs} states of springs, {refused} legs refused");
+    println!("{states} contact states, {springs} states of springs, {refused} stages refused");
     let histories = u64::from(cases(HISTORIES).cases);
     assert!(states >= 12 * histories && springs >= 330 * histories && refused >= histories / 24);
 }
 
-/// At its threshold a spring beside a fragment attaches, and a spring held by no more than Δl_max
+/// At its threshold a spring beside a patch attaches, and a spring held by no more than Δl_max
 /// detaches.
 #[test]
 fn springs_change_at_the_threshold_itself() {
@@ -244,7 +242,7 @@ fn springs_change_at_the_threshold_itself() {
         let springs = |turns: &[f64]| {
             end(body
                 .history(&to_indentations(turns), 2)
-                .legs
+                .stages
                 .last()
                 .unwrap())
             .springs

@@ -77,7 +77,7 @@ fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
     let check = |body: &mut Body, to: f64, expected: &[f64]| {
         body.move_to(Move::ToIndentation(to))
             .map_err(|error: ContactError| error.to_string())?;
-        let found = body.leg().thresholds();
+        let found = body.stage().thresholds();
         let agree = found
             .iter()
             .zip(expected)
@@ -191,7 +191,7 @@ fn every_history(step: usize) -> Result<u64, String> {
                         .map_err(|error| error.to_string())?;
                     relax(&gaps, &mut bare, at, works);
                     let mut found = vec![false; gaps.len()];
-                    for patch in body.leg().patches(at) {
+                    for patch in body.stage().patches(at) {
                         found[patch.springs()].fill(true);
                     }
                     if found != bare {

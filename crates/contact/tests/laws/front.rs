@@ -1,6 +1,6 @@
 //! The interface of programs: what is refused and why, that nothing else than finite numbers
 //! leaves, and that columns, points at given indentations, reversals and patches agree with the
-//! legs they are taken from.
+//! stages they are taken from.
 
 use super::*;
 use asperity_contact::{Cycle, LoadOptions, Modulus, Profile};
@@ -223,7 +223,7 @@ proptest! {
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// Columns are the points of the stages, points at given indentations are those of a leg, and a
+    /// Columns are the points of the stages, points at given indentations are those of a stage, and a
     /// reversal equals a loading and an unloading.
     #[test]
     fn columns_points_and_reversals_agree_with_the_stages(
@@ -234,12 +234,12 @@ proptest! {
         let stages = to_indentations(&turns);
         let cycle = contact.load_with(&stages, LoadOptions::default().samples(9).indentations(&at)).unwrap();
         let history = body.history(&stages, 9);
-        prop_assert_eq!(cycle.stages(), &history.legs[..]);
+        prop_assert_eq!(cycle.stages(), &history.stages[..]);
         let curve = cycle.curve();
-        let rows = history.legs.iter().enumerate().flat_map(|(stage, leg)| leg.curve.iter().map(move |p| (stage, p)));
+        let rows = history.stages.iter().enumerate().flat_map(|(stage, record)| record.curve.iter().map(move |p| (stage, p)));
         prop_assert_eq!(rows.clone().count(), curve.stage.len());
         for (row, (stage, point)) in rows.enumerate() {
-            prop_assert_eq!((curve.stage[row], curve.patches[row]), (stage, point.fragments));
+            prop_assert_eq!((curve.stage[row], curve.patches[row]), (stage, point.patches));
             let columns = [&curve.indentation, &curve.displacement, &curve.force, &curve.contact_length, &curve.stored_energy];
             let CurvePoint { indentation, force, contact_length, stored_energy, .. } = *point;
             let expected = [indentation, indentation, force, contact_length, stored_energy];
@@ -250,7 +250,7 @@ proptest! {
             let record = solver.advance(*target).unwrap();
             let (low, high) = (record.start().min(record.end()), record.start().max(record.end()));
             let inside: Vec<f64> = at.iter().copied().filter(|at| low <= *at && *at <= high).collect();
-            prop_assert_eq!(cycle.at(stage), solver.leg().curve(&inside).unwrap());
+            prop_assert_eq!(cycle.at(stage), solver.stage().curve(&inside).unwrap());
         }
         let ends: Vec<Move> = turns.iter().map(|turn| Move::ToIndentation(turn.abs())).collect();
         for (end, reversal) in ends.iter().zip(contact.reversals(&ends, &at).unwrap()) {

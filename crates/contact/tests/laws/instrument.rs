@@ -43,7 +43,7 @@ proptest! {
             let to = if turn > 0.0 { turn * most } else { turn };
             let before = solver.point();
             let record = solver.advance(Move::ToDisplacement(to)).unwrap();
-            let (after, leg) = (end(&record), solver.leg());
+            let (after, stage) = (end(&record), solver.stage());
             let loads = record.direction == Direction::Loading;
             let sign = if loads { 1.0 } else { -1.0 };
             if after.springs == 0 {
@@ -57,10 +57,10 @@ proptest! {
             let from = if before.springs == 0 { 0.0 } else { before.indentation };
             let (low, high) = (from.min(after.indentation), from.max(after.indentation));
             let even = (0..200).map(|k| low + (high - low) * f64::from(k) / 200.0);
-            let events = leg.thresholds().into_iter().flat_map(|at| [at.next_down(), at]);
+            let events = stage.thresholds().into_iter().flat_map(|at| [at.next_down(), at]);
             let mut probes: Vec<f64> = even.chain(events).filter(|&at| low < at && at < high).collect();
             probes.sort_by(f64::total_cmp);
-            for point in leg.curve(&probes).unwrap() {
+            for point in stage.curve(&probes).unwrap() {
                 let reached = point.displacement(stiffness);
                 prop_assert!((to - reached) * sign >= -slack, "{:?} passes {} before {:?}", point, to, after);
             }
@@ -83,14 +83,14 @@ proptest! {
             .map(|(turn, share)| (Move::ToDisplacement(if turn > 0.0 { turn * most } else { turn }), share))
             .collect();
         targets.extend(ends_separated.then_some((Move::ToSeparation, 0.5)));
-        let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.jump_energy).sum::<f64>();
+        let energy = |stages: &[StageRecord]| stages.iter().map(|stage| stage.jump_energy).sum::<f64>();
         let contact = body.under(stiffness);
         let (mut few, mut cut) = (contact::motion::Body::new(&contact, 2), contact::motion::Body::new(&contact, 300));
         let scale = body.scales()[1] + most * most * stiffness;
         for (target, share) in targets {
             let from = few.point();
             let record = few.advance(target).unwrap();
-            let leg = few.leg();
+            let stage = few.stage();
             let loads = record.direction == Direction::Loading;
             let sign = if loads { 1.0 } else { -1.0 };
             // The same stage in two, cut at a displacement on the way.
@@ -104,7 +104,7 @@ proptest! {
             let difference = (record.jump_energy - energy(&parts)).abs();
             prop_assert!(difference <= 1e-11 * scale, "{:?}: {} in {}", target, difference, scale);
             prop_assert!(record.jump_energy >= -1e-13 * scale, "{}", record.jump_energy);
-            if leg.thresholds().iter().all(|at| at.is_infinite()) {
+            if stage.thresholds().iter().all(|at| at.is_infinite()) {
                 continue;
             }
             let ends = [record.start(), record.end()];
@@ -112,10 +112,10 @@ proptest! {
             let low = if loads && from.springs == 0 { low.max(0.0) } else { low };
             let count = if body.edges == Edges::Grid { 0 } else { 4000 };
             let even = (0..=count).map(|k| low + (high - low) * f64::from(k) / f64::from(count.max(1)));
-            let events = leg.thresholds().into_iter().flat_map(|at| [at.next_down(), at]);
+            let events = stage.thresholds().into_iter().flat_map(|at| [at.next_down(), at]);
             let mut probes: Vec<f64> = even.chain(events).filter(|&at| low <= at && at <= high).chain([low, high]).collect();
             probes.sort_by(f64::total_cmp);
-            let mut curve: Vec<(f64, f64)> = leg.curve(&probes).unwrap().iter().map(|at| (at.indentation, at.displacement(stiffness))).collect();
+            let mut curve: Vec<(f64, f64)> = stage.curve(&probes).unwrap().iter().map(|at| (at.indentation, at.displacement(stiffness))).collect();
             if loads && from.springs == 0 {
                 curve.insert(0, (low, low));
             }

@@ -45,9 +45,9 @@ fn changes(thresholds: &[f64], d: f64) -> Vec<Change> {
 
 /// Compares the jumps of a motion with the thresholds of its springs. Returns the sum of the
 /// energies of all jumps.
-fn compare(body: &Body, leg: &Leg, low: f64, high: f64) -> Result<f64, TestCaseError> {
-    let thresholds = leg.thresholds();
-    let loads = leg.direction() == Direction::Loading;
+fn compare(body: &Body, stage: &Stage, low: f64, high: f64) -> Result<f64, TestCaseError> {
+    let thresholds = stage.thresholds();
+    let loads = stage.direction() == Direction::Loading;
     let mut expected: Vec<f64> = thresholds.clone();
     expected.retain(|&d| low < d && d <= high);
     expected.sort_by(f64::total_cmp);
@@ -61,10 +61,10 @@ fn compare(body: &Body, leg: &Leg, low: f64, high: f64) -> Result<f64, TestCaseE
     if work == 0.0 {
         expected.clear();
     }
-    let jumps = leg.jumps(low, high).unwrap();
+    let jumps = stage.jumps(low, high).unwrap();
     let found: Vec<f64> = jumps.iter().map(|jump| jump.indentation).collect();
     prop_assert_eq!(&found, &expected);
-    let forces = leg.forces_at_jumps(&jumps).unwrap();
+    let forces = stage.forces_at_jumps(&jumps).unwrap();
     let [force_scale, energy_scale] = body.scales();
     for (jump, forces) in jumps.iter().zip(forces) {
         let d = jump.indentation;
@@ -117,7 +117,7 @@ fn compare(body: &Body, leg: &Leg, low: f64, high: f64) -> Result<f64, TestCaseE
         } else {
             [d, d.next_down()]
         };
-        let [before, after] = [before, after].map(|d| leg.point(d).unwrap());
+        let [before, after] = [before, after].map(|d| stage.point(d).unwrap());
         prop_assert_eq!(forces, [before.force, after.force].map(|force| force + 0.0));
         if body.edges == Edges::Grid {
             let squares = all_springs
@@ -159,8 +159,8 @@ fn compare(body: &Body, leg: &Leg, low: f64, high: f64) -> Result<f64, TestCaseE
 }
 
 /// Elastic energy that springs gain which attach or detach outside jumps, J: of whole springs.
-fn slide_energy(body: &Body, leg: &Leg, low: f64, high: f64) -> f64 {
-    let thresholds = leg.thresholds();
+fn slide_energy(body: &Body, stage: &Stage, low: f64, high: f64) -> f64 {
+    let thresholds = stage.thresholds();
     let mut squares = 0.0;
     for (spring, (&d, gap)) in thresholds.iter().zip(&body.gaps).enumerate() {
         let jumps = || {
@@ -174,7 +174,7 @@ fn slide_energy(body: &Body, leg: &Leg, low: f64, high: f64) -> f64 {
         }
     }
     let energy = 0.5 * body.foundation.spring_stiffness() * squares;
-    match leg.direction() {
+    match stage.direction() {
         Direction::Loading => energy,
         Direction::Unloading => -energy,
     }
@@ -187,9 +187,9 @@ fn indentations_of(jumps: &[Jump]) -> Vec<f64> {
 /// All jumps of a loading, stage after stage.
 fn all_jumps(body: &Body, targets: &[Move]) -> Vec<Jump> {
     let mut jumps = Vec::new();
-    load_body(&mut body.on(2), targets, |record, leg| {
+    load_body(&mut body.on(2), targets, |record, stage| {
         let [low, high] = record.passed();
-        jumps.extend(leg.jumps(low, high)?);
+        jumps.extend(stage.jumps(low, high)?);
         Ok(())
     })
     .unwrap();
@@ -209,10 +209,10 @@ proptest! {
                 continue;
             };
             let [low, high] = record.passed();
-            let leg = solver.leg();
-            let jumped = compare(&body, &leg, low, high)?;
+            let stage = solver.stage();
+            let jumped = compare(&body, &stage, low, high)?;
             if body.edges == Edges::Grid {
-                let gained = jumped + slide_energy(&body, &leg, low, high);
+                let gained = jumped + slide_energy(&body, &stage, low, high);
                 let [_, energy_scale] = body.scales();
                 prop_assert!(
                     (gained + record.released_energy).abs() <= 1e-14 * energy_scale,
@@ -229,23 +229,23 @@ proptest! {
         let mut solver = body.on(2);
         for target in [Move::ToIndentation(deep), Move::ToSeparation] {
             let record = solver.advance(target).unwrap();
-            let leg = solver.leg();
+            let stage = solver.stage();
             let [low, high] = record.passed();
-            let whole = leg.jumps(low, high).unwrap();
-            let begin = leg.end().min(record.end());
+            let whole = stage.jumps(low, high).unwrap();
+            let begin = stage.end().min(record.end());
             let mut cuts = shares.map(|share| begin + share * (high - begin));
             cuts.sort_by(f64::total_cmp);
             let mut parts = Vec::new();
             let mut ranges = vec![[low, cuts[0]], cuts, [cuts[1], high]];
-            if leg.direction() == Direction::Unloading {
+            if stage.direction() == Direction::Unloading {
                 ranges.reverse();
             }
             for [low, high] in ranges {
-                parts.extend(leg.jumps(low, high).unwrap());
+                parts.extend(stage.jumps(low, high).unwrap());
             }
             prop_assert_eq!(&parts, &whole);
             // A jump of any number of springs is a jump of the force.
-            let of_force = leg.force_jumps(low, high, 0.0);
+            let of_force = stage.force_jumps(low, high, 0.0);
             prop_assert!(indentations_of(&whole).iter().all(|d| of_force.contains(d)));
         }
     }
@@ -337,7 +337,7 @@ fn the_stepwise_solver_has_no_jumps() {
     let mut solver = Stepwise::new(&contact, 0.01, 2, &|| false).unwrap();
     let record = solver.advance(Move::ToIndentation(0.3)).unwrap();
     let [low, high] = record.passed();
-    assert_eq!(solver.leg().jumps(low, high), Err(ContactError::Stepwise));
+    assert_eq!(solver.stage().jumps(low, high), Err(ContactError::Stepwise));
 }
 
 /// Events of a loading, with the records of its stages.
@@ -346,7 +346,7 @@ fn events_of(
     targets: &[Move],
     least_share: f64,
     most: usize,
-) -> (Events, Vec<LegRecord>) {
+) -> (Events, Vec<StageRecord>) {
     let mut jumps = JumpCollector::default();
     let options = LoadOptions::default().samples(64).jumps(&mut jumps);
     let cycle = contact.load_with(targets, options).unwrap();
@@ -367,14 +367,14 @@ proptest! {
         }
         let stiffness = if stiff { f64::INFINITY } else { 0.3 * body.stiffness() };
         let contact = body.under(stiffness);
-        let (all, legs) = events_of(&contact, &targets, 0.0, usize::MAX);
-        let marks = Mark::all(&legs);
+        let (all, records) = events_of(&contact, &targets, 0.0, usize::MAX);
+        let marks = Mark::all(&records);
         let mut found: Vec<Mark> = all.list.iter().filter_map(|event| event.mark).collect();
         found.sort_by_key(|mark| marks.iter().position(|(other, _)| mark == other));
         prop_assert_eq!(found, marks.iter().map(|(mark, _)| *mark).collect::<Vec<_>>());
         prop_assert_eq!(all.listed_jumps, all.jumps);
         let in_order = all.list.windows(2).all(|pair| {
-            let loads = legs[pair[0].stage].direction == Direction::Loading;
+            let loads = records[pair[0].stage].direction == Direction::Loading;
             let sign = if loads { 1.0 } else { -1.0 };
             let onward = sign * (pair[1].indentation - pair[0].indentation) >= 0.0;
             // The event of the instrument is that of the whole stage.
@@ -388,14 +388,14 @@ proptest! {
         let energies = all.list.iter().filter_map(|event| event.jump).map(|jump| jump.energy);
         let energies: Vec<f64> = energies.collect();
         let whole = |direction: Direction| -> f64 {
-            let stages = legs.iter().filter(|leg| leg.direction == direction);
-            stages.map(|leg| leg.released_energy).sum()
+            let stages = records.iter().filter(|stage| stage.direction == direction);
+            stages.map(|stage| stage.released_energy).sum()
         };
         prop_assert!((all.gained - all.released - energies.iter().sum::<f64>()).abs() <= slack);
         prop_assert!(all.gained <= -whole(Direction::Loading) + slack);
         prop_assert!(all.released <= whole(Direction::Unloading) + slack);
         let lost: f64 = all.list.iter().filter_map(|event| event.instrument_loss).sum();
-        prop_assert_eq!(lost, legs.iter().map(|leg| leg.jump_energy).sum::<f64>());
+        prop_assert_eq!(lost, records.iter().map(|stage| stage.jump_energy).sum::<f64>());
 
         let (few, _) = events_of(&contact, &targets, share, most);
         let largest = energies.iter().fold(0.0, |largest, energy| energy.abs().max(largest));
@@ -417,8 +417,8 @@ fn the_stepwise_solver_has_no_events() {
     let contact = body.contact();
     let mut jumps = JumpCollector::default();
     let mut solver = Stepwise::new(&contact, 0.01, 2, &|| false).unwrap();
-    let refused = load_body(&mut solver, &[Move::ToTouch], |record, leg| {
-        jumps.observe(record, leg)
+    let refused = load_body(&mut solver, &[Move::ToTouch], |record, stage| {
+        jumps.observe(record, stage)
     });
     assert_eq!(refused, Err(ContactError::Stepwise));
     assert_eq!(jumps.events(&[], 0.0, 9), Ok(Events::default()));
@@ -428,13 +428,13 @@ fn the_stepwise_solver_has_no_events() {
 fn a_compliant_instrument_jumps_too() {
     let body = Body::new(sphere(50, 101), Edges::SubCell, FOUNDATION, 0.02);
     let targets = [Move::ToDisplacement(0.3), Move::ToSeparation];
-    let (events, legs) = events_of(&body.under(0.1), &targets, 0.0, 9);
+    let (events, records) = events_of(&body.under(0.1), &targets, 0.0, 9);
     let lost: Vec<f64> = events
         .list
         .iter()
         .filter_map(|event| event.instrument_loss)
         .collect();
-    assert_eq!(lost, [legs[0].jump_energy, legs[1].jump_energy]);
+    assert_eq!(lost, [records[0].jump_energy, records[1].jump_energy]);
     assert!(lost.iter().all(|lost| *lost > 0.0));
     let (events, _) = events_of(&body.contact(), &targets, 0.0, 9);
     assert!(

@@ -1,23 +1,23 @@
-//! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments
+//! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all patches
 //! alike. All results are known.
 
 use super::*;
 
 const SPRINGS: usize = 1 << 20;
 
-/// The legs of a line on springs of which a million are 1 m long, with E* = 1 Pa, and its fragments
-/// after the first leg.
-fn legs(gaps: &[f64], work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
+/// The stages of a line on springs of which a million are 1 m long, with E* = 1 Pa, and its patches
+/// after the first stage.
+fn stages(gaps: &[f64], work: f64, deepest: f64) -> ([StageRecord; 2], usize) {
     let foundation = Foundation::new(1.0 / SPRINGS as f64, 1.0);
     let mut solver = Body::new(gaps.to_vec(), Edges::Grid, foundation, work).on(64);
     let loading = solver.advance(Move::ToIndentation(deepest)).unwrap();
-    let fragments = solver.leg().patches(deepest).len();
+    let patches = solver.stage().patches(deepest).len();
     let unloading = solver.advance(Move::ToSeparation).unwrap();
     assert_eq!(
         (loading.attached, unloading.attached),
         (unloading.detached, 0)
     );
-    ([loading, unloading], fragments)
+    ([loading, unloading], patches)
 }
 
 fn near(found: f64, expected: f64, relative: f64) {
@@ -29,7 +29,7 @@ fn near(found: f64, expected: f64, relative: f64) {
 
 #[test]
 fn a_ramp_is_a_wedge_that_peels_from_one_side() {
-    // c = mx, one fragment [0, a]: d(a) = ma − √(πaγ/E*), F = E*(d a − m a²/2).
+    // c = mx, one patch [0, a]: d(a) = ma − √(πaγ/E*), F = E*(d a − m a²/2).
     let (slope, work, deepest) = (1.0, 0.01, 0.5);
     let indentation = |a: f64| slope * a - (PI * a * work).sqrt();
     let force = |a: f64| indentation(a) * a - 0.5 * slope * a * a;
@@ -40,9 +40,9 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
         .map(|i| slope * i as f64 / SPRINGS as f64)
         .collect();
     let falling: Vec<f64> = rising.iter().rev().copied().collect();
-    let (one, fragments) = legs(&rising, work, deepest);
-    let (other, fragments_of_other) = legs(&falling, work, deepest);
-    assert_eq!((fragments, fragments_of_other), (1, 1));
+    let (one, patches) = stages(&rising, work, deepest);
+    let (other, patches_of_other) = stages(&falling, work, deepest);
+    assert_eq!((patches, patches_of_other), (1, 1));
     for (one, other) in one.iter().zip(&other) {
         assert_eq!(one.curve, other.curve);
         assert_eq!((one.largest, one.smallest), (other.largest, other.smallest));
@@ -54,7 +54,7 @@ fn a_ramp_is_a_wedge_that_peels_from_one_side() {
     near(unloading.end(), indentation(last), 3e-4);
     for point in one
         .iter()
-        .flat_map(|leg| &leg.curve)
+        .flat_map(|stage| &stage.curve)
         .filter(|point| point.springs > 0)
     {
         // Each point of the curve has the length at which the rule of Hess just holds.

@@ -12,7 +12,7 @@ proptest! {
     fn any_history_agrees_with_relaxation_level_by_level(body in bodies(61), turns in indentations(9)) {
         let body = Body { edges: Edges::SubCell, ..body };
         let mut solver = body.on(6);
-        // One body with hardly more and one with hardly less adhesion: where their fragments
+        // One body with hardly more and one with hardly less adhesion: where their patches
         // differ, an event lies at the turning point to rounding and either is right.
         let slight = [1.0, 1.0 + 1e-11, 1.0 - 1e-11].map(|factor| body.with_more_adhesion(factor));
         let mut relaxed = slight.each_ref().map(Relaxed::new);
@@ -44,8 +44,8 @@ proptest! {
                 near("length", point.contact_length, relaxed.each_ref().map(|one| one.contact_length()), line)?;
                 near("energy", point.stored_energy, relaxed.each_ref().map(|one| one.stored_energy()), energy)?;
                 let counts = (contacts.len() as u64, indices(&contacts).len() as u64);
-                prop_assert_eq!((point.fragments, point.springs), counts);
-                prop_assert_eq!(solver.leg().patches(point.indentation), contacts);
+                prop_assert_eq!((point.patches, point.springs), counts);
+                prop_assert_eq!(solver.stage().patches(point.indentation), contacts);
             }
             relaxed.iter_mut().for_each(|one| one.move_to(turn));
             prop_assume!(relaxed.iter().all(|one| one.contacts() == relaxed[0].contacts()));

@@ -25,9 +25,9 @@ mod stepwise;
 mod symmetries;
 mod work;
 
-use asperity_contact::motion::{Leg, MovingBody, load_body};
+use asperity_contact::motion::{MovingBody, Stage, load_body};
 use asperity_contact::{
-    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, LegRecord, Move, Patch,
+    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Move, Patch, StageRecord,
 };
 use body::*;
 use proptest::prelude::*;

@@ -32,17 +32,17 @@ proptest! {
     fn only_the_deepest_turning_points_are_remembered(body in bodies(200), turns in indentations(16)) {
         let short = remembered(&turns);
         let [whole, reduced] = [&turns, &short].map(|turns| body.history(&to_indentations(turns), 2));
-        let [one, other] = [&whole, &reduced].map(|history| end(history.legs.last().unwrap()));
+        let [one, other] = [&whole, &reduced].map(|history| end(history.stages.last().unwrap()));
         if body.edges == Edges::SubCell && body.closing_work < body.work {
             // An edge that keeps its place may do so up to the indentation at which it slid before:
             // the level there is the same but for its rounding.
             let slack = 1e-15 * body.force_scale();
             prop_assert!((one.force - other.force).abs() <= slack, "{:?} {:?}", one, other);
-            prop_assert_eq!((one.springs, one.fragments), (other.springs, other.fragments));
+            prop_assert_eq!((one.springs, one.patches), (other.springs, other.patches));
         } else {
             prop_assert_eq!(bits(&one), bits(&other), "{:?} against {:?}", turns, short);
         }
-        prop_assert_eq!(whole.contacts.len() as u64, one.fragments);
+        prop_assert_eq!(whole.contacts.len() as u64, one.patches);
         prop_assert_eq!(indices(&whole.contacts).len() as u64, one.springs);
         prop_assert_eq!(whole.contacts, reduced.contacts);
     }
@@ -58,7 +58,7 @@ proptest! {
             let mut solver = body.on(2);
             solver.advance(Move::ToIndentation(to)).unwrap();
             let smallest = solver.advance(Move::ToSeparation).unwrap().smallest.force;
-            (smallest, solver.leg())
+            (smallest, solver.stage())
         });
         let whole = body.edges == Edges::Grid;
         let slack = if whole { 4.0 * f64::EPSILON * less.0.abs() } else { 1e-14 * body.force_scale() };

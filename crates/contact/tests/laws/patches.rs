@@ -1,15 +1,15 @@
 //! Patches by themselves add up to the point of the curve, and a body moves between targets as
-//! along a recorded leg.
+//! along a recorded stage.
 
 use super::*;
 
 /// Moves a copy of a body.
 fn try_move(body: &contact::motion::Body, target: Move) -> Result<(), ContactError> {
-    let mut copy = contact::motion::Body::at(&body.leg(), body.point().indentation)?;
+    let mut copy = contact::motion::Body::at(&body.stage(), body.point().indentation)?;
     copy.move_to(target).map(drop)
 }
 
-/// Moves a body to targets twice: along recorded legs, and without a curve by moves of several
+/// Moves a body to targets twice: along recorded stages, and without a curve by moves of several
 /// parts.
 fn moves_alike(
     body: &Body,
@@ -51,7 +51,7 @@ fn moves_alike(
                 } else {
                     motion.low
                 };
-                released += motion.leg.released_energy(low, motion.high);
+                released += motion.stage.released_energy(low, motion.high);
                 changed += after.springs.abs_diff(before.springs);
             }
         }
@@ -65,7 +65,7 @@ fn moves_alike(
         );
         if end.springs > 0 {
             let at = end.indentation;
-            prop_assert_eq!(moved.leg().patches(at), recorded.leg().patches(at));
+            prop_assert_eq!(moved.stage().patches(at), recorded.stage().patches(at));
         }
     }
     Ok(())
@@ -81,15 +81,15 @@ proptest! {
         let [slack, spread] = [body.force_scale(), length].map(|size| 1e-9 * size);
         for target in to_indentations(&turns) {
             let record = solver.advance(target).unwrap();
-            let leg = solver.leg();
+            let stage = solver.stage();
             for point in &record.curve {
-                let patches = leg.patches(point.indentation);
+                let patches = stage.patches(point.indentation);
                 // At a point where part of the contact jumps, either side is right.
                 if indices(&patches).len() as u64 != point.springs {
                     continue;
                 }
-                prop_assert_eq!(&leg.point(point.indentation).unwrap(), point);
-                let state = |number| leg.patch_state(point.indentation, number);
+                prop_assert_eq!(&stage.point(point.indentation).unwrap(), point);
+                let state = |number| stage.patch_state(point.indentation, number);
                 let states: Vec<_> = (0..patches.len()).map(|number| state(number).unwrap()).collect();
                 prop_assert_eq!(state(patches.len()), None);
                 let force: f64 = states.iter().map(|state| state.force).sum();
@@ -99,7 +99,7 @@ proptest! {
                 for (state, patch) in states.iter().zip(&patches) {
                     let most = state.largest_stretch * (1.0 + 1e-6) + 1e-9;
                     prop_assert!(state.most_stretched <= most, "{:?}", state);
-                    let range = body.work / body.foundation.effective_modulus;
+                    let range = body.work / body.foundation.modulus;
                     let largest = (PI * state.length * range).sqrt();
                     prop_assert!((state.largest_stretch - largest).abs() <= 1e-12 * largest);
                     if body.edges == Edges::Grid {
@@ -113,7 +113,7 @@ proptest! {
     }
 
     #[test]
-    fn moves_without_a_curve_equal_recorded_legs(
+    fn moves_without_a_curve_equal_recorded_stages(
         body in bodies(200), drawn in targets(14), parts in prop::collection::vec(0.0..1.0_f64, 0..4),
     ) {
         let mut parts = parts;

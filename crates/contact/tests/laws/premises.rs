@@ -13,7 +13,7 @@ fn partial_loadings() -> impl Strategy<Value = (Vec<f64>, f64)> {
 /// Force of the pull-off of a history that is continued to separation, in N.
 fn pull_off_after_separation(body: &Body, targets: &[Move]) -> f64 {
     let whole = body.history(&[targets, &[Move::ToSeparation]].concat(), 2);
-    Figures::of(&whole).adhesion_force.unwrap_or(0.0)
+    Figures::of(&whole).pull_off_force.unwrap_or(0.0)
 }
 
 fn warning_of(history: &History, body: &Body) -> Option<Warning> {
@@ -26,10 +26,10 @@ fn warning_of(history: &History, body: &Body) -> Option<Warning> {
 proptest! {
     #![proptest_config(cases(4000))]
 
-    /// An adhesion force is that of the unloading to separation, wherever the loading ends on the
+    /// A pull-off force is that of the unloading to separation, wherever the loading ends on the
     /// way. Where it would not be, there is none, and the warning states the pull of the rest.
     #[test]
-    fn an_adhesion_force_does_not_depend_on_where_the_unloading_ends(
+    fn a_pull_off_force_does_not_depend_on_where_the_unloading_ends(
         body in bodies(200),
         (depths, share) in partial_loadings(),
     ) {
@@ -37,7 +37,7 @@ proptest! {
         let from = *depths.last().unwrap();
         targets.push(Move::ToIndentation(from - share * (from + body.largest_stretch())));
         let history = body.history(&targets, 2);
-        let found = Figures::of(&history).adhesion_force;
+        let found = Figures::of(&history).pull_off_force;
         let whole = pull_off_after_separation(&body, &targets);
         let slack = 1e-8 * body.force_scale();
         match (found, warning_of(&history, &body)) {
@@ -45,12 +45,12 @@ proptest! {
             (None, Some(Warning::EndsInContact { further })) => {
                 let further = further.expect("the exact solver knows the rest");
                 prop_assert!(further > 0.0 && (further - whole).abs() <= slack, "{further} {whole}");
-                prop_assert!(history.legs.last().unwrap().end_in_contact().is_some());
+                prop_assert!(history.stages.last().unwrap().end_in_contact().is_some());
             }
             // The body is not pulled, the end is the pull-off itself, or nothing is known of a
             // further unloading.
             (None, None) => {
-                let least = Branch::last_unloading(&history.legs).and_then(|last| last.smallest(&history.legs));
+                let least = Branch::last_unloading(&history.stages).and_then(|last| last.smallest(&history.stages));
                 let force = least.map_or(0.0, |(_, point)| point.force);
                 prop_assert!(whole <= slack || (force + whole).abs() <= slack || least.is_none());
             }
@@ -66,14 +66,14 @@ proptest! {
         let mut solver = body.on(2);
         for depth in depths {
             let record = solver.advance(Move::ToIndentation(depth)).unwrap();
-            let leg = solver.leg();
+            let stage = solver.stage();
             let mut holds_end = false;
             for step in 0..=16 {
                 let between = record.start() + (record.end() - record.start()) * f64::from(step) / 16.0;
                 let at = if step == 16 { record.end() } else { between };
-                let patches = leg.patches(at);
+                let patches = stage.patches(at);
                 let is_held = patches.iter().any(|patch| patch.first == 0 || patch.last == last);
-                prop_assert_eq!(leg.reaches_ends(at), is_held, "{}", at);
+                prop_assert_eq!(stage.reaches_ends(at), is_held, "{}", at);
                 let touches = record.curve.iter().any(|point| point.springs > 0);
                 holds_end |= is_held && touches;
             }

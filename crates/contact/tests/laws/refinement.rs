@@ -39,7 +39,7 @@ proptest! {
         let coarse = body.history(&body.tour(), 17);
         for factor in [3, 5] {
             let fine = refined(&body, factor).history(&body.tour(), 17);
-            for (one, other) in coarse.legs.iter().zip(&fine.legs) {
+            for (one, other) in coarse.stages.iter().zip(&fine.stages) {
                 let of_end = (end(one).force - end(other).force).abs();
                 let error = of_end.max((one.smallest.force - other.smallest.force).abs());
                 prop_assert!(error <= 1e-14 * body.force_scale(), "{} times as many springs: {}", factor, error);

@@ -1,4 +1,4 @@
-//! Impossible legs are errors with their reason, and leave the body in place; empty legs are done
+//! Impossible stages are errors with their reason, and leave the body in place; empty stages are done
 //! at once.
 
 use super::*;
@@ -25,8 +25,8 @@ proptest! {
             };
             prop_assert!(is_expected, "{:?} for {} N", error, force);
             let (one, other) = (asked.advance(target).unwrap(), spared.advance(target).unwrap());
-            prop_assert_eq!(&one, &other, "{:?} after a refused leg", target);
-            prop_assert_eq!(asked.leg().patches(one.end()), spared.leg().patches(one.end()));
+            prop_assert_eq!(&one, &other, "{:?} after a refused stage", target);
+            prop_assert_eq!(asked.stage().patches(one.end()), spared.stage().patches(one.end()));
             separated = end(&one).springs == 0;
         }
     }

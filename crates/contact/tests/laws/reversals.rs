@@ -39,7 +39,7 @@ fn compare(
     let reversals = all(&mut new(), turns, points).unwrap();
     for (turn, reversal) in turns.iter().zip(&reversals) {
         let history = load_body(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
-        let [loading, unloading] = &history.legs[..] else {
+        let [loading, unloading] = &history.stages[..] else {
             panic!("{history:?}")
         };
         prop_assert_eq!(bits(&reversal.turn), bits(&end(loading)), "{:?}", turn);
@@ -70,7 +70,7 @@ fn compare(
                 Ok(())
             })
             .unwrap();
-            end(&to_point.legs[1]).force.to_bits()
+            end(&to_point.stages[1]).force.to_bits()
         });
         let found: Vec<_> = reversal
             .forces

@@ -1,4 +1,4 @@
-//! Extremes and crossings of the force: against all segments of the leg, against the points of a
+//! Extremes and crossings of the force: against all segments of the stage, against the points of a
 //! fine curve, independent of the number of samples, and where the contact jumps.
 
 use super::all_segments::Segments;
@@ -37,10 +37,10 @@ proptest! {
             let target = body.target(drawn, &solver);
             let outcome = solver.advance(target);
             // A refused unloading is that from the present contact.
-            let leg = solver.leg();
-            let turns = outcome.is_err() && leg.direction() == Direction::Loading && !separated;
-            let leg = if turns { leg.turn(start).unwrap() } else { leg };
-            let segments = Segments::new(&leg.thresholds(), &body);
+            let stage = solver.stage();
+            let turns = outcome.is_err() && stage.direction() == Direction::Loading && !separated;
+            let stage = if turns { stage.turn(start).unwrap() } else { stage };
+            let segments = Segments::new(&stage.thresholds(), &body);
             let record = match outcome {
                 Ok(record) => record,
                 Err(ContactError::DetachesBefore { smallest }) => {
@@ -104,7 +104,7 @@ proptest! {
                 continue;
             };
             let loads = fine.direction == Direction::Loading;
-            let extreme = |record: &LegRecord| if loads { record.largest } else { record.smallest };
+            let extreme = |record: &StageRecord| if loads { record.largest } else { record.smallest };
             let (last, sign) = (end(&fine), if loads { 1.0 } else { -1.0 });
             for point in fine.curve.iter().filter(|point| point.springs > 0) {
                 let beyond = sign * (point.force - extreme(&fine).force);

@@ -28,7 +28,7 @@ proptest! {
         let (mut exact, mut stepwise) = (body.on(2), stepwise(&contact, step));
         for target in to_indentations(&turns) {
             let (one, other) = (stepwise.advance(target).unwrap(), exact.advance(target).unwrap());
-            // The end of a leg does not depend on the step: the same springs and, bit for bit, the
+            // The end of a stage does not depend on the step: the same springs and, bit for bit, the
             // same force.
             prop_assert_eq!(one.curve.last(), other.curve.last());
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
@@ -37,7 +37,7 @@ proptest! {
             }
             prop_assert_eq!(one.direction, other.direction);
             let (low, high) = (other.start().min(other.end()), other.start().max(other.end()));
-            for (found, expected) in stepwise.leg().thresholds().iter().zip(&exact.leg().thresholds()) {
+            for (found, expected) in stepwise.stage().thresholds().iter().zip(&exact.stage().thresholds()) {
                 // The stepwise solver has only thresholds passed on the way.
                 let on_the_way = low < *expected && *expected <= high;
                 if on_the_way && found.is_finite() {
@@ -88,7 +88,7 @@ fn targets_out_of_reach_leave_the_body_in_place() {
         solver.advance(Move::ToIndentation(0.3)).unwrap();
         assert!(steps.replace(0) > 300);
         assert_eq!(
-            solver.leg().turn(0.3).err(),
+            solver.stage().turn(0.3).err(),
             (work > 0.0).then_some(ContactError::Stepwise)
         );
         let beyond = solver.advance(Move::ToForce(-1e9));

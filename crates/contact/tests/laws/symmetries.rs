@@ -2,9 +2,9 @@
 
 use super::*;
 
-/// All numbers of a leg, bit for bit, but for the sign of energies of zero and for the number next
+/// All numbers of a stage, bit for bit, but for the sign of energies of zero and for the number next
 /// to an indentation of zero.
-fn leg_bits(record: &LegRecord) -> Vec<u64> {
+fn stage_bits(record: &StageRecord) -> Vec<u64> {
     let of_point = |point: &CurvePoint| {
         let indentation = if point.indentation.abs() < 1e-300 {
             0.0
@@ -63,7 +63,7 @@ proptest! {
             let (one, other) = (tree.advance(target).unwrap(), bare.advance(target).unwrap());
             prop_assert_eq!((one.released_energy, other.released_energy), (0.0, 0.0));
             if body.edges == Edges::Grid {
-                prop_assert_eq!(leg_bits(&one), leg_bits(&other), "{:?}", target);
+                prop_assert_eq!(stage_bits(&one), stage_bits(&other), "{:?}", target);
             }
             prop_assert_eq!((one.direction, one.curve.len()), (other.direction, other.curve.len()));
             let extremes = [(&one.largest, &other.largest), (&one.smallest, &other.smallest)];
@@ -76,10 +76,10 @@ proptest! {
                 let end = end(record);
                 if end.springs > 0 {
                     let at_once = body.history(&[Move::ToIndentation(end.indentation)], 2);
-                    let apart = (end.force - super::end(&at_once.legs[0]).force).abs();
+                    let apart = (end.force - super::end(&at_once.stages[0]).force).abs();
                     let allowed = if body.edges == Edges::Grid { 0.0 } else { 1e-12 * scale };
                     prop_assert!(apart <= allowed, "{:?} against going there", target);
-                    prop_assert_eq!(solver.leg().patches(end.indentation), at_once.contacts);
+                    prop_assert_eq!(solver.stage().patches(end.indentation), at_once.contacts);
                 }
             }
         }
@@ -105,14 +105,14 @@ proptest! {
             }
             let (a, b) = (end(&one), end(&other));
             prop_assert!((a.force - b.force).abs() <= 10.0 * scale, "{:?} {:?}", a, b);
-            prop_assert_eq!((a.springs, a.fragments), (b.springs, b.fragments));
+            prop_assert_eq!((a.springs, a.patches), (b.springs, b.patches));
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
             prop_assert!((one.released_energy - other.released_energy).abs() <= energy_scale);
             for probe in probes.iter().chain(&[0.0, 1.0]) {
                 let d = one.start() + probe * (one.end() - one.start());
                 let turned = |patch: &Patch| Patch { first: last - patch.last, last: last - patch.first };
-                let turned: Vec<_> = mirrored.leg().patches(d).iter().rev().map(turned).collect();
-                prop_assert_eq!(solver.leg().patches(d), turned, "at {} of {:?}", d, target);
+                let turned: Vec<_> = mirrored.stage().patches(d).iter().rev().map(turned).collect();
+                prop_assert_eq!(solver.stage().patches(d), turned, "at {} of {:?}", d, target);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! No more than requested: points of a curve, memory of a leg, and counted work.
+//! No more than requested: points of a curve, memory of a stage, and counted work.
 
 use super::*;
 use asperity_contact::{Modulus, Profile};
@@ -6,7 +6,7 @@ use asperity_contact::{Modulus, Profile};
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// The points of a curve divide the leg evenly; an extreme of the force between them is added.
+    /// The points of a curve divide the stage evenly; an extreme of the force between them is added.
     #[test]
     fn curves_have_the_requested_samples(
         body in bodies(200), deep in 0.1..1.2_f64, back in 0.0..0.9_f64, samples in 2_usize..80,
@@ -39,7 +39,7 @@ proptest! {
         prop_assert!(work.hess_evaluations > before.hess_evaluations && solver.point() == here);
         for (force, turn) in forces.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
             let back = body.history(&[turn, Move::ToSeparation], 2);
-            let (force, expected) = (force.unwrap(), -back.legs[1].smallest.force);
+            let (force, expected) = (force.unwrap(), -back.stages[1].smallest.force);
             prop_assert!((force - expected).abs() <= 1e-12 * body.force_scale(), "{} {}", force, expected);
         }
     }

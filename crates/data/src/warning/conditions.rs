@@ -15,7 +15,7 @@ impl Warning {
     /// a loading.
     pub const LEAST_STEPS: f64 = 20.0;
 
-    /// Smallest number of springs on the shortest wave. With this number the adhesion force of a
+    /// Smallest number of springs on the shortest wave. With this number the pull-off force of a
     /// rough profile has an error of about one per cent (docs/accuracy.md).
     pub const LEAST_SPRINGS_PER_WAVE: u64 = 4;
 

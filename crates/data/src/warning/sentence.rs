@@ -18,13 +18,13 @@ impl Warning {
                 further: Some(force),
             } => format!(
                 "The loading ends in contact, and further unloading would still pull with up to \
-                 {}: the bodies are not pulled off, so there is no adhesion force F_a, no regime \
+                 {}: the bodies are not pulled off, so there is no pull-off force F_a, no regime \
                  and no dissipated energy.",
                 format_quantity(*force, "N")
             ),
             Warning::EndsInContact { further: None } => {
                 "The loading ends in contact before the bodies are pulled off, so there is no \
-                 adhesion force F_a, no regime and no dissipated energy."
+                 pull-off force F_a, no regime and no dissipated energy."
                     .to_owned()
             }
             Warning::FewSpringsInContact { springs } => format!(
@@ -56,7 +56,7 @@ impl Warning {
                 Self::LEAST_STEPS
             ),
             Warning::FewSpringsPerWave { springs } => format!(
-                "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough \
+                "The shortest wave has {} springs, fewer than {}: the pull-off force of a rough \
                  profile with two springs on its shortest wave is wrong by 2 % as a median, and by \
                  up to 12 %.",
                 // The number is rounded down, so that a number slightly below the limit is not

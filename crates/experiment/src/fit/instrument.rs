@@ -10,7 +10,7 @@ use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::fit::parameter::{Parameter, Values};
 use crate::fit::reason::{Reason, slope_when_pressed};
-use asperity_contact::motion::Leg;
+use asperity_contact::motion::Stage;
 use asperity_contact::{Contact, Modulus};
 use asperity_data::{Note, format_rounded};
 
@@ -46,18 +46,18 @@ pub(crate) fn slope_of_contact(
     force: f64,
 ) -> Result<f64, ExperimentError> {
     let contact = contact.with(Modulus::effective(1.0)?).build()?;
-    let leg = Leg::approach(&contact)?;
+    let stage = Stage::approach(&contact)?;
     let (mut low, mut high) = INDENTATIONS;
     for _ in 0..BISECTIONS {
         let middle = (low * high).sqrt();
-        if modulus * leg.point(middle)?.force < force {
+        if modulus * stage.point(middle)?.force < force {
             low = middle;
         } else {
             high = middle;
         }
     }
-    let below = leg.point((1.0 - STEP) * low)?.force;
-    let above = leg.point((1.0 + STEP) * low)?.force;
+    let below = stage.point((1.0 - STEP) * low)?.force;
+    let above = stage.point((1.0 + STEP) * low)?.force;
     Ok(modulus * (above - below) / (2.0 * STEP * low))
 }
 

@@ -52,9 +52,9 @@ const EXTENSIONS: usize = 4;
 ///
 /// // The computed curve of a sphere with a work of adhesion of 0.05 J/m², by a rigid instrument.
 /// let scene = open("jkr-sphere")?.set("numerics.points", "256")?;
-/// let legs = run(&scene)?.history.legs;
-/// let points = legs.iter().flat_map(|leg| {
-///     leg.curve
+/// let stages = run(&scene)?.history.stages;
+/// let points = stages.iter().flat_map(|stage| {
+///     stage.curve
 ///         .iter()
 ///         .map(|point| (point.indentation, point.force))
 /// });

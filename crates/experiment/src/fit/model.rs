@@ -6,7 +6,7 @@ use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
-use asperity_contact::motion::Leg;
+use asperity_contact::motion::Stage;
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 use asperity_scene::{CheckedScene, RunError, Simulation};
@@ -56,9 +56,9 @@ pub(crate) struct Sampling {
     pub least_jump: f64,
 }
 
-/// Motion (leg) of a body in contact, and its indentation in m.
-struct BodyOnLeg {
-    leg: Leg,
+/// Motion (stage) of a body in contact, and its indentation in m.
+struct BodyOnStage {
+    stage: Stage,
     indentation: f64,
 }
 
@@ -227,19 +227,19 @@ impl<'a> Model<'a> {
         };
         let segments = &self.curve.segment;
         let mut begin = 0;
-        let mut body: Option<BodyOnLeg> = None;
+        let mut body: Option<BodyOnStage> = None;
         for (number, turn) in self.curve.turns.iter().enumerate() {
             let presses = number % 2 == 0;
             let to = turn - offset;
             let from = body.as_ref().map(|body| body.indentation);
-            let leg = match &body {
-                Some(body) => Some(body.leg.turn(body.indentation)?),
-                None if presses && *turn > offset => Some(Leg::approach(&contact)?),
+            let stage = match &body {
+                Some(body) => Some(body.stage.turn(body.indentation)?),
+                None if presses && *turn > offset => Some(Stage::approach(&contact)?),
                 None => None,
             };
-            let curve = match &leg {
-                Some(leg) if presses => sampling.press(leg, from, to)?,
-                Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
+            let curve = match &stage {
+                Some(stage) if presses => sampling.press(stage, from, to)?,
+                Some(stage) => sampling.pull(stage, from.unwrap_or_default())?,
                 None => {
                     DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness)
                 }
@@ -248,17 +248,17 @@ impl<'a> Model<'a> {
             take(&curve, begin..end, offset);
             begin = end;
             let indentation = nearest(&curve, to).map_or(0.0, |point| point.indentation);
-            body = leg.and_then(|leg| BodyOnLeg::new(leg, indentation));
+            body = stage.and_then(|stage| BodyOnStage::new(stage, indentation));
         }
         Ok(())
     }
 }
 
-impl BodyOnLeg {
+impl BodyOnStage {
     /// Creates a body in contact. Returns `None` if the body is separated at this indentation in m.
-    fn new(leg: Leg, indentation: f64) -> Option<Self> {
-        let is_apart = leg.direction() == Direction::Unloading && indentation < leg.end();
-        (!is_apart).then_some(BodyOnLeg { leg, indentation })
+    fn new(stage: Stage, indentation: f64) -> Option<Self> {
+        let is_apart = stage.direction() == Direction::Unloading && indentation < stage.end();
+        (!is_apart).then_some(BodyOnStage { stage, indentation })
     }
 }
 
@@ -313,14 +313,14 @@ impl Sampling {
     /// indentation `from` in m, or at first touch for `None`.
     fn press(
         self,
-        leg: &Leg,
+        stage: &Stage,
         from: Option<f64>,
         to: f64,
     ) -> Result<DisplacementCurve, ContactError> {
         let free = from.is_none().then(CurvePoint::default);
         let from = from.unwrap_or_default();
         let displacement = |indentation: f64| -> Result<f64, ContactError> {
-            Ok(leg.point(indentation)?.displacement(self.stiffness))
+            Ok(stage.point(indentation)?.displacement(self.stiffness))
         };
         // The indentation at which the displacement reaches `to` is sought between `low` and
         // `high`. It differs from the displacement by the deflection of the instrument, which
@@ -343,44 +343,44 @@ impl Sampling {
                 high = middle;
             }
         }
-        self.over(leg, [from, high], 1, free)
+        self.over(stage, [from, high], 1, free)
     }
 
     /// Returns the force curve of an unloading from the indentation `from` in m to separation.
-    pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
-        let end = leg.end().min(from);
+    pub fn pull(self, stage: &Stage, from: f64) -> Result<DisplacementCurve, ContactError> {
+        let end = stage.end().min(from);
         let separated = CurvePoint {
             indentation: end,
             ..CurvePoint::default()
         };
         // The points are dense near separation, where the force may change like the square root of
         // the distance from it.
-        self.over(leg, [end, from], 2, Some(separated))
+        self.over(stage, [end, from], 2, Some(separated))
     }
 
-    /// Returns the force over the displacement of a leg, which is one motion of the body, between
+    /// Returns the force over the displacement of a stage, which is one motion of the body, between
     /// two indentations in m. A larger `power` makes the points denser near the lower indentation.
     /// The points include both ends of all jumps of at least [`Self::least_jump`], and the point
     /// `free` without contact.
     pub fn over(
         self,
-        leg: &Leg,
+        stage: &Stage,
         range: [f64; 2],
         power: i32,
         free: Option<CurvePoint>,
     ) -> Result<DisplacementCurve, ContactError> {
-        let mut points = leg.curve(&self.indentations(leg, range, power))?;
-        let folds = self.indentations_at_folds(&points, leg.direction());
+        let mut points = stage.curve(&self.indentations(stage, range, power))?;
+        let folds = self.indentations_at_folds(&points, stage.direction());
         if !folds.is_empty() {
-            points.extend(leg.curve(&folds)?);
+            points.extend(stage.curve(&folds)?);
             points.sort_by(|point, next| point.indentation.total_cmp(&next.indentation));
         }
-        let points: Vec<CurvePoint> = match leg.direction() {
+        let points: Vec<CurvePoint> = match stage.direction() {
             Direction::Loading => free.into_iter().chain(points).collect(),
             Direction::Unloading => points.into_iter().rev().chain(free).collect(),
         };
         Ok(DisplacementCurve::new(
-            leg.direction(),
+            stage.direction(),
             &points,
             self.stiffness,
         ))
@@ -388,14 +388,14 @@ impl Sampling {
 
     /// Returns ascending indentations in m between two ends, including both ends of the jumps of
     /// the contact.
-    fn indentations(self, leg: &Leg, range: [f64; 2], power: i32) -> Vec<f64> {
+    fn indentations(self, stage: &Stage, range: [f64; 2], power: i32) -> Vec<f64> {
         let [low, high] = range;
         let mut indentations = Vec::with_capacity(self.points);
         for index in 0..self.points {
             let share = (index as f64 / (self.points - 1) as f64).powi(power);
             indentations.push((low + (high - low) * share).min(high));
         }
-        for jump in leg.force_jumps(low, high, self.least_jump) {
+        for jump in stage.force_jumps(low, high, self.least_jump) {
             indentations.push(jump.next_down());
             indentations.push(jump);
         }

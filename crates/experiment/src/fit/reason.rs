@@ -525,7 +525,7 @@ mod tests {
     const HERTZ: [(&str, &str); 6] = [
         ("form.radius", "7.5e-6"),
         ("length", "2.4e-5"),
-        ("material", "(effective_modulus: 2e6)"),
+        ("material", "(modulus: 2e6)"),
         ("adhesion", "None"),
         ("loading_stiffness", "3"),
         ("numerics.points", "256"),
@@ -637,7 +637,7 @@ mod tests {
         let both = || curve(elastic, elastic).into_iter();
         // A sphere with another modulus differs only by a free parameter.
         assert_eq!(
-            found(both(), &[("material", "(effective_modulus: 1.9e6)")]),
+            found(both(), &[("material", "(modulus: 1.9e6)")]),
             Reason::StiffnessOrForm
         );
         assert_eq!(

@@ -27,7 +27,7 @@ pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let mut values = [0.0; 9];
     values[Parameter::Work as usize] = work;
     values[Parameter::ClosingWork as usize] = governing.closing_work.unwrap_or(work);
-    values[Parameter::Modulus as usize] = governing.effective_modulus;
+    values[Parameter::Modulus as usize] = governing.modulus;
     values[Parameter::Stiffness as usize] = scene.loading_stiffness.unwrap_or(f64::INFINITY);
     if let Some(form) = &scene.form {
         Lengths::of_form(form).put_into_values(&mut values);
@@ -113,13 +113,13 @@ pub(crate) fn with_values(
 
 /// Returns the change of the modulus. It is a change of Young's modulus or of the effective
 /// modulus, whichever the scene states.
-fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
+fn modulus_change(scene: &Scene, modulus: f64) -> Change {
     match scene.material.poisson_ratio {
         Some(ratio) => {
-            let youngs_modulus = effective_modulus * (1.0 - ratio) * (1.0 + ratio);
+            let youngs_modulus = modulus * (1.0 - ratio) * (1.0 + ratio);
             change("material.youngs_modulus", youngs_modulus)
         }
-        None => change("material.effective_modulus", effective_modulus),
+        None => change("material.modulus", modulus),
     }
 }
 
@@ -261,7 +261,7 @@ mod tests {
             (Some(0.04), Some(0.03))
         );
         assert_eq!(
-            (scene.material.effective_modulus(), scene.loading_stiffness),
+            (scene.material.modulus_in_pascals(), scene.loading_stiffness),
             (3e6, Some(5.0))
         );
         assert_eq!(
@@ -278,7 +278,7 @@ mod tests {
             Some((Some(1e-3), None))
         );
         assert_eq!(
-            (scene.material.effective_modulus(), scene.loading_stiffness),
+            (scene.material.modulus_in_pascals(), scene.loading_stiffness),
             (2e6, Some(3.0))
         );
         assert_eq!(
@@ -303,7 +303,7 @@ mod tests {
         )];
         let plane = document.set_all(&plane).unwrap();
         let found = with_values(&plane, &values, |one| one == Parameter::Modulus, &curve).unwrap();
-        assert!((found.scene().material.effective_modulus() / 3e6 - 1.0).abs() < 1e-12);
+        assert!((found.scene().material.modulus_in_pascals() / 3e6 - 1.0).abs() < 1e-12);
         // The work on closing in the scene changes with the work of adhesion.
         let closing = document
             .set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())])

@@ -130,7 +130,7 @@ fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
     Known {
         radius: radius_of(scene),
         length: scene.length,
-        modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
+        modulus: unless_free(Parameter::Modulus, governing.modulus),
         stiffness: unless_free(Parameter::Stiffness, stiffness),
     }
 }

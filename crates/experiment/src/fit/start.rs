@@ -5,7 +5,7 @@ use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{Extent, dot};
 use crate::error::ExperimentError;
 use crate::fit::instrument::{carried_force, stiffness_by_slope};
-use asperity_contact::motion::Leg;
+use asperity_contact::motion::Stage;
 use asperity_contact::{Contact, Modulus};
 use asperity_data::mean;
 use std::f64::consts::PI;
@@ -208,7 +208,7 @@ fn exponent(contact: &Contact, indentation: f64) -> Result<f64, ExperimentError>
 /// modulus is 1 Pa.
 fn force_of_unit_modulus(contact: &Contact, indentation: f64) -> Result<f64, ExperimentError> {
     let contact = contact.with(Modulus::effective(1.0)?).build()?;
-    Ok(Leg::approach(&contact)?.point(indentation)?.force)
+    Ok(Stage::approach(&contact)?.point(indentation)?.force)
 }
 
 impl Known {

@@ -104,7 +104,7 @@ impl Specimen {
     }
 
     pub(crate) fn modulus(&self) -> f64 {
-        self.truth.material.effective_modulus()
+        self.truth.material.modulus_in_pascals()
     }
 
     /// The curve of one place, with points at evenly spaced displacements.
@@ -117,7 +117,7 @@ impl Specimen {
             .run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
         let branch = |number: usize| -> Vec<(f64, f64)> {
-            let points = outcome.history.legs[number].curve.iter();
+            let points = outcome.history.stages[number].curve.iter();
             points
                 .map(|point| (point.indentation + point.force / stiffness, point.force))
                 .collect()

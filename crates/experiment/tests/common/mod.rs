@@ -6,7 +6,7 @@ pub(crate) mod bodies;
 pub(crate) mod specimens;
 pub(crate) mod sphere;
 
-use asperity_contact::{CurvePoint, LegRecord, Move};
+use asperity_contact::{CurvePoint, Move, StageRecord};
 use asperity_data::Control;
 use asperity_experiment::{CurveOptions, Drift, Fit, FitResult, Free, MeasuredCurve, Parameter};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
@@ -37,16 +37,16 @@ pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
     let outcome = Simulation::default()
         .run(&fine, &|| false, &mut |_, _, _| Ok(()))
         .unwrap();
-    let legs = &outcome.history.legs;
+    let stages = &outcome.history.stages;
     let base = |point: &CurvePoint| displacement(point, stiffness(scene));
-    let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
+    let top = stages[0].curve.iter().map(base).fold(f64::MIN, f64::max);
     let low = -0.5 * top
-        - legs[1]
+        - stages[1]
             .curve
             .iter()
             .map(|point| base(point).abs())
             .fold(0.0, f64::max);
-    sampled(legs, stiffness(scene), low, top, 500)
+    sampled(stages, stiffness(scene), low, top, 500)
 }
 
 /// Displacement d + F/k in m of a point, for a stiffness k in N/m.
@@ -58,14 +58,14 @@ pub(crate) fn displacement(point: &CurvePoint, stiffness: f64) -> f64 {
 /// back, as displacements in m and forces in N. They are the first points of fine curves at or
 /// beyond evenly spaced displacements; the force is 0 where the body is free.
 pub(crate) fn sampled(
-    legs: &[LegRecord],
+    stages: &[StageRecord],
     stiffness: f64,
     low: f64,
     top: f64,
     count: usize,
 ) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
-    for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
+    for (stage, sign) in stages.iter().zip([1.0, -1.0]) {
         let presses = sign > 0.0;
         let mut place = 0;
         for index in 0..count {
@@ -75,15 +75,15 @@ pub(crate) fn sampled(
             } else {
                 top + share * (low - top)
             };
-            while place < leg.curve.len()
-                && sign * displacement(&leg.curve[place], stiffness) < sign * wanted
+            while place < stage.curve.len()
+                && sign * displacement(&stage.curve[place], stiffness) < sign * wanted
             {
                 place += 1;
             }
-            let mut reached = leg.curve.get(place);
+            let mut reached = stage.curve.get(place);
             if presses {
                 // The approach ends at its last point, and is free before displacement 0.
-                reached = reached.or(leg.curve.last()).filter(|_| wanted > 0.0);
+                reached = reached.or(stage.curve.last()).filter(|_| wanted > 0.0);
             }
             points.push(match reached {
                 Some(point) => (displacement(point, stiffness), point.force),
@@ -228,7 +228,7 @@ pub(crate) fn on_rubber(work: f64, modulus: f64) -> Document {
         ("loading_stiffness", "3"),
         ("numerics.points", "256"),
         ("adhesion.work", &format!("{work:e}")),
-        ("material", &format!("(effective_modulus: {modulus:e})")),
+        ("material", &format!("(modulus: {modulus:e})")),
     ];
     open("jkr-sphere")
         .unwrap()
@@ -264,7 +264,7 @@ pub(crate) fn random(seed: u64, points: u64) -> Made {
     let outcome = Simulation::default()
         .run(&checked, &|| false, &mut |_, _, _| Ok(()))
         .unwrap();
-    let force = outcome.figures.adhesion_force.unwrap();
+    let force = outcome.figures.pull_off_force.unwrap();
     Made {
         scene,
         offset: 1e-6 * between(0.1, 1.0),
@@ -276,7 +276,7 @@ pub(crate) fn random(seed: u64, points: u64) -> Made {
 pub(crate) fn truth(made: &Made, parameter: Parameter) -> f64 {
     match parameter {
         Parameter::Work => made.scene.adhesion.unwrap().work().unwrap(),
-        Parameter::Modulus => made.scene.material.effective_modulus(),
+        Parameter::Modulus => made.scene.material.modulus_in_pascals(),
         Parameter::Offset => made.offset,
         Parameter::Stiffness => stiffness(&made.scene),
         _ => 0.0,

@@ -21,7 +21,7 @@ pub(crate) fn scene(name: &str) -> Scene {
         .contact(&scene.clone().checked().unwrap())
         .unwrap();
     scene.adhesion = Some(Adhesion::by_work(governing.work_of_adhesion.unwrap()));
-    scene.material = Material::effective(governing.effective_modulus);
+    scene.material = Material::effective(governing.modulus);
     scene.loading_stiffness = stiffness;
     scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
     scene.numerics.points = 4096;
@@ -50,18 +50,18 @@ pub(crate) fn curve(
     let outcome = simulation
         .run(&fine.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
         .unwrap();
-    let legs = &outcome.history.legs;
+    let stages = &outcome.history.stages;
     let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
     let base = |point: &CurvePoint| displacement(point, stiffness);
-    let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
+    let top = stages[0].curve.iter().map(base).fold(f64::MIN, f64::max);
     let low = -0.3 * top
-        - legs[1]
+        - stages[1]
             .curve
             .iter()
             .map(|point| base(point).abs())
             .fold(0.0, f64::max);
     let noise = gauss(share * preload, seed).into_iter().cycle();
-    let points = sampled(legs, stiffness, low, top, POINTS);
+    let points = sampled(stages, stiffness, low, top, POINTS);
     let disturbed = points.into_iter().zip(noise);
     let moved = disturbed.map(|((place, force), noise)| (place + 1e-6, force + noise + 3e-7));
     let scaled = moved.map(|(place, force)| (1e9 * place, 1e9 * force));

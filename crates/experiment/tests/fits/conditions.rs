@@ -91,7 +91,7 @@ impl Case {
             ("adhesion.work", format!("{:e}", 1000.0 * work)),
             (
                 "material",
-                format!("(effective_modulus: {:e})", (1e-3 * modulus).max(1.0)),
+                format!("(modulus: {:e})", (1e-3 * modulus).max(1.0)),
             ),
         ];
         let changes = changes.map(|(path, value)| (path.to_owned(), value));

@@ -61,7 +61,7 @@ impl ParameterRow {
 fn truth(base: &Scene, generator: &mut ChaCha8Rng) -> Scene {
     let mut between = |factor: f64| factor.powf(generator.random::<f64>() - 0.5);
     let work = base.adhesion.and_then(|adhesion| adhesion.work()).unwrap() * between(4.0);
-    let modulus = base.material.effective_modulus() * between(2.0);
+    let modulus = base.material.modulus_in_pascals() * between(2.0);
     Scene {
         adhesion: Some(Adhesion::by_work(work)),
         material: Material::effective(modulus),
@@ -114,7 +114,7 @@ fn compare(name: &str, with_errors: bool) {
         };
         let [work, modulus] = [
             truth.adhesion.unwrap().work().unwrap(),
-            truth.material.effective_modulus(),
+            truth.material.modulus_in_pascals(),
         ];
         let curves: Vec<_> = (0..32)
             .map(|index| 1000 * (specimen + 1) + index)

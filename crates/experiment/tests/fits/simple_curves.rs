@@ -136,7 +136,7 @@ impl Case {
             ("adhesion.work", work * sphere.work),
         ];
         let changes = changes.map(|(path, value)| (path.to_owned(), format!("{value:e}")));
-        let modulus = format!("(effective_modulus: {:e})", modulus * sphere.modulus);
+        let modulus = format!("(modulus: {:e})", modulus * sphere.modulus);
         open("jkr-sphere")
             .and_then(|scene| scene.set("numerics.points", "512"))
             .and_then(|scene| scene.set("material", &modulus))

@@ -24,7 +24,7 @@ fn fitted(modulus: f64, length: &str, times: f64, stated: &str, free: &str) -> F
     }
     let curve = MeasuredCurve::from_columns(&way, &forces, &CurveOptions::default()).unwrap();
     let mut document = open("jkr-sphere").unwrap();
-    let material = format!("(effective_modulus: {:e})", modulus * times);
+    let material = format!("(modulus: {:e})", modulus * times);
     for (path, value) in [
         ("form.radius", "7.5e-6"),
         ("length", length),

@@ -39,7 +39,7 @@ impl Probe {
             behind,
         } = self;
         let changes = [
-            ("material", format!("(effective_modulus: {modulus:e})")),
+            ("material", format!("(modulus: {modulus:e})")),
             (
                 "adhesion",
                 format!("(work: {work:e}, closing_work: {closing_work:e})"),
@@ -60,10 +60,10 @@ impl Probe {
 
     /// The curve of this probe by the engine on a finer grid, with noise and an offset.
     fn curve(self, noise: f64, seed: u64) -> MeasuredCurve {
-        let legs = run(&self.document(6000, 1 << 16)).unwrap().history.legs;
-        let top = legs[0].curve.last().unwrap();
+        let stages = run(&self.document(6000, 1 << 16)).unwrap().history.stages;
+        let top = stages[0].curve.last().unwrap();
         let top = top.indentation + top.force / STIFFNESS;
-        let points = sampled(&legs, STIFFNESS, -1.2 * top, top, 500);
+        let points = sampled(&stages, STIFFNESS, -1.2 * top, top, 500);
         let mut displacements = Vec::new();
         let mut forces = Vec::new();
         for ((displacement, force), noise) in points.into_iter().zip(gauss(noise, seed)) {

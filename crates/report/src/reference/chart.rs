@@ -20,7 +20,7 @@ pub(super) fn figure_of_loading(title: &str, loading: &[Loaded]) -> Figure {
     let x = logarithmic_axis(&forces, "force", "F", "N");
     let y = logarithmic_axis(&indentations, "indentation", "d", "m");
     let line = LayersOfModel {
-        name: "line",
+        name: "profile",
         ink: Ink::Series(0),
         sign: Sign::Dot,
         indentation: |loaded| loaded.indentation.line,

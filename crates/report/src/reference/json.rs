@@ -15,19 +15,19 @@ pub(super) struct ReferenceJson<'a> {
     scene: &'a Scene,
     warnings: Vec<String>,
     cells: usize,
-    maps: u64,
-    lines: u64,
+    surfaces: u64,
+    profiles: u64,
     waves: Option<(u64, u64)>,
     omitted: Option<u64>,
     compared_loading: [Move; 2],
     preload: f64,
-    work_of_adhesion: Option<f64>,
-    line: ModelJson<Statistics>,
+    work: Option<f64>,
+    profile: ModelJson<Statistics>,
     half_space: ModelJson<Statistics>,
     adhesive_half_space: Option<ComparedRoughness>,
     ratio: ModelJson<RatioJson>,
     left_out: &'a [LeftOut],
-    line_is_exact: bool,
+    profile_is_exact: bool,
     budget: ReferenceBudget,
     convolutions: u64,
     seconds: [f64; 2],
@@ -39,8 +39,8 @@ pub(super) struct ReferenceJson<'a> {
 struct ModelJson<V> {
     #[serde(flatten)]
     roughness: Option<ComparedRoughness>,
-    adhesion_force: Option<V>,
-    first_touch_adhesion_force: Option<V>,
+    pull_off_force: Option<V>,
+    first_touch_pull_off_force: Option<V>,
     dissipated_energy: Option<V>,
     loading: Vec<LoadedJson<V>>,
 }
@@ -97,8 +97,8 @@ impl<V> ModelJson<V> {
         }
         ModelJson {
             roughness: None,
-            adhesion_force: reference.adhesion_force.as_ref().map(number),
-            first_touch_adhesion_force: reference.first_touch_adhesion_force.as_ref().map(number),
+            pull_off_force: reference.pull_off_force.as_ref().map(number),
+            first_touch_pull_off_force: reference.first_touch_pull_off_force.as_ref().map(number),
             dissipated_energy: reference.dissipated_energy.as_ref().map(number),
             loading,
         }
@@ -124,26 +124,26 @@ impl<V> ModelJson<V> {
 impl<'a> ReferenceJson<'a> {
     pub fn new(scene: &'a Scene, reference: &'a Reference) -> Self {
         let roughness = reference.roughness;
-        let profiles = reference.profiles_for_warnings();
-        let line = ModelJson::new(reference, |compared| compared.line);
+        let warned = reference.profiles_for_warnings();
+        let profile = ModelJson::new(reference, |compared| compared.line);
         let half_space = ModelJson::new(reference, |compared| compared.half_space)
             .with_area(reference)
             .with_grid(reference);
         let ratio = ModelJson::new(reference, RatioJson::new).with_grid(reference);
         ReferenceJson {
             scene,
-            warnings: counted_texts(&reference.warnings, profiles),
+            warnings: counted_texts(&reference.warnings, warned),
             cells: reference.options.cells,
-            maps: reference.options.maps,
-            lines: reference.options.lines,
+            surfaces: reference.options.surfaces,
+            profiles: reference.options.profiles,
             waves: reference.waves,
             omitted: reference.omitted,
             compared_loading: reference.compared_loading,
             preload: reference.preload,
-            work_of_adhesion: reference.work_of_adhesion,
-            line: ModelJson {
+            work: reference.work_of_adhesion,
+            profile: ModelJson {
                 roughness: roughness.map(|roughness| roughness.line),
-                ..line
+                ..profile
             },
             half_space: ModelJson {
                 roughness: roughness.map(|roughness| roughness.half_space),
@@ -152,7 +152,7 @@ impl<'a> ReferenceJson<'a> {
             adhesive_half_space: roughness.and_then(|roughness| roughness.adhesive_half_space),
             ratio,
             left_out: &reference.left_out,
-            line_is_exact: reference.line_is_exact,
+            profile_is_exact: reference.line_is_exact,
             budget: reference.budget,
             convolutions: reference.convolutions,
             seconds: reference.seconds,

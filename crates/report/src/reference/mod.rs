@@ -14,7 +14,7 @@ pub use words::{difference_words, model_sentence, model_words, omitted_waves};
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::counted_section;
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
 use asperity_contact::Move;
 use asperity_data::{Note, Remedy, Table, Wording, format_quantity, format_rounded, grouped};
@@ -43,13 +43,13 @@ pub struct ReferenceReport<'a> {
 
 /// Returns the headings of a table that compares both models.
 fn header() -> [String; 4] {
-    ["", "line", "three dimensions", "ratio"].map(String::from)
+    ["", "profile", "three dimensions", "ratio"].map(String::from)
 }
 
 /// Returns the headings of a table that compares both models and states the error of the grid of
 /// the squares.
 fn header_with_grid() -> [String; 5] {
-    ["", "line", "three dimensions", "ratio", "grid"].map(String::from)
+    ["", "profile", "three dimensions", "ratio", "grid"].map(String::from)
 }
 
 /// Returns the row of a quantity in a table that compares both models and states the error of the
@@ -82,12 +82,12 @@ impl ReferenceReport<'_> {
         let Some((first, last)) = self.reference.waves else {
             return format!("A square of {cells} × {cells} cells and a line, both smooth.");
         };
-        let maps = grouped(options.maps);
-        let lines = grouped(options.lines);
+        let surfaces = grouped(options.surfaces);
+        let lines = grouped(options.profiles);
         let first = grouped(first);
         let last = grouped(last);
         let mut sentences = format!(
-            "Means over {maps} random squares of {cells} × {cells} cells and over {lines} random lines, of {first} to {last} \
+            "Means over {surfaces} random squares of {cells} × {cells} cells and over {lines} random lines, of {first} to {last} \
              waves over the length."
         );
         if let Some(last_of_scene) = self.reference.omitted {
@@ -194,10 +194,10 @@ impl ReferenceReport<'_> {
     fn add_adhesion(&self, sheet: &mut Sheet) {
         let reference = self.reference;
         let quantities = [
-            ("adhesion force F_a", &reference.adhesion_force, "N"),
+            ("pull-off force F_a", &reference.pull_off_force, "N"),
             (
                 "at first touch F_a(d=0)",
-                &reference.first_touch_adhesion_force,
+                &reference.first_touch_pull_off_force,
                 "N",
             ),
             ("dissipated energy", &reference.dissipated_energy, "J"),
@@ -282,7 +282,7 @@ impl ReferenceReport<'_> {
                 )
             }
             ("sample", _) => Note::new("The largest is the sample of squares and lines.")
-                .with(Remedy::Maps)
+                .with(Remedy::Surfaces)
                 .in_words(self.wording),
             ("grid", _) => Note::new("The largest is the grid of the squares.")
                 .with(Remedy::FinerGrid)
@@ -293,13 +293,19 @@ impl ReferenceReport<'_> {
 }
 
 impl Report for ReferenceReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(
+            &self.reference.warnings,
+            self.reference.profiles_for_warnings(),
+        )
+    }
+
     fn text(&self) -> Option<String> {
         let reference = self.reference;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
-        let profiles = reference.profiles_for_warnings();
-        counted_section(&mut sheet, &reference.warnings, profiles);
+        sentences_section(&mut sheet, &self.warnings());
         if let Some(sentence) = self.compared_loading() {
             sheet.paragraph(&sentence);
         }

@@ -21,7 +21,7 @@ pub struct ReferenceProgress {
     /// Moment at which the computation of the squares began.
     begun: Instant,
     /// Number of random rough squares.
-    maps: u64,
+    surfaces: u64,
     /// Number of finished squares.
     done: u64,
     /// Number of finished random profiles.
@@ -36,7 +36,7 @@ impl Default for ReferenceProgress {
     fn default() -> Self {
         ReferenceProgress {
             begun: Instant::now(),
-            maps: 0,
+            surfaces: 0,
             done: 0,
             lines_done: 0,
             share: 0.0,
@@ -51,17 +51,17 @@ impl ReferenceProgress {
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         let line = match *event {
             ReferenceEvent::Begins {
-                maps,
+                surfaces,
                 threads,
                 bytes,
                 seconds,
             } => {
                 *self = ReferenceProgress {
-                    maps,
+                    surfaces,
                     seconds,
                     ..ReferenceProgress::default()
                 };
-                let squares = counted(maps, "square");
+                let squares = counted(surfaces, "square");
                 let threads = counted(threads as u64, "thread");
                 let time = in_words(seconds);
                 let memory = memory_size(bytes);
@@ -93,7 +93,7 @@ impl ReferenceProgress {
     /// Returns in words how many squares are finished, which share of the computation is finished,
     /// and the remaining time.
     fn squares_in_words(&self) -> String {
-        let share_of_squares = self.done as f64 / self.maps.max(1) as f64;
+        let share_of_squares = self.done as f64 / self.surfaces.max(1) as f64;
         let share = self.share.max(share_of_squares);
         let left = if share < LEAST_SHARE {
             self.seconds
@@ -101,7 +101,7 @@ impl ReferenceProgress {
             self.begun.elapsed().as_secs_f64() * (1.0 - share) / share
         };
         let done = self.done;
-        let squares = counted(self.maps, "square");
+        let squares = counted(self.surfaces, "square");
         let share = whole_percent(share);
         let left = in_words(left);
         format!("{done} of {squares}, {share}, {left} left")
@@ -109,10 +109,10 @@ impl ReferenceProgress {
 
     /// Returns in words how many finished squares are lost if the user stops the comparison now.
     pub fn lost(&self) -> String {
-        if self.maps == 0 {
+        if self.surfaces == 0 {
             return "stopped before the first square".to_owned();
         }
-        let squares = counted(self.maps, "square");
+        let squares = counted(self.surfaces, "square");
         format!("stopped after {} of {squares}, which are lost", self.done)
     }
 }
@@ -123,22 +123,22 @@ fn in_words(seconds: f64) -> String {
 
 /// Returns in a few words how far the computation of the force loops of random rough squares in
 /// three dimensions has come. As soon as there are results, the words also state a ratio: the
-/// adhesion force with profiles divided by the adhesion force in three dimensions. If `is_adhesive`
+/// pull-off force with profiles divided by the pull-off force in three dimensions. If `is_adhesive`
 /// is false, the ratio is that of the indentations.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
-    let maps = loops.maps;
+    let surfaces = loops.surfaces;
     let Some(compared) = loops.headline() else {
-        if maps == 0 {
+        if surfaces == 0 {
             return "three dimensions: begins".to_owned();
         }
         let share = whole_percent(loops.share);
-        return format!("three dimensions: 0 of {maps} squares, {share}");
+        return format!("three dimensions: 0 of {surfaces} squares, {share}");
     };
     let symbol = if is_adhesive { "F_a" } else { "d" };
     let ratio = ratio(&compared);
     let squares = match &loops.reference {
         Some(reference) => omitted_waves(reference),
-        None => format!(", {} of {maps} squares", loops.curves.len()),
+        None => format!(", {} of {surfaces} squares", loops.curves.len()),
     };
     format!("{symbol} line/three dimensions {ratio}{squares}")
 }
@@ -151,7 +151,7 @@ mod tests {
     fn there_is_progress_before_the_first_square() {
         let mut progress = ReferenceProgress::default();
         let begins = ReferenceEvent::Begins {
-            maps: 4,
+            surfaces: 4,
             threads: 2,
             bytes: 1 << 20,
             seconds: 7200.0,

@@ -12,8 +12,8 @@ fn the_figure_has_both_models() {
     let document = open("jkr-sphere").unwrap();
     let options = ReferenceOptions {
         cells: 32,
-        maps: 1,
-        lines: 1,
+        surfaces: 1,
+        profiles: 1,
     };
     let found = Reference::of(
         document.scene(),
@@ -38,7 +38,7 @@ fn the_figure_has_both_models() {
     assert_eq!(
         legend,
         [
-            "line, mean and quartiles",
+            "profile, mean and quartiles",
             "three dimensions, mean and quartiles"
         ]
     );
@@ -52,8 +52,8 @@ fn what_is_left_out_is_said() {
     let document = open("pressure-sensitive").unwrap();
     let options = ReferenceOptions {
         cells: 64,
-        maps: 2,
-        lines: 32,
+        surfaces: 2,
+        profiles: 32,
     };
     let found = Reference::of(
         document.scene(),
@@ -116,8 +116,8 @@ fn a_sphere_has_no_error_of_the_model() {
     let document = open("jkr-sphere").unwrap().set("length", "4.2e-5").unwrap();
     let options = ReferenceOptions {
         cells: 64,
-        maps: 1,
-        lines: 1,
+        surfaces: 1,
+        profiles: 1,
     };
     let found = Reference::of(
         document.scene(),

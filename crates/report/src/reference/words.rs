@@ -6,13 +6,13 @@ use asperity_data::{format_rounded, grouped};
 use asperity_study::half_space::{Compared, Reference};
 
 /// Returns a sentence on the ratio of two means, and a sentence on the error of the model that
-/// follows from this ratio. The ratio is the mean adhesion force over random profiles divided by
-/// the mean adhesion force in three dimensions. Without adhesion, it is the ratio of the mean
+/// follows from this ratio. The ratio is the mean pull-off force over random profiles divided by
+/// the mean pull-off force in three dimensions. Without adhesion, it is the ratio of the mean
 /// indentations. Returns `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let ratio = ratio(reference.headline()?);
-    let quantity = if reference.adhesion_force.is_some() {
-        "the adhesion force"
+    let quantity = if reference.pull_off_force.is_some() {
+        "the pull-off force"
     } else {
         "the indentation"
     };

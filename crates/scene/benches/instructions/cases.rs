@@ -37,7 +37,7 @@ pub enum Class {
     AdhesivePressed,
     /// A rough profile with adhesion that is moved to first touch and pulled off.
     AdhesiveTouch,
-    /// A rough profile with adhesion that is pressed and pulled off. Its adhesion force without a
+    /// A rough profile with adhesion that is pressed and pulled off. Its pull-off force without a
     /// preload is also computed, by a motion to first touch and back to separation.
     AdhesiveLoop,
     /// The same loading as in `AdhesiveLoop`. The contact patches and a histogram of the heights
@@ -140,12 +140,12 @@ impl Case {
             _ => format!("ToForce({FORCE:e})"),
         };
         let observe = if self.is_observed() {
-            "Fragments, HeightHistogram"
+            "Patches, HeightHistogram"
         } else {
             ""
         };
         let text = format!(
-            "(version: 1, material: (effective_modulus: {EFFECTIVE_MODULUS:e}), length: {LENGTH:e}, {body}, \
+            "(version: 1, material: (modulus: {EFFECTIVE_MODULUS:e}), length: {LENGTH:e}, {body}, \
              adhesion: {adhesion}, loading: [{loading}], observe: [{observe}], \
              numerics: (points: {POINTS}, samples: {SAMPLES}, edges: {:?}))",
             self.edges

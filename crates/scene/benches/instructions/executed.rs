@@ -50,7 +50,7 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "unloading",
         lines: Lines::Of(&[
-            ("crates/contact/src/leg/mod.rs", "pub fn turn("),
+            ("crates/contact/src/stage/mod.rs", "pub fn turn("),
             ("crates/contact/src/adhesive/unloading.rs", "pub fn open("),
         ]),
         called_for: Case::goes_back,

@@ -6,8 +6,8 @@ use super::cases::{
     SAMPLES, SEED, WORK_OF_ADHESION,
 };
 use asperity_contact::Move;
-use asperity_contact::motion::{Body, Leg, load_body};
-use asperity_contact::{Contact, History, LegRecord, Modulus, Patch, Profile};
+use asperity_contact::motion::{Body, Stage, load_body};
+use asperity_contact::{Contact, History, Modulus, Patch, Profile, StageRecord};
 use asperity_surface::Form;
 use asperity_surface::SelfAffine;
 use asperity_surface::lines::{Histogram, Line, Synthesizer};
@@ -26,12 +26,12 @@ pub struct Given {
     pub history: History,
     pub without_preload: [Option<f64>; 2],
     pub histogram: Option<Histogram>,
-    pub fragments: Vec<Vec<Patch>>,
+    pub patches: Vec<Vec<Patch>>,
 }
 
 /// Runs the kernel of a scene and returns its results.
 pub fn kernel(case: &Case) -> Given {
-    let (smooth_or_rough, legs): (Line, &[Move]) = match case.class {
+    let (smooth_or_rough, stages): (Line, &[Move]) = match case.class {
         Class::SmoothPressed => (smooth(), &PRESS),
         Class::AdhesivePressed => (rough(), &PRESS),
         Class::AdhesiveTouch => (rough(), &TOUCH),
@@ -51,7 +51,7 @@ pub fn kernel(case: &Case) -> Given {
         .build();
     let mut body = Body::new(&contact.expect("a contact"), SAMPLES);
     if !case.is_adhesive() {
-        let history = load_body(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
+        let history = load_body(&mut body, stages, |_, _| Ok(())).expect("a loading within reach");
         return Given {
             history,
             ..Given::default()
@@ -62,7 +62,7 @@ pub fn kernel(case: &Case) -> Given {
         .then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
     Given {
         histogram,
-        ..adhesive(case, body, legs)
+        ..adhesive(case, body, stages)
     }
 }
 
@@ -84,14 +84,14 @@ fn rough() -> Line {
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
 
-/// Loads the body with adhesion through the stages `legs`. Also computes the other results that the
+/// Loads the body with adhesion through the stages `stages`. Also computes the other results that the
 /// scene needs besides the force curve.
-fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
-    let mut fragments = Vec::new();
-    let history = load_body(&mut body, legs, |record: &LegRecord, leg: &Leg| {
+fn adhesive(case: &Case, mut body: Body, stages: &[Move]) -> Given {
+    let mut patches = Vec::new();
+    let history = load_body(&mut body, stages, |record: &StageRecord, stage: &Stage| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
-            fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));
+            patches.push(end.map_or_else(Vec::new, |end| stage.patches(end.indentation)));
         }
         Ok(())
     });
@@ -106,6 +106,6 @@ fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
         history,
         without_preload,
         histogram: None,
-        fragments,
+        patches,
     }
 }

@@ -70,27 +70,27 @@ pub fn assert_agree(case: &Case) {
     let what = case.name();
     let forces = |history: &History| -> Vec<u64> {
         history
-            .legs
+            .stages
             .iter()
-            .flat_map(|leg| &leg.curve)
+            .flat_map(|stage| &stage.curve)
             .map(|point| point.force.to_bits())
             .collect()
     };
     assert_eq!(forces(&outcome.history), forces(&given.history), "{what}");
     assert_eq!(outcome.history.contacts, given.history.contacts, "{what}");
     let without_preload = [
-        outcome.first_touch_adhesion_force,
-        outcome.zero_force_adhesion_force,
+        outcome.first_touch_pull_off_force,
+        outcome.zero_force_pull_off_force,
     ];
     assert_eq!(without_preload, given.without_preload, "{what}");
     assert_eq!(outcome.histogram, given.histogram, "{what}");
-    assert_eq!(outcome.fragments, given.fragments, "{what}");
+    assert_eq!(outcome.patches, given.patches, "{what}");
     assert!(
         outcome
             .history
-            .legs
+            .stages
             .iter()
-            .all(|leg| leg.curve.iter().any(|point| point.springs > 0)),
+            .all(|stage| stage.curve.iter().any(|point| point.springs > 0)),
         "{what}"
     );
 }

@@ -81,8 +81,8 @@ pub fn run_as_child() -> bool {
         Part::Line => drop(black_box(line.gaps.len())),
         Part::Loop => {
             let mut body = body();
-            for leg in [Move::ToForce(force), Move::ToSeparation] {
-                black_box(body.advance(leg).expect("a reachable leg"));
+            for stage in [Move::ToForce(force), Move::ToSeparation] {
+                black_box(body.advance(stage).expect("a reachable stage"));
             }
         }
         Part::Reversals => {

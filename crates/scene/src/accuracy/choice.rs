@@ -43,7 +43,7 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
     pub tolerance: f64,
-    /// Quantity whose error the tolerance limits: adhesion force or force curve.
+    /// Quantity whose error the tolerance limits: pull-off force or force curve.
     pub target: Target,
     /// Chosen number of springs N.
     pub points: u64,
@@ -53,7 +53,7 @@ pub struct Choice {
     /// Relative error of `target` with the chosen settings: the true error if a closed form exists,
     /// otherwise an estimate.
     pub error: f64,
-    /// True if `error` is the difference from a closed form, an exact formula for the adhesion
+    /// True if `error` is the difference from a closed form, an exact formula for the pull-off
     /// force.
     pub closed_form: bool,
     /// Largest number of springs that [`choose`] tried.
@@ -160,7 +160,7 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// Finds the smallest number of springs, a power of two, with which the relative error of a scene
 /// is at most `tolerance`. Also finds where the edges of contact patches should lie ([`Edges`]).
 ///
-/// The error is that of the adhesion force or, for a scene without a tensile force, that of the
+/// The error is that of the pull-off force or, for a scene without a tensile force, that of the
 /// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying`
 /// receives each number of springs before it is tried. The search ends if `stop` returns true.
 ///
@@ -192,7 +192,7 @@ pub fn choose(
         return Err(ChoiceError::Stepwise);
     }
     // The number of springs is doubled until the error is within the tolerance and stays so for at
-    // least two further doublings. Without a closed form, adhesion forces are also compared at half
+    // least two further doublings. Without a closed form, pull-off forces are also compared at half
     // and at twice the loads, and the estimated error of the finest solution is added.
     let most = allowed_points(scene)
         .next()
@@ -336,12 +336,12 @@ fn candidate(
 mod tests {
     use super::*;
 
-    /// Creates solutions whose adhesion force converges to 1 N. `edges` has the error of the first
+    /// Creates solutions whose pull-off force converges to 1 N. `edges` has the error of the first
     /// solution and the order of convergence, for each edge model.
     fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
         let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,
-            adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
+            pull_off_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
             ..Solution::default()
         };
         (0..count)
@@ -349,7 +349,7 @@ mod tests {
             .collect()
     }
 
-    /// Adds to each solution a closed form with the adhesion force 1 N.
+    /// Adds to each solution a closed form with the pull-off force 1 N.
     fn known(solutions: Vec<[Solution; 2]>) -> Vec<[Solution; 2]> {
         let known = |solution| Solution {
             closed_form: Some(1.0),

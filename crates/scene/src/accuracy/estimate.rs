@@ -30,7 +30,7 @@ const OTHERS: [[Ratio; 2]; 2] = [[ratio(7, 8), ratio(2, 3)], [ratio(3, 2), ratio
 /// median of the ratio of the estimate to the true error is at most ten
 /// (`tests/program/estimates.rs`).
 const FACTOR: f64 = 4.0;
-/// Relative difference of two adhesion forces above which F_a(F_n), the adhesion force as a
+/// Relative difference of two pull-off forces above which F_a(F_n), the pull-off force as a
 /// function of the preload, may have a step between them.
 const STEP: f64 = 0.05;
 /// Factors by which the loads of a scene are multiplied, to find out whether a step is nearby.
@@ -51,14 +51,14 @@ const fn ratio(numerator: u64, denominator: u64) -> Ratio {
 }
 
 /// Estimated relative error that the finite number of springs causes in an [`Outcome`]. The error
-/// is that of the adhesion force or of the force curve.
+/// is that of the pull-off force or of the force curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Quantity whose error is estimated: adhesion force or force curve.
+    /// Quantity whose error is estimated: pull-off force or force curve.
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the adhesion force F_a, as a function of the preload, has a step near the preload of
+    /// True if the pull-off force F_a, as a function of the preload, has a step near the preload of
     /// the scene. The estimate compares the outcome with two further solutions. A step is assumed
     /// if two conditions hold:
     ///
@@ -71,30 +71,30 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Returns the estimated absolute error of the adhesion force of `outcome` in N. Returns `None`
+    /// Returns the estimated absolute error of the pull-off force of `outcome` in N. Returns `None`
     /// if the estimate is for the force curve ([`Target::Curve`]).
-    pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
-        if self.target != Target::AdhesionForce {
+    pub fn of_pull_off_force(&self, outcome: &Outcome) -> Option<f64> {
+        if self.target != Target::PullOffForce {
             return None;
         }
-        let error = self.error * outcome.figures.adhesion_force?.abs();
+        let error = self.error * outcome.figures.pull_off_force?.abs();
         error.is_finite().then_some(error)
     }
 
     /// Returns the estimated relative error of the force curve; [`Target::Curve`] defines this
-    /// error. Returns `None` if the estimate is for the adhesion force.
+    /// error. Returns `None` if the estimate is for the pull-off force.
     pub fn of_curve(&self) -> Option<f64> {
         let is_known = self.target == Target::Curve && self.error.is_finite();
         is_known.then_some(self.error)
     }
 
-    /// Returns the text that follows the adhesion force in summaries, such as `grid ± 0.1 %`. If
+    /// Returns the text that follows the pull-off force in summaries, such as `grid ± 0.1 %`. If
     /// [`near_step`](Self::near_step) is true, the text is `near a step of F_a(F_n)`, where F_a is
-    /// the adhesion force and F_n the preload.
+    /// the pull-off force and F_n the preload.
     pub fn words(&self) -> String {
         match self.target {
-            Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
-            Target::AdhesionForce => format!("grid ± {}", per_cent(self.error)),
+            Target::PullOffForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
+            Target::PullOffForce => format!("grid ± {}", per_cent(self.error)),
             Target::Curve => format!("grid ± {} of the curve", per_cent(self.error)),
         }
     }
@@ -104,7 +104,7 @@ impl Estimate {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// By an exact formula for the adhesion force. The estimate is then the true error.
+    /// By an exact formula for the pull-off force. The estimate is then the true error.
     ClosedForm,
     /// By comparison with two further solutions of the same scene. The list has their numbers of
     /// springs. The edges of their contact patches lie between springs ([`Edges::SubCell`]).
@@ -112,16 +112,16 @@ pub enum Evidence {
 }
 
 /// Estimates the relative error that the finite number of springs causes in `outcome`, the result
-/// of `scene`. The error is that of the adhesion force or, if the loading has no tensile force,
+/// of `scene`. The error is that of the pull-off force or, if the loading has no tensile force,
 /// that of the force curve. Names of measured files are relative to `folder`.
 ///
-/// If the adhesion force has a closed form, the estimate is the true error. Otherwise the estimate
+/// If the pull-off force has a closed form, the estimate is the true error. Otherwise the estimate
 /// follows from two further solutions with other numbers of springs, and the true error exceeds the
 /// estimate in about 5 of 100 cases.
 ///
 /// Returns `None` in these cases:
 ///
-/// * there is neither an adhesion force nor a force curve;
+/// * there is neither a pull-off force nor a force curve;
 /// * `stop` returns true;
 /// * one of the two further solutions fails;
 /// * the contact reaches the ends of the profile of a curved body, because more springs would then
@@ -137,7 +137,7 @@ pub enum Evidence {
 /// let scene = rough.scene(modulus, adhesion, &[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// let outcome = Simulation::default().compute(&scene)?;
 /// let estimated = estimate(&scene, Path::new(""), &outcome, &|| false).unwrap();
-/// assert!(estimated.of_adhesion_force(&outcome) < outcome.figures.adhesion_force);
+/// assert!(estimated.of_pull_off_force(&outcome) < outcome.figures.pull_off_force);
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```
 pub fn estimate(
@@ -151,7 +151,7 @@ pub fn estimate(
     }
     let own = Solution::of_target(scene, outcome);
     let target = Target::of(&own);
-    if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {
+    if let (Some(exact), Some(force)) = (own.closed_form, own.pull_off_force) {
         let error = relative_error(force, exact);
         return Some(Estimate {
             target,
@@ -170,7 +170,7 @@ pub fn estimate(
         .each_ref()
         .map(|further| difference(target, &further.solution, &own));
     let mut near_step = false;
-    if target == Target::AdhesionForce {
+    if target == Target::PullOffForce {
         for (further, difference) in further.iter().zip(differences) {
             near_step = near_step || is_near_step(&further.scene, difference, &own, &mut runs);
         }
@@ -196,7 +196,7 @@ fn difference(target: Target, solution: &Solution, own: &Solution) -> Option<f64
     Some(from_own.max(target.difference(own, solution)?))
 }
 
-/// Returns true if the adhesion force of a further solution differs because of a step of F_a(F_n).
+/// Returns true if the pull-off force of a further solution differs because of a step of F_a(F_n).
 /// `step` is the relative difference. The difference is due to a step if it is much smaller at
 /// loads near the loads of the scene.
 fn is_near_step(
@@ -214,7 +214,7 @@ fn is_near_step(
     })
 }
 
-/// Returns the relative difference of the adhesion force after all loads of the scene are
+/// Returns the relative difference of the pull-off force after all loads of the scene are
 /// multiplied by `factor`. Returns `None` if the scene with these loads has no solution.
 fn difference_under_load(
     scene: &CheckedScene,
@@ -223,12 +223,12 @@ fn difference_under_load(
     runs: &mut Runs<'_>,
 ) -> Option<f64> {
     let solution = runs.solve(&loaded(scene, factor)?).ok()?;
-    difference(Target::AdhesionForce, &solution, own)
+    difference(Target::PullOffForce, &solution, own)
 }
 
 /// Estimates the relative errors of a solution whose patches have their edges between springs: the
-/// errors of the adhesion force, the force curve, the dissipated energy and the largest contact
-/// length. The adhesion force is compared at the loads of the scene and at half and twice these
+/// errors of the pull-off force, the force curve, the dissipated energy and the largest contact
+/// length. The pull-off force is compared at the loads of the scene and at half and twice these
 /// loads. Returns `None` if the further solutions that this needs cannot be computed.
 pub(super) fn own_errors(
     scene: &CheckedScene,
@@ -361,7 +361,7 @@ mod tests {
         ];
         for (error, text) in errors.into_iter().zip(texts) {
             assert_eq!(
-                words(Target::AdhesionForce, error),
+                words(Target::PullOffForce, error),
                 format!("grid ± {text}"),
                 "{error}"
             );
@@ -378,7 +378,7 @@ mod tests {
         let Estimate {
             error, evidence, ..
         } = estimated(&document).unwrap();
-        let force = run(&document).figures.adhesion_force.unwrap();
+        let force = run(&document).figures.pull_off_force.unwrap();
         let expected = (force / (1.5 * std::f64::consts::PI * 0.05 * 1e-4) - 1.0).abs();
         assert!(
             evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9,
@@ -417,7 +417,7 @@ mod tests {
             let numerics = [("numerics.points", points), ("numerics.solver", solver)];
             with("pressure-sensitive", &[&few[..], &numerics].concat())
         };
-        let force = |document: &Document| run(document).figures.adhesion_force.unwrap();
+        let force = |document: &Document| run(document).figures.pull_off_force.unwrap();
         let truth = force(&on("131072", "Exact"));
         for solver in ["Exact", "Stepwise(step: 2e-9)", "Stepwise(step: 2e-8)"] {
             let document = on("512", solver);

@@ -161,8 +161,8 @@ fn compared(scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
 }
 
 fn compared_samples(scene: &Scene) -> u64 {
-    let legs = scene.loading.len().max(1) as u64;
-    (COMPARED_POINTS / legs).clamp(2, MOST_COMPARED)
+    let stages = scene.loading.len().max(1) as u64;
+    (COMPARED_POINTS / stages).clamp(2, MOST_COMPARED)
 }
 
 impl Ladder<'_> {
@@ -343,7 +343,7 @@ impl Ladder<'_> {
         let reference = finest.reference();
         let closed_form = reference.closed_form.is_some();
         if closed_form {
-            errors[Target::AdhesionForce as usize] = Some(ROUNDING);
+            errors[Target::PullOffForce as usize] = Some(ROUNDING);
         }
         // With few springs, each spring causes a jump of the force. The curve may show a jump late
         // by one distance between points of the curve.
@@ -368,7 +368,7 @@ impl Ladder<'_> {
         }
         self.table.reference = CostReference {
             springs: reference.points,
-            adhesion_force: reference.adhesion_force,
+            pull_off_force: reference.pull_off_force,
             closed_form,
             errors,
         };

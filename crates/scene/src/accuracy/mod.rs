@@ -7,7 +7,7 @@
 //!   with patches of whole springs, and the stepwise solver.
 //!
 //! Errors are relative to a [`CostReference`](table::CostReference). If the scene has a closed
-//! form, the reference is the adhesion force by this formula. Otherwise it is the finest solution
+//! form, the reference is the pull-off force by this formula. Otherwise it is the finest solution
 //! with edges between springs, whose own error is estimated.
 
 pub(crate) mod choice;

@@ -1,13 +1,13 @@
 //! Solutions of a scene with several settings, and their relative differences.
 
-use crate::reference::{closed_form, smooth_adhesion_force};
+use crate::reference::{closed_form, smooth_pull_off_force};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
 use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::stages::Simulation;
-use asperity_contact::{Branch, ContactError, Direction, Edges, History, LegRecord, Move};
+use asperity_contact::{Branch, ContactError, Direction, Edges, History, Move, StageRecord};
 use asperity_surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -18,7 +18,7 @@ pub(super) const FEWEST: u64 = 16;
 /// loads.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of the adhesion force, the force curve, the dissipated energy and
+/// Relative errors or differences of the pull-off force, the force curve, the dissipated energy and
 /// the largest contact length ([`crate::accuracy::table::CostTable::QUANTITIES`]). `None` for a
 /// missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
@@ -28,11 +28,11 @@ pub(super) type Errors = [Option<f64>; 4];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
     pub points: u64,
-    pub adhesion_force: Option<f64>,
-    /// Adhesion force in N by an exact formula (closed form); `None` if the scene has no such
+    pub pull_off_force: Option<f64>,
+    /// Pull-off force in N by an exact formula (closed form); `None` if the scene has no such
     /// formula.
     pub closed_form: Option<f64>,
-    /// Adhesion forces in N with all target forces and indentations of the scene halved, and with
+    /// Pull-off forces in N with all target forces and indentations of the scene halved, and with
     /// all of them doubled. An element is `None` without a tensile force. The list is empty if
     /// these forces were not computed.
     pub around: Vec<Option<f64>>,
@@ -50,11 +50,11 @@ impl Solution {
     }
 
     /// Returns only the quantities of a result that [`Target::difference`] compares. If the
-    /// adhesion force is compared, the force curve is not copied.
+    /// pull-off force is compared, the force curve is not copied.
     pub(super) fn of_target(scene: &Scene, outcome: &Outcome) -> Self {
         let own = Solution::without_curve(scene, outcome);
         match Target::of(&own) {
-            Target::AdhesionForce => own,
+            Target::PullOffForce => own,
             Target::Curve => Solution::of(scene, outcome),
         }
     }
@@ -63,7 +63,7 @@ impl Solution {
         let figures = &outcome.figures;
         Solution {
             points: outcome.line.points as u64,
-            adhesion_force: figures.adhesion_force.and_then(unless_zero),
+            pull_off_force: figures.pull_off_force.and_then(unless_zero),
             closed_form: closed_form_adhesion(scene, outcome),
             around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(unless_zero),
@@ -73,31 +73,31 @@ impl Solution {
     }
 
     /// Returns a copy of this solution to which the errors of other solutions are relative. If the
-    /// scene has an adhesion force in closed form, this force replaces the computed one.
+    /// scene has a pull-off force in closed form, this force replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         let mut reference = self.clone();
         if self.closed_form.is_some() {
-            reference.adhesion_force = self.closed_form;
+            reference.pull_off_force = self.closed_form;
             reference.around.clear();
         }
         reference
     }
 
     /// Returns the relative differences of this solution from a reference. The difference of the
-    /// adhesion force is the largest one among all loads at which both solutions have an adhesion
+    /// pull-off force is the largest one among all loads at which both solutions have an pull-off
     /// force. An error that changes its sign between two loads therefore does not seem small by
     /// chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
-            self.error_of_adhesion_force(reference),
+            self.error_of_pull_off_force(reference),
             difference(&self.curve, &reference.curve),
             error_of(self.dissipated_energy, reference.dissipated_energy),
             error_of(self.contact_length, reference.contact_length),
         ]
     }
 
-    fn error_of_adhesion_force(&self, reference: &Solution) -> Option<f64> {
-        let mut largest = error_of(self.adhesion_force, reference.adhesion_force)?;
+    fn error_of_pull_off_force(&self, reference: &Solution) -> Option<f64> {
+        let mut largest = error_of(self.pull_off_force, reference.pull_off_force)?;
         for (&force, &reference) in self.around.iter().zip(&reference.around) {
             let error = if force.is_some() && reference.is_none() {
                 f64::INFINITY
@@ -127,8 +127,8 @@ fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
-    /// Adhesion force. Its error is used for a scene whose loading has a tensile force.
-    AdhesionForce,
+    /// Pull-off force. Its error is used for a scene whose loading has a tensile force.
+    PullOffForce,
     /// Force curve of a scene without a tensile force.
     ///
     /// The error of a loading stage is the mean absolute difference between its forces and the
@@ -138,17 +138,17 @@ pub enum Target {
 }
 
 impl Target {
-    /// Returns the name of this quantity for users: `adhesion force` or `force curve`.
+    /// Returns the name of this quantity for users: `pull-off force` or `force curve`.
     pub fn name(self) -> &'static str {
         match self {
-            Target::AdhesionForce => "adhesion force",
+            Target::PullOffForce => "pull-off force",
             Target::Curve => "force curve",
         }
     }
 
     pub(super) fn of(solution: &Solution) -> Self {
-        if solution.adhesion_force.is_some() {
-            Target::AdhesionForce
+        if solution.pull_off_force.is_some() {
+            Target::PullOffForce
         } else {
             Target::Curve
         }
@@ -158,20 +158,20 @@ impl Target {
     pub(super) fn only(self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         scene.with(|scene| {
             scene.observe.clear();
-            if self == Target::AdhesionForce {
-                // The adhesion force is an exact extreme, so it does not depend on the number of
+            if self == Target::PullOffForce {
+                // The pull-off force is an exact extreme, so it does not depend on the number of
                 // points of the curve.
                 scene.numerics.samples = FEW_SAMPLES;
             }
         })
     }
 
-    /// Returns the relative difference of this quantity, adhesion force or force curve, between a
+    /// Returns the relative difference of this quantity, pull-off force or force curve, between a
     /// solution and a reference. Returns `None` if the difference is unknown, for example because a
-    /// solution has no adhesion force.
+    /// solution has no pull-off force.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
         match self {
-            Target::AdhesionForce => solution.error_of_adhesion_force(reference),
+            Target::PullOffForce => solution.error_of_pull_off_force(reference),
             Target::Curve => difference(&solution.curve, &reference.curve),
         }
     }
@@ -254,23 +254,23 @@ impl<'a> Runs<'a> {
         Ok(Solution::of(scene, &outcome))
     }
 
-    /// Solves a scene. Also computes its adhesion forces at half and at twice the loads.
+    /// Solves a scene. Also computes its pull-off forces at half and at twice the loads.
     pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene)?;
-        if solution.adhesion_force.is_none() {
+        if solution.pull_off_force.is_none() {
             return Ok(solution);
         }
         for factor in AROUND {
             let Some(loaded) = loaded(&scene, factor) else {
                 continue;
             };
-            let adhesion_force = match self.solve(&loaded) {
-                Ok(solution) => solution.adhesion_force,
+            let pull_off_force = match self.solve(&loaded) {
+                Ok(solution) => solution.pull_off_force,
                 Err(error) if is_too_coarse(&error) => None,
                 Err(error) => return Err(error),
             };
-            solution.around.push(adhesion_force);
+            solution.around.push(pull_off_force);
         }
         Ok(solution)
     }
@@ -299,15 +299,15 @@ pub(super) fn is_too_coarse(error: &RunError) -> bool {
 
 fn longest_contact(outcome: &Outcome) -> f64 {
     let mut longest = 0.0;
-    for leg in &outcome.history.legs {
-        for point in &leg.curve {
+    for stage in &outcome.history.stages {
+        for point in &stage.curve {
             longest = f64::max(longest, point.contact_length);
         }
     }
     longest
 }
 
-/// Returns the adhesion force of a scene by a closed form in N. `outcome` is the solution of the
+/// Returns the pull-off force of a scene by a closed form in N. `outcome` is the solution of the
 /// scene. Returns `None` unless three conditions hold:
 ///
 /// * the body is smooth and has a closed form;
@@ -319,9 +319,9 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         return None;
     }
     let limits = Limits::of(scene, outcome, work)?;
-    let legs = &outcome.history.legs;
-    Branch::pull_off(legs)?;
-    let pulled = &legs[Branch::last_unloading(legs)?.stages];
+    let stages = &outcome.history.stages;
+    Branch::pull_off(stages)?;
+    let pulled = &stages[Branch::last_unloading(stages)?.stages];
     let passes =
         pulled.first()?.start() >= limits.pull_off && pulled.last()?.end_in_contact().is_none();
     // The contact length is a sum with rounding errors, so the comparison has a margin.
@@ -329,10 +329,10 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     if !passes || !is_inside {
         return None;
     }
-    smooth_adhesion_force(
+    smooth_pull_off_force(
         scene.form.as_ref(),
         scene.length,
-        outcome.governing.effective_modulus,
+        outcome.governing.modulus,
         [work; 2],
         f64::INFINITY,
     )
@@ -349,7 +349,7 @@ struct Limits {
 impl Limits {
     fn of(scene: &Scene, outcome: &Outcome, work: f64) -> Option<Limits> {
         let length = scene.length;
-        let modulus = outcome.governing.effective_modulus;
+        let modulus = outcome.governing.modulus;
         let flat_width = match &scene.form {
             None => Some(length),
             Some(form) => form
@@ -382,16 +382,16 @@ const COMPARED: usize = 2048;
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
-    history.legs.iter().map(ascending_points).collect()
+    history.stages.iter().map(ascending_points).collect()
 }
 
-fn ascending_points(leg: &LegRecord) -> Vec<[f64; 2]> {
-    let mut points: Vec<[f64; 2]> = leg
+fn ascending_points(stage: &StageRecord) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = stage
         .curve
         .iter()
         .map(|point| [point.indentation, point.force])
         .collect();
-    if leg.direction == Direction::Unloading {
+    if stage.direction == Direction::Unloading {
         points.reverse();
     }
     points

@@ -98,7 +98,7 @@ pub struct Row {
     /// Shortest time of `seconds` divided by the time of one Fourier transform
     /// ([`CostTable::transform_seconds`]); `None` if no computation was timed.
     pub transforms: Option<f64>,
-    /// Relative errors of the adhesion force, the force curve, the dissipated energy and the
+    /// Relative errors of the pull-off force, the force curve, the dissipated energy and the
     /// largest contact length, in this order ([`CostTable::QUANTITIES`]). `None` for a quantity
     /// whose error is unknown.
     #[serde(serialize_with = "by_name")]
@@ -106,19 +106,19 @@ pub struct Row {
 }
 
 /// Reference to which the errors in a [`CostTable`] are relative. It is the finest solution with
-/// edges between springs ([`Edges::SubCell`]). If there is an exact formula for the adhesion force,
-/// the force of this formula replaces the adhesion force of the solution. Rows in which the step is
+/// edges between springs ([`Edges::SubCell`]). If there is an exact formula for the pull-off force,
+/// the force of this formula replaces the pull-off force of the solution. Rows in which the step is
 /// varied ([`Knob::Step`]) have another reference: the exact solution with the same number of
 /// springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.
     pub springs: u64,
-    /// Adhesion force of the reference in N; `None` without a tensile force.
-    pub adhesion_force: Option<f64>,
-    /// True if `adhesion_force` was computed by an exact formula.
+    /// Pull-off force of the reference in N; `None` without a tensile force.
+    pub pull_off_force: Option<f64>,
+    /// True if `pull_off_force` was computed by an exact formula.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself: of the adhesion force, the force curve,
+    /// Estimated relative errors of the reference itself: of the pull-off force, the force curve,
     /// the dissipated energy and the largest contact length ([`CostTable::QUANTITIES`]). `None` for
     /// a quantity whose error is unknown.
     #[serde(serialize_with = "by_name")]
@@ -153,14 +153,14 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// Names of the quantities whose errors are measured. They are the adhesion force F_a, the
+    /// Names of the quantities whose errors are measured. They are the pull-off force F_a, the
     /// force curve, the dissipated energy and the largest contact length.
     ///
     /// The error of a force curve is its mean absolute difference from the force curve of the
     /// reference at equal indentations, divided by the largest absolute force of the reference
     /// ([`CostReference`]).
     pub const QUANTITIES: [&str; 4] = [
-        "adhesion_force",
+        "pull_off_force",
         "curve",
         "dissipated_energy",
         "contact_length",
@@ -171,29 +171,29 @@ impl CostTable {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// Returns the main error of a row: the error of the adhesion force. Without a tensile force,
+    /// Returns the main error of a row: the error of the pull-off force. Without a tensile force,
     /// the main error is that of the force curve. Returns `None` if this error is unknown.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
-        let [adhesion_force, curve, ..] = row.errors;
-        if self.reference.adhesion_force.is_some() {
-            adhesion_force
+        let [pull_off_force, curve, ..] = row.errors;
+        if self.reference.pull_off_force.is_some() {
+            pull_off_force
         } else {
             curve
         }
     }
 
-    /// Returns true if each error of the adhesion force in this table is the largest of three
+    /// Returns true if each error of the pull-off force in this table is the largest of three
     /// errors: at half the loads, at the loads, and at twice the loads of `scene`. Only rows in
     /// which the number of springs is varied have such errors. `scene` is the scene of this table.
     ///
     /// Returns false if the errors are those at the loads of `scene` alone. There are three such
     /// cases:
     ///
-    /// * an exact formula gives the adhesion force, which holds at any load;
-    /// * there is no adhesion force;
+    /// * an exact formula gives the pull-off force, which holds at any load;
+    /// * there is no pull-off force;
     /// * the scene has no target forces or indentations.
     pub fn is_over_loads(&self, scene: &Scene) -> bool {
-        self.reference.adhesion_force.is_some() && !self.reference.closed_form && has_loads(scene)
+        self.reference.pull_off_force.is_some() && !self.reference.closed_form && has_loads(scene)
     }
 
     /// Returns the shortest computing time of a row in s, and the [`main_error`](Self::main_error)
@@ -280,8 +280,8 @@ impl CostTable {
     /// Returns two sentences, for a main error of 1 % and of 0.1 %. Each sentence states how many
     /// springs this error needs and how long the computation takes, for both values of [`Edges`].
     pub fn answer(&self) -> Vec<String> {
-        let quantity = if self.reference.adhesion_force.is_some() {
-            "the adhesion force"
+        let quantity = if self.reference.pull_off_force.is_some() {
+            "the pull-off force"
         } else {
             "the force curve"
         };
@@ -389,7 +389,7 @@ mod tests {
 
     fn table(rows: &[Vec<Row>]) -> CostTable {
         let reference = CostReference {
-            adhesion_force: Some(1.0),
+            pull_off_force: Some(1.0),
             ..CostReference::default()
         };
         CostTable {
@@ -438,13 +438,13 @@ mod tests {
         assert_eq!(
             table.answer(),
             [
-                "1 % of the adhesion force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
+                "1 % of the pull-off force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
                  edges Grid.",
-                "0.1 % of the adhesion force: 256 springs, 256 µs with edges SubCell; not found up to 8 192 \
+                "0.1 % of the pull-off force: 256 springs, 256 µs with edges SubCell; not found up to 8 192 \
                  springs with edges Grid.",
             ]
         );
-        table.reference.adhesion_force = None;
+        table.reference.pull_off_force = None;
         table.rows.retain(|row| row.knob == Knob::SubCellSprings);
         table.rows.iter_mut().for_each(|row| row.errors.swap(0, 1));
         assert_eq!(

@@ -31,7 +31,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Governing {
     /// Effective modulus E* in Pa.
-    pub effective_modulus: f64,
+    pub modulus: f64,
     /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
     /// Energy γ₁ per area in J/m² that is gained where the interface closes. `None` if the scene
@@ -63,7 +63,7 @@ impl Governing {
         // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
         // amplitudes of the waves.
         Governing {
-            effective_modulus: scene.material.effective_modulus(),
+            modulus: scene.material.modulus_in_pascals(),
             amplitude: measured.or_else(|| self_affine_amplitude(scene, unit?)),
             ..Governing::default()
         }
@@ -143,14 +143,14 @@ impl Governing {
     /// `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
-            .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
+            .map(|amplitude| energy_of(parameter, amplitude, self.modulus))
     }
 
     /// Returns the force E* h L in N, by which Pohrt, Popov and Filippov (2012) divide forces. E*
     /// is the effective modulus, h the rms height of the roughness in m, and L = `length` the
     /// length of the profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
-        Some(self.effective_modulus * self.amplitude?.rms_height * length)
+        Some(self.modulus * self.amplitude?.rms_height * length)
     }
 
     /// Returns a builder for a contact of `profile` with the effective modulus and the works of
@@ -159,7 +159,7 @@ impl Governing {
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
     pub fn contact(&self, profile: &Profile) -> Result<ContactBuilder, ContactError> {
-        let contact = Contact::builder(profile, Modulus::effective(self.effective_modulus)?);
+        let contact = Contact::builder(profile, Modulus::effective(self.modulus)?);
         Ok(contact.works_of_adhesion(self.adhesive_works().unwrap_or_default()))
     }
 
@@ -183,7 +183,7 @@ impl Governing {
         let radius = curvature_radius(scene.form.as_ref(), self)?;
         let work = self.adhesive_work()?;
         let range = scene.adhesion?.attraction_range();
-        let number = tabor_number(radius, work, self.effective_modulus, range);
+        let number = tabor_number(radius, work, self.modulus, range);
         number.is_finite().then_some(number)
     }
 }
@@ -207,12 +207,10 @@ fn self_affine_amplitude(scene: &Scene, unit: Amplitude) -> Option<Amplitude> {
     })
 }
 
-fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
+fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, modulus: f64) -> f64 {
     match parameter {
-        RoughnessParameter::Kappa => {
-            amplitude.rms_height * amplitude.rms_gradient * effective_modulus
-        }
-        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
+        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * modulus,
+        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(modulus),
     }
 }
 
@@ -244,13 +242,8 @@ fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
 /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature
 /// radius ρ in m. The other arguments are the work of adhesion γ in J/m², the effective modulus E*
 /// in Pa and the range z₀ of the attraction in m.
-fn tabor_number(
-    curvature_radius: f64,
-    work_of_adhesion: f64,
-    effective_modulus: f64,
-    range: f64,
-) -> f64 {
-    ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
+fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, modulus: f64, range: f64) -> f64 {
+    ((work_of_adhesion / modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
 /// Steep waves of a wavy sphere. Waves are steep if the equivalent profile of the sphere does not
@@ -284,7 +277,7 @@ impl SteepWaves {
         else {
             return None;
         };
-        let stretch = governing.adhesive_work()? / governing.effective_modulus;
+        let stretch = governing.adhesive_work()? / governing.modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
         // If the factor is not finite, the scene has almost no adhesion, and no warning is needed.
@@ -316,7 +309,7 @@ mod tests {
             format!("roughness: SelfAffine(hurst: 0.5, {amplitude} modes: (1, 8), seed: 1), ")
         });
         let text = format!(
-            "(version: 1, material: (effective_modulus: 4.0), length: 1.0, {roughness}adhesion: {adhesion})"
+            "(version: 1, material: (modulus: 4.0), length: 1.0, {roughness}adhesion: {adhesion})"
         );
         let document = Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}"));
         let unit = amplitude.map(|_| Amplitude {
@@ -333,7 +326,7 @@ mod tests {
         // The expected parameters follow from h⟨∇z⟩E* = 72 J/m², γ = 2 J/m², κ² = 72/2 = 36 and
         // e_el = E* h² q̄/4 = 4.5 J/m².
         let expected = Governing {
-            effective_modulus: 4.0,
+            modulus: 4.0,
             work_of_adhesion: Some(2.0),
             closing_work: None,
             amplitude: ROUGH,
@@ -415,7 +408,7 @@ mod tests {
     #[test]
     fn quantities_follow_from_plain_numbers() {
         // Here π γ E* L³ is 750 π, and ρ γ²/(E*² z₀³) is 27.
-        let force = asperity_contact::ClosedForm::ideal_adhesion_force(2.0, 3.0, 5.0);
+        let force = asperity_contact::ClosedForm::ideal_pull_off_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");
@@ -425,7 +418,7 @@ mod tests {
     fn a_sphere_has_the_number_of_its_radius() {
         let fields = [
             ("form", "Paraboloid(radius: 2.0e-4)"),
-            ("material", "(effective_modulus: 4.0e6)"),
+            ("material", "(modulus: 4.0e6)"),
             ("adhesion", "(work: 0.05, range: 1.0e-9)"),
         ];
         let sphere = set(&open("jkr-sphere").unwrap(), &fields);
@@ -464,7 +457,7 @@ mod tests {
         let expected = tabor_number(
             2.0 / curvature,
             0.05,
-            scene.material.effective_modulus(),
+            scene.material.modulus_in_pascals(),
             0.3e-9,
         );
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);

@@ -10,7 +10,7 @@
 //! * Where dF/dd < −k, d + F(d)/k turns back. There the body jumps at constant D to the next d at
 //!   which the instrument can hold it.
 
-use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord};
+use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, StageRecord};
 
 /// Point of the force curve of an instrument with the stiffness k: the displacement D = d + F/k,
 /// the indentation d and the force F.
@@ -178,9 +178,10 @@ impl DisplacementPoint {
 /// Returns the displacement of the instrument in m for each point of a loading stage. On loading it
 /// is the largest value of d + F/k up to this point; on unloading it is the smallest value up to
 /// this point. Here d is the indentation, F the force and k the `stiffness` in N/m.
-pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
-    let sign = sign_of(leg.direction);
-    leg.curve
+pub fn displacements(stage: &StageRecord, stiffness: f64) -> impl Iterator<Item = f64> {
+    let sign = sign_of(stage.direction);
+    stage
+        .curve
         .iter()
         .scan(f64::NEG_INFINITY, move |reached, point| {
             *reached = reached.max(sign * point.displacement(stiffness));
@@ -215,10 +216,10 @@ impl InstrumentFigures {
     /// Computes the pull-off displacement and the loop area of the instrument. `history` is the
     /// history of a loading, `figures` are its forces and energies, and `stiffness` is in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
-        let jump_energy: f64 = history.legs.iter().map(|leg| leg.jump_energy).sum();
+        let jump_energy: f64 = history.stages.iter().map(|stage| stage.jump_energy).sum();
         InstrumentFigures {
             stiffness,
-            pull_off_displacement: pull_off_displacement(&history.legs, stiffness),
+            pull_off_displacement: pull_off_displacement(&history.stages, stiffness),
             loop_area: figures.dissipated_energy.map(|energy| energy + jump_energy),
         }
     }
@@ -226,12 +227,12 @@ impl InstrumentFigures {
 
 /// Returns the smallest displacement in m of the last unloading at which the body is in contact.
 /// Returns `None` if there is no pull-off.
-fn pull_off_displacement(legs: &[LegRecord], stiffness: f64) -> Option<f64> {
-    Branch::pull_off(legs)?;
-    let unloading = Branch::last_unloading(legs)?;
-    legs[unloading.stages]
+fn pull_off_displacement(stages: &[StageRecord], stiffness: f64) -> Option<f64> {
+    Branch::pull_off(stages)?;
+    let unloading = Branch::last_unloading(stages)?;
+    stages[unloading.stages]
         .iter()
-        .flat_map(|leg| &leg.curve)
+        .flat_map(|stage| &stage.curve)
         .filter(|point| point.springs > 0)
         .map(|point| point.displacement(stiffness))
         .min_by(f64::total_cmp)

@@ -158,13 +158,13 @@ impl Scene {
         let mut forces = Vec::new();
         let mut highest = f64::INFINITY;
         let mut deepest = f64::NEG_INFINITY;
-        for leg in &history.legs {
-            for point in leg.curve.iter().filter(|point| point.springs > 0) {
+        for stage in &history.stages {
+            for point in stage.curve.iter().filter(|point| point.springs > 0) {
                 highest = highest.min(point.indentation);
                 deepest = deepest.max(point.indentation);
             }
             if let (Move::ToForce(target), Direction::Loading, Some(end)) =
-                (leg.target, leg.direction, leg.end_in_contact())
+                (stage.target, stage.direction, stage.end_in_contact())
                 && target > 0.0
             {
                 forces.push([target, end.force]);
@@ -188,7 +188,7 @@ impl Scene {
         let form = self.form.as_ref()?.without_waves();
         let mut contact_length = 0.0_f64;
         let mut deepest = 0.0_f64;
-        for point in history.legs.iter().flat_map(|leg| &leg.curve) {
+        for point in history.stages.iter().flat_map(|stage| &stage.curve) {
             contact_length = contact_length.max(point.contact_length);
             deepest = deepest.max(point.indentation);
         }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 /// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)). The regime states how
-/// strongly the adhesion force depends on the preload. [`Regime::of_loading`] has the conditions of
+/// strongly the pull-off force depends on the preload. [`Regime::of_loading`] has the conditions of
 /// each regime.
 ///
 /// ```
@@ -15,7 +15,7 @@ use strum::IntoStaticStr;
 /// // 5 µN after a preload, 1 µN without one, 10 µN of the smooth body.
 /// let figures = Figures {
 ///     preload: Some(1.0e-4),
-///     adhesion_force: Some(5.0e-6),
+///     pull_off_force: Some(5.0e-6),
 ///     ..Figures::default()
 /// };
 /// let regime = Regime::of_loading(&figures, Some(1.0e-6), Some(1.0e-5));
@@ -25,28 +25,28 @@ use strum::IntoStaticStr;
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Regime {
-    /// The adhesion force hardly depends on the preload (Fig. 4a).
+    /// The pull-off force hardly depends on the preload (Fig. 4a).
     PressureInsensitive,
-    /// The adhesion force depends on the preload (Fig. 4b).
+    /// The pull-off force depends on the preload (Fig. 4b).
     PressureSensitive,
-    /// There is no adhesion, or the adhesion force is negligible (Fig. 4c).
+    /// There is no adhesion, or the pull-off force is negligible (Fig. 4c).
     NonAdhesive,
 }
 
 impl Regime {
-    /// Smallest ratio of two adhesion forces for which a loading is pressure-insensitive: the
-    /// adhesion force without a preload, divided by the adhesion force after the preload. See
+    /// Smallest ratio of two pull-off forces for which a loading is pressure-insensitive: the
+    /// pull-off force without a preload, divided by the pull-off force after the preload. See
     /// [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Bound for adhesion forces that count as zero, as a share of the adhesion force of the smooth
-    /// body: a smaller adhesion force counts as zero. See [`Regime::of_loading`].
+    /// Bound for pull-off forces that count as zero, as a share of the pull-off force of the smooth
+    /// body: a smaller pull-off force counts as zero. See [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
     // The value of `VANISHING_SHARE` has little effect on the limit of the regime. When κ grows by
-    // a factor of about three, the adhesion force without a preload falls from one half to one
-    // twentieth of the smooth adhesion force.
+    // a factor of about three, the pull-off force without a preload falls from one half to one
+    // twentieth of the smooth pull-off force.
 
-    /// Largest ratio F_a/F_n of the adhesion force to the preload for which a loading counts as
+    /// Largest ratio F_a/F_n of the pull-off force to the preload for which a loading counts as
     /// non-adhesive. A loading that is pressure-insensitive does not count as non-adhesive.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
@@ -60,12 +60,12 @@ impl Regime {
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile
     /// force.
     ///
-    /// `turned` is the adhesion force in N without a preload: F_a(d=0) after a loading that turns
+    /// `turned` is the pull-off force in N without a preload: F_a(d=0) after a loading that turns
     /// at first touch, or F_a(F=0) after a loading that turns at zero force. `smooth` is the
-    /// adhesion force in N of the same body without roughness. `turned` and `smooth` are `None` for
+    /// pull-off force in N of the same body without roughness. `turned` and `smooth` are `None` for
     /// a contact without adhesion, which is non-adhesive.
     ///
-    /// F_a is the adhesion force and F_n the preload of this loading. The conditions are, in this
+    /// F_a is the pull-off force and F_n the preload of this loading. The conditions are, in this
     /// order:
     ///
     /// 1. The regime is pressure-insensitive if `turned` is above zero, at least
@@ -77,7 +77,7 @@ impl Regime {
     /// 3. All other loadings are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
-        match (figures.adhesion_force, turned, smooth) {
+        match (figures.pull_off_force, turned, smooth) {
             (Some(_), None, None) => Some(Regime::NonAdhesive),
             (Some(adhesion), Some(turned), Some(smooth)) => {
                 Some(Regime::of_forces(turned, adhesion, preload, smooth))
@@ -108,8 +108,8 @@ impl Regime {
     }
 
     /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0),
-    /// insensitive (F=0)`. `self` follows from the adhesion force after a loading that turns at
-    /// first touch (d = 0). `after_zero_force` follows from the adhesion force after a loading that
+    /// insensitive (F=0)`. `self` follows from the pull-off force after a loading that turns at
+    /// first touch (d = 0). `after_zero_force` follows from the pull-off force after a loading that
     /// turns at zero force (F = 0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
@@ -151,11 +151,11 @@ mod tests {
     fn thresholds_belong_to_the_stronger_regime() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
         for (turned, adhesion, preload, smooth, expected) in [
-            // An adhesion force without preload of half of the adhesion force is enough for the
+            // A pull-off force without preload of half of the pull-off force is enough for the
             // pressure-insensitive regime; a slightly smaller one is not.
             (0.5, 1.0, 5.0, 1.0, insensitive),
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
-            // An adhesion force without preload of a twentieth of the smooth adhesion force is
+            // A pull-off force without preload of a twentieth of the smooth pull-off force is
             // enough for the pressure-insensitive regime; a slightly smaller one counts as zero.
             (Regime::VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
             (
@@ -168,7 +168,7 @@ mod tests {
             (0.2, 0.1, 1.0, 4.0, insensitive),
             (0.19, 0.1, 1.0, 4.0, sensitive),
             (0.0, 0.0, 0.0, 0.0, non_adhesive),
-            // An adhesion force of a hundredth of the preload is negligible; a slightly larger one
+            // A pull-off force of a hundredth of the preload is negligible; a slightly larger one
             // is not.
             (0.0, Regime::NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
             (
@@ -178,7 +178,7 @@ mod tests {
                 1.0,
                 sensitive,
             ),
-            // Without a preload, an adhesion force below a twentieth of the adhesion force of the
+            // Without a preload, a pull-off force below a twentieth of the pull-off force of the
             // smooth body counts as no adhesion.
             (
                 0.01,

@@ -175,12 +175,12 @@ mod tests {
             changes(&scene, &other),
             ["loading 10 µN, separation → 5 µN"]
         );
-        let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
+        let text = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
         let line = Document::parse(text, "test").unwrap();
         let profile = line.set("roughness.as_line", "true").unwrap();
         assert_eq!(changes(&line, &profile), ["profile as line false → true"]);
         assert_eq!(changes(&line, &line), Vec::<String>::new());
-        let other = scene.set("material", "(effective_modulus: 3e6)").unwrap();
+        let other = scene.set("material", "(modulus: 3e6)").unwrap();
         assert_eq!(
             changes(&scene, &other),
             ["material E 2 MPa, ν 0.5 → E* 3 MPa"]

@@ -7,7 +7,7 @@
 
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
-use super::field::{FILE_NAME, Field, LEG_INDENTATION, target_field};
+use super::field::{FILE_NAME, Field, STAGE_INDENTATION, target_field};
 use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
@@ -219,20 +219,20 @@ impl Found<'_> {
         let Material {
             youngs_modulus,
             poisson_ratio,
-            effective_modulus,
+            modulus,
         } = self.scene.material;
-        let wrong = match (effective_modulus, youngs_modulus, poisson_ratio) {
+        let wrong = match (modulus, youngs_modulus, poisson_ratio) {
             (Some(_), None, None) | (None, Some(_), Some(_)) => "",
             (Some(_), ..) => {
-                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
+                "modulus replaces youngs_modulus and poisson_ratio: give one or the other"
             }
             (None, Some(_), None) => "youngs_modulus requires poisson_ratio, which is missing",
             (None, None, Some(_)) => "poisson_ratio requires youngs_modulus, which is missing",
-            (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",
+            (None, None, None) => "give youngs_modulus with poisson_ratio, or modulus",
         };
         self.require(wrong.is_empty(), &[], "material", "", wrong);
-        let modulus = self.scene.material.effective_modulus();
-        let Some(field) = field("material.effective_modulus", None) else {
+        let modulus = self.scene.material.modulus_in_pascals();
+        let Some(field) = field("material.modulus", None) else {
             return;
         };
         if !field.range.contains(modulus) && !self.has("material") {
@@ -330,12 +330,12 @@ impl Found<'_> {
             .iter()
             .find(is_size)
             .map_or("form", |field| field.path);
-        let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
+        let most = STAGE_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
         let reason = format!(
             "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
         );
         self.require(
-            LEG_INDENTATION.range.contains(depth + wave_depth),
+            STAGE_INDENTATION.range.contains(depth + wave_depth),
             &["form", "length"],
             size,
             "",
@@ -596,8 +596,8 @@ mod tests {
         let waves = |pair: &str| format!("roughness.modes=None; roughness.wavelengths={pair}");
         for (sets, said) in [
             (
-                "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
-                "effective_modulus replaces ",
+                "material=(modulus: 1e6, poisson_ratio: 0.5)",
+                "modulus replaces ",
             ),
             (
                 "material=(youngs_modulus: 1e6)",
@@ -780,7 +780,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_of_all_legs_are_bounded_together() {
+    fn samples_of_all_stages_are_bounded_together() {
         let mut scene = sound();
         scene.loading = vec![Move::ToTouch; 1 << 14];
         scene.numerics.samples = 1 << 10;

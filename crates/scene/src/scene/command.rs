@@ -33,7 +33,7 @@ mod tests {
             ("=ls", "'=ls'"),
             ("~/a", "'~/a'"),
             ("$HOME", "'$HOME'"),
-            ("[Fragments]", "'[Fragments]'"),
+            ("[Patches]", "'[Patches]'"),
         ] {
             assert_eq!(quoted(word), expected);
         }

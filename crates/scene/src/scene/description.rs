@@ -174,7 +174,7 @@ mod tests {
                 before.set("length", &twice),
                 before.set("numerics.edges", "Grid"),
                 before
-                    .set("observe", "[Fragments]")
+                    .set("observe", "[Patches]")
                     .unwrap()
                     .set("length", &twice),
                 before.with_stages(&[stages, stages].concat()),
@@ -195,7 +195,7 @@ mod tests {
     fn what_the_solution_does_not_depend_on_changes_no_words() {
         let before = pressure_sensitive();
         let described = before.set_all(
-            &[("numerics.samples", "64"), ("observe", "[Fragments]")]
+            &[("numerics.samples", "64"), ("observe", "[Patches]")]
                 .map(|(path, value)| (path.to_owned(), value.to_owned())),
         );
         let described = described.unwrap();
@@ -209,11 +209,11 @@ mod tests {
         let before = pressure_sensitive();
         let changed = before.set("adhesion.kappa", "3.0").unwrap();
         assert_eq!(changed.set("adhesion.kappa", "6").unwrap(), before);
-        let observing = changed.set("observe", "[Fragments]").unwrap();
+        let observing = changed.set("observe", "[Patches]").unwrap();
         let back = observing.set("adhesion.kappa", "6.0").unwrap();
         assert_eq!(
             back.text(),
-            before.set("observe", "[Fragments]").unwrap().text()
+            before.set("observe", "[Patches]").unwrap().text()
         );
         assert_eq!(back.title(), before.title());
     }
@@ -231,7 +231,7 @@ mod tests {
             (own.title(), own.scene().notice.as_str()),
             ("My pad", "Mine.")
         );
-        let file = "(version: 1, title: \"A\", notice: \"B\", material: (effective_modulus: 1.0e6), length: 1.0e-4 /* wide */)";
+        let file = "(version: 1, title: \"A\", notice: \"B\", material: (modulus: 1.0e6), length: 1.0e-4 /* wide */)";
         let file = Document::parse(file, "mine.ron")
             .unwrap()
             .set("length", "2.0e-4")

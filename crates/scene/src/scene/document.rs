@@ -30,7 +30,7 @@ use asperity_contact::Move;
 /// ```
 /// use asperity_scene::Document;
 ///
-/// let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4) // flat";
+/// let text = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4) // flat";
 /// let flat = Document::parse(text, "flat.ron")?;
 /// // Edits keep comments.
 /// let longer = flat.set("length", "2 mm")?;
@@ -86,11 +86,11 @@ impl Document {
     /// ```
     /// use asperity_scene::Document;
     ///
-    /// let text = "(version: 1, material: (effective_modulus: 1.0e6), length: -1.0)";
+    /// let text = "(version: 1, material: (modulus: 1.0e6), length: -1.0)";
     /// let errors = Document::parse(text, "my.ron").unwrap_err();
     /// assert_eq!(
     ///     errors.to_string(),
-    ///     "my.ron:1:60: length = -1.0: allowed: from 1e-9 to 10 m (apparent diameter)"
+    ///     "my.ron:1:50: length = -1.0: allowed: from 1e-9 to 10 m (apparent diameter)"
     /// );
     /// ```
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
@@ -401,7 +401,7 @@ mod tests {
 
     const SCENE: &str = r#"(
     version: 1,
-    material: (effective_modulus: 1.0e6), // soft
+    material: (modulus: 1.0e6), // soft
     length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
     loading: [ToForce(1.0e-5), ToSeparation],

@@ -1,7 +1,7 @@
 //! Changes of one field in the text of a scene. All comments stay.
 
 use super::errors::did_you_mean;
-use super::field::{Field, LEG_FIELDS};
+use super::field::{Field, STAGE_FIELDS};
 use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
 use super::text::edit::NOT_ONE_VALUE;
@@ -15,7 +15,7 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
     if parent.starts_with("loading.") {
-        return LEG_FIELDS
+        return STAGE_FIELDS
             .into_iter()
             .find(|field| field.variant == variant);
     }
@@ -154,7 +154,7 @@ mod tests {
     const SCENE: &str = r#"(
     version: 1,
     // Its parts.
-    material: (effective_modulus: 1.0e6), // soft
+    material: (modulus: 1.0e6), // soft
     length: 1.0e-4, /* as long
                        as it is */
     roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
@@ -185,7 +185,7 @@ mod tests {
         changed("roughness.hurst", "0.5", "hurst: 0.7", "hurst: 0.5");
         changed("roughness.modes", "(2, 4)", "(1, 512)", "(2, 4)");
         changed("roughness.modes.1", "4", "(1, 512)", "(1, 4)");
-        changed("observe", "[Fragments]", "[]", "[Fragments]");
+        changed("observe", "[Patches]", "[]", "[Patches]");
         let rough = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
         changed("roughness", "None", rough, "None");
     }

@@ -245,7 +245,7 @@ pub(super) const FILE_NAME: Range = Range::Text {
 
 /// Description of the target value of a loading stage [`ToForce`](asperity_contact::Move::ToForce):
 /// the force in N at which the stage ends.
-pub const LEG_FORCE: Field = row(
+pub const STAGE_FORCE: Field = row(
     "loading",
     Place::NOWHERE.of("ToForce"),
     Range::closed(-1e30, 1e30),
@@ -258,7 +258,7 @@ pub const LEG_FORCE: Field = row(
 /// Description of the target value of a loading stage
 /// [`ToIndentation`](asperity_contact::Move::ToIndentation): the indentation in m at which the
 /// stage ends.
-pub const LEG_INDENTATION: Field = row(
+pub const STAGE_INDENTATION: Field = row(
     "loading",
     Place::NOWHERE.of("ToIndentation"),
     Range::closed(-1e6, 1e6),
@@ -274,7 +274,7 @@ pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).
 /// Description of the target value of a loading stage
 /// [`ToDisplacement`](asperity_contact::Move::ToDisplacement): the displacement of the instrument
 /// in m at which the stage ends.
-pub const LEG_DISPLACEMENT: Field = row(
+pub const STAGE_DISPLACEMENT: Field = row(
     "loading",
     Place::NOWHERE.of("ToDisplacement"),
     Range::closed(-1e6, 1e6),
@@ -283,15 +283,15 @@ pub const LEG_DISPLACEMENT: Field = row(
 .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
 /// Descriptions of the target values of loading stages: force, indentation and displacement.
-pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
+pub const STAGE_FIELDS: [&Field; 3] = [&STAGE_FORCE, &STAGE_INDENTATION, &STAGE_DISPLACEMENT];
 
 /// Returns the target value of a loading stage, and its description. Returns `None` for a stage
 /// without a target value, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
-        Move::ToForce(force) => Some((&LEG_FORCE, force)),
-        Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
-        Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
+        Move::ToForce(force) => Some((&STAGE_FORCE, force)),
+        Move::ToIndentation(indentation) => Some((&STAGE_INDENTATION, indentation)),
+        Move::ToDisplacement(displacement) => Some((&STAGE_DISPLACEMENT, displacement)),
         Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
     }
 }
@@ -306,7 +306,7 @@ impl Field {
     /// * A number may have an SI prefix and the unit of the field: `50 mJ/m²`, `16k`.
     /// * The text `none` omits an optional part.
     /// * A loading may be a list of stages in the notation of
-    ///   [`loading_text`](crate::scene::stages::loading_text), such as `10 µN, separation`.
+    ///   [`loading_text`](crate::scene::workload::loading_text), such as `10 µN, separation`.
     ///
     /// # Errors
     /// Returns an error for a number with another unit, a number too large for `f64`, or a choice

@@ -48,7 +48,7 @@ pub(super) fn fields_inside(
 
 const MATERIALS: Range = Choice(&[
     "(youngs_modulus: 2.0e6, poisson_ratio: 0.5)",
-    "(effective_modulus: 2.7e6)",
+    "(modulus: 2.7e6)",
 ]);
 const FORMS: Range = Choice(&[
     "Paraboloid(radius: 1.0e-3)",
@@ -75,7 +75,7 @@ const ADHESIONS: Range = Choice(&[
     "(elastic_energy_ratio: 0.5)",
 ]);
 const OBSERVERS: Range = List {
-    of: &["Fragments", "HeightHistogram"],
+    of: &["Patches", "HeightHistogram"],
     least: 0,
     most: 2,
 };
@@ -157,7 +157,7 @@ pub const FIELDS: &[Field] = &[
         .quantity("Poisson's ratio", "ν", "1").step(Linear(0.01, 0.1)).default("None")
         .words("incompressible compressibility rubber")
         .meaning("Poisson's ratio; 0.5 is incompressible, as rubber"),
-    row("material.effective_modulus", place!(material.effective_modulus), Range::closed(1.0, 1e13))
+    row("material.modulus", place!(material.modulus), Range::closed(1.0, 1e13))
         .quantity("effective modulus", "E*", "Pa").default("None")
         .words("reduced modulus stiffness")
         .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
@@ -378,7 +378,7 @@ pub const FIELDS: &[Field] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::LEG_FIELDS;
+    use super::super::field::STAGE_FIELDS;
     use super::*;
     use asperity_data::parse_quantity;
 
@@ -391,7 +391,7 @@ mod tests {
     }
 
     fn all() -> impl Iterator<Item = &'static Field> {
-        FIELDS.iter().chain(LEG_FIELDS)
+        FIELDS.iter().chain(STAGE_FIELDS)
     }
 
     #[test]

@@ -41,7 +41,7 @@ const PRESETS: &[Preset] = built_in!["":
     "non-adhesive",
     "profile-hurst-025",
     "profile-hurst-075",
-    "fragment-closeup",
+    "patch-closeup",
     "jkr-sphere",
     "rounded-cone",
     "two-spheres",
@@ -303,7 +303,7 @@ mod tests {
     use super::*;
 
     const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
-                         material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+                         material: (modulus: 1.0e6), length: 1.0e-4)";
 
     fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let root = tempfile::tempdir().unwrap();
@@ -397,8 +397,7 @@ mod tests {
         assert!(error_of(&working, "other.ron").starts_with("line 1, column "));
         let two = error_of(&working, "two.ron");
         assert!(
-            two.contains("material.effective_modulus = 0.0: allowed")
-                && two.ends_with("(and 1 more)"),
+            two.contains("material.modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
             "{two}"
         );
         let file = working.join("other.ron");

@@ -18,7 +18,7 @@ use strum::IntoStaticStr;
 pub const SCENE_VERSION: u32 = 1;
 /// Number of points of the force curve of a loading stage, if the caller does not use the curve.
 pub const FEW_SAMPLES: u64 = 2;
-/// Recommended number of springs on the shortest wave. With this number the adhesion force of a
+/// Recommended number of springs on the shortest wave. With this number the pull-off force of a
 /// rough profile deviates by about one per cent from the value for many springs (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = Warning::LEAST_SPRINGS_PER_WAVE;
 
@@ -81,14 +81,14 @@ pub struct Material {
     /// Effective modulus E* in Pa; `None` if Young's modulus and Poisson's ratio are stated
     /// instead.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub effective_modulus: Option<f64>,
+    pub modulus: Option<f64>,
 }
 
 impl Material {
     /// Returns a material with the effective modulus E* in Pa.
-    pub fn effective(effective_modulus: f64) -> Self {
+    pub fn effective(modulus: f64) -> Self {
         Material {
-            effective_modulus: Some(effective_modulus),
+            modulus: Some(modulus),
             ..Material::default()
         }
     }
@@ -99,14 +99,14 @@ impl Material {
         Material {
             youngs_modulus: Some(youngs_modulus),
             poisson_ratio: Some(poisson_ratio),
-            effective_modulus: None,
+            modulus: None,
         }
     }
 
     /// Returns the effective modulus E* in Pa: the stated E*, otherwise E/(1 − ν²) (eq. (2) of
     /// Popov and Filippov (2012)). Returns NaN if the material has neither E* nor both E and ν, or
     /// if a value is out of its range.
-    pub fn effective_modulus(&self) -> f64 {
+    pub fn modulus_in_pascals(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
 
@@ -116,8 +116,8 @@ impl Material {
     /// Returns [`ContactError::Value`] if the material has neither E* nor both E and ν, or if a
     /// value is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
-        if let Some(effective_modulus) = self.effective_modulus {
-            return Modulus::effective(effective_modulus);
+        if let Some(modulus) = self.modulus {
+            return Modulus::effective(modulus);
         }
         Modulus::isotropic(
             self.youngs_modulus.unwrap_or(f64::NAN),
@@ -416,7 +416,7 @@ impl Solver {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Observer {
     /// The contact patches at the end of each loading stage.
-    Fragments,
+    Patches,
     /// The histogram of the heights of the profile.
     HeightHistogram,
 }

@@ -230,7 +230,7 @@ mod tests {
 
     fn scene(line: &str) -> String {
         format!(
-            "(\n    version: 1,\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n{line}\n)\n"
+            "(\n    version: 1,\n    material: (modulus: 1.0e6),\n    length: 1.0e-4,\n{line}\n)\n"
         )
     }
 

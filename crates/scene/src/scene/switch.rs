@@ -248,7 +248,7 @@ mod tests {
 
     const SCENE: &str = "(
     version: 1,
-    material: (effective_modulus: 1.0e6),
+    material: (modulus: 1.0e6),
     length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
     adhesion: (kappa: 6.0), // as measured
@@ -275,7 +275,8 @@ mod tests {
 
     #[test]
     fn an_effect_that_was_never_on_suits_the_scene() {
-        let bare = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare =
+            "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
         let bare = Document::parse(bare, "scene").unwrap();
         let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
         for (effect, value) in [

@@ -23,18 +23,18 @@ pub struct Outcome {
     /// gradient of the roughness, and the two parameters κ and e_el/γ that compare the roughness
     /// with the adhesion.
     pub governing: Governing,
-    /// Ideal adhesion force F_a,max in N of a flat face whose length is the length of the profile,
+    /// Ideal pull-off force F_a,max in N of a flat face whose length is the length of the profile,
     /// eq. (14) of Popov and Filippov (2012); `None` without adhesion.
-    pub ideal_adhesion_force: Option<f64>,
-    /// Adhesion force F_smooth in N of the same body without roughness after the same preload;
+    pub ideal_pull_off_force: Option<f64>,
+    /// Pull-off force F_smooth in N of the same body without roughness after the same preload;
     /// `None` without adhesion.
-    pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0) in N after a loading that ends at first touch. `None` if the scene
+    pub smooth_pull_off_force: Option<f64>,
+    /// Pull-off force F_a(d=0) in N after a loading that ends at first touch. `None` if the scene
     /// has no adhesion or no unloading stage.
-    pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0) in N after a loading that ends where the force has returned to zero.
+    pub first_touch_pull_off_force: Option<f64>,
+    /// Pull-off force F_a(F=0) in N after a loading that ends where the force has returned to zero.
     /// `None` if the scene has no adhesion or no unloading stage.
-    pub zero_force_adhesion_force: Option<f64>,
+    pub zero_force_pull_off_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such
     /// as a cone.
     pub tabor_number: Option<f64>,
@@ -42,13 +42,13 @@ pub struct Outcome {
     /// the theory of Johnson, Kendall and Roberts. `None` if there are no such waves.
     pub steep_waves: Option<SteepWaves>,
     /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)), derived with F_a(d=0), the
-    /// adhesion force after a loading that ends at first touch. `None` for a loading without a
+    /// pull-off force after a loading that ends at first touch. `None` for a loading without a
     /// tensile force.
     pub regime: Option<Regime>,
-    /// Regime of adhesion, derived with F_a(F=0), the adhesion force after a loading that ends at
+    /// Regime of adhesion, derived with F_a(F=0), the pull-off force after a loading that ends at
     /// zero force. `None` for a loading without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
-    /// Main forces and energies of the loading, such as preload, adhesion force and dissipated
+    /// Main forces and energies of the loading, such as preload, pull-off force and dissipated
     /// energy.
     pub figures: Figures,
     /// Pull-off displacement and loop area of the instrument; `None` for a rigid instrument.
@@ -56,8 +56,8 @@ pub struct Outcome {
     /// Force curves of all loading stages, and the contact patches after the last one.
     pub history: History,
     /// Contact patches at the end of each loading stage. The list is empty unless the scene has
-    /// [`Observer::Fragments`](crate::Observer::Fragments).
-    pub fragments: Vec<Vec<Patch>>,
+    /// [`Observer::Patches`](crate::Observer::Patches).
+    pub patches: Vec<Vec<Patch>>,
     /// Histogram of the heights of the profile; `None` unless the scene has
     /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
@@ -69,12 +69,12 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force; `None`
+    /// Returns the ratio F_a/F_a,max of the pull-off force to the ideal pull-off force; `None`
     /// without a tensile force or without adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(
-            self.figures.adhesion_force?
-                / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?,
+            self.figures.pull_off_force?
+                / self.ideal_pull_off_force.filter(|ideal| *ideal > 0.0)?,
         )
     }
 }
@@ -111,9 +111,9 @@ pub struct LineFacts {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Time in s for computing the profile from the form and the roughness.
-    pub line: f64,
+    pub profile: f64,
     /// Time in s for building the contact tree
-    /// ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the histogram of the
+    /// ([`WorkPart::Tree`](crate::simulation::workload::WorkPart::Tree)) and for the histogram of the
     /// heights.
     pub tree: f64,
     /// Time in s for finding the indentations at which contact patches form, merge, split and
@@ -123,7 +123,7 @@ pub struct Timings {
     /// Time in s for the force curves of all loading stages, with their largest and smallest
     /// forces.
     pub curve: f64,
-    /// Time in s for two adhesion forces without a preload, F_a(d=0) and F_a(F=0). The regimes
+    /// Time in s for two pull-off forces without a preload, F_a(d=0) and F_a(F=0). The regimes
     /// depend on these forces.
     pub without_preload: f64,
 }
@@ -131,7 +131,7 @@ pub struct Timings {
 impl Timings {
     /// Returns the sum of all times in s.
     pub fn total(&self) -> f64 {
-        self.line + self.tree + self.passes + self.curve + self.without_preload
+        self.profile + self.tree + self.passes + self.curve + self.without_preload
     }
 }
 

@@ -166,7 +166,7 @@ mod tests {
             ] {
                 // The deepest state itself is computed, and all kinds of stages lead to the same
                 // state.
-                let deepest = run(&document, stage(most)).unwrap().history.legs[0].largest;
+                let deepest = run(&document, stage(most)).unwrap().history.stages[0].largest;
                 assert!(
                     (deepest.force / reach.force - 1.0).abs() < 1e-6,
                     "{name} {field:?} {deepest:?}"

@@ -1,10 +1,10 @@
-//! F_smooth: the adhesion force of the body of a scene without its roughness.
+//! F_smooth: the pull-off force of the body of a scene without its roughness.
 
 use super::outcome::RunError;
 use super::stages::Simulation;
 use super::stages::{SmoothProfile, profile_of};
 use crate::analysis::governing::Governing;
-use crate::reference::smooth_adhesion_force;
+use crate::reference::smooth_pull_off_force;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::Scene;
@@ -14,12 +14,12 @@ use asperity_surface::Form;
 use asperity_surface::lines::Line;
 
 impl Simulation {
-    /// Computes the adhesion force F_smooth in N that the body of a scene has without its
+    /// Computes the pull-off force F_smooth in N that the body of a scene has without its
     /// roughness, after the preload in `figures`. Returns `None` without adhesion.
     ///
     /// # Errors
     /// Returns an error if there is not enough memory, or if the table of the form cannot be read.
-    pub fn smooth_adhesion_force(
+    pub fn smooth_pull_off_force(
         &mut self,
         scene: &CheckedScene,
         governing: &Governing,
@@ -29,10 +29,10 @@ impl Simulation {
             return Ok(None);
         };
         let preload = figures.preload.unwrap_or(0.0).max(0.0);
-        let closed_form = smooth_adhesion_force(
+        let closed_form = smooth_pull_off_force(
             scene.form.as_ref(),
             scene.length,
-            governing.effective_modulus,
+            governing.modulus,
             works,
             preload,
         );
@@ -44,8 +44,8 @@ impl Simulation {
         };
         let is_smooth = scene.roughness.is_none();
         let is_own_preload = is_smooth && figures.preload >= Some(0.0);
-        if is_own_preload && figures.adhesion_force.is_some() {
-            return Ok(figures.adhesion_force);
+        if is_own_preload && figures.pull_off_force.is_some() {
+            return Ok(figures.pull_off_force);
         }
         let profile = if is_smooth {
             self.profile(scene)?
@@ -62,7 +62,7 @@ impl Simulation {
             &[Move::ToForce(preload)],
             &[],
             &mut |_, reversal: Reversal| {
-                force = reversal.adhesion_force();
+                force = reversal.pull_off_force();
                 Ok(())
             },
         );

@@ -4,16 +4,16 @@
 use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
-use super::workload::{Stage, Workload};
+use super::workload::{WorkPart, Workload};
 use crate::analysis::governing::{Governing, SteepWaves};
 use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::motion::{Body, ContactTree, Leg, MovingBody, Stepwise, load_body};
+use asperity_contact::motion::{Body, ContactTree, MovingBody, Stage, Stepwise, load_body};
 use asperity_contact::{
-    ClosedForm, Contact, ContactError, Edges, Figures, History, LegRecord, Move, NominalForm,
-    Patch, Profile,
+    ClosedForm, Contact, ContactError, Edges, Figures, History, Move, NominalForm, Patch, Profile,
+    StageRecord,
 };
 use asperity_data::{Warning, check_room, emptied};
 use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
@@ -46,7 +46,7 @@ const SMALL: u64 = 32 << 20;
 /// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
 /// let mut force = |points: u64| {
 ///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
-///     Ok::<_, asperity_scene::Error>(simulation.compute(&scene)?.figures.adhesion_force)
+///     Ok::<_, asperity_scene::Error>(simulation.compute(&scene)?.figures.pull_off_force)
 /// };
 /// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
 /// # Ok::<(), asperity_scene::Error>(())
@@ -62,7 +62,7 @@ pub struct Simulation {
     /// The last profile as a [`Profile`], from which a contact can be made. It has its contact
     /// tree.
     profile: Option<Profile>,
-    /// Profile of the form without roughness, for the adhesion force of the smooth body; `None`
+    /// Profile of the form without roughness, for the pull-off force of the smooth body; `None`
     /// until it is needed.
     pub(super) smooth: Option<SmoothProfile>,
     /// Contact tree of a former profile. The next tree uses its memory.
@@ -108,10 +108,10 @@ pub(super) struct Prepared {
 }
 
 /// Function that [`Simulation::run`] calls after each loading stage. Its arguments are the index of
-/// the stage, the record of the stage with its force curve ([`LegRecord`]), and the motion
-/// ([`Leg`]), which gives the contact at each indentation. If the function returns an error, the
+/// the stage, the record of the stage with its force curve ([`StageRecord`]), and the motion
+/// ([`Stage`]), which gives the contact at each indentation. If the function returns an error, the
 /// computation ends with this error.
-pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
+pub type AfterStage<'a> = dyn FnMut(usize, &StageRecord, &Stage) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
     /// Returns a simulation for scenes. Names of measured files in the scenes are relative to
@@ -267,7 +267,7 @@ impl Simulation {
             ..
         } = *key;
         self.histogram = None;
-        // If a caller has kept a leg, the last profile is still in use. Otherwise the memory of its
+        // If a caller has kept a stage, the last profile is still in use. Otherwise the memory of its
         // contact tree can be used for the next tree.
         if let Some(profile) = self.profile.take() {
             self.former_tree = profile.into_tree();
@@ -323,10 +323,10 @@ impl Simulation {
     /// do not exist yet. Returns the number of heights that were sorted into bins.
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
-        if plan.runs(Stage::Tree) {
+        if plan.runs(WorkPart::Tree) {
             self.made()?.build_tree(edges, memory)?;
         }
-        if !plan.runs(Stage::HeightHistogram) || self.histogram.is_some() {
+        if !plan.runs(WorkPart::HeightHistogram) || self.histogram.is_some() {
             return Ok(0);
         }
         let Some(line) = self.line() else {
@@ -374,7 +374,7 @@ impl Simulation {
         let drawn_before = self.maker.phases_drawn;
         let begun = Instant::now();
         let (_, facts, governing) = self.line_of(scene)?;
-        timings.line = begun.elapsed().as_secs_f64();
+        timings.profile = begun.elapsed().as_secs_f64();
         check_interruption(stop)?;
         let random_phases = self.maker.phases_drawn - drawn_before;
 
@@ -452,7 +452,7 @@ impl Simulation {
         &mut self,
         scene: &CheckedScene,
         stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
+        after: &mut AfterStage<'_>,
     ) -> Result<Outcome, RunError> {
         let plan = Workload::of(scene);
         let mut prepared = self.prepare(&plan, scene, stop)?;
@@ -479,7 +479,7 @@ impl Simulation {
         } = prepared;
         let Loaded {
             history,
-            fragments,
+            patches,
             without_preload,
         } = loaded;
         let mut warnings = history.warnings(contact.profile());
@@ -487,12 +487,12 @@ impl Simulation {
         warnings.extend(scene.steep_form(&history));
         warnings.extend(warnings_before_loading);
         let figures = Figures::of(&history);
-        let ideal = governing.adhesive_work().map(|work| {
-            ClosedForm::ideal_adhesion_force(work, governing.effective_modulus, scene.length)
-        });
-        let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
+        let ideal = governing
+            .adhesive_work()
+            .map(|work| ClosedForm::ideal_pull_off_force(work, governing.modulus, scene.length));
+        let smooth = self.smooth_pull_off_force(scene, &governing, &figures)?;
         let [first_touch, zero_force] = without_preload;
-        let histogram = if plan.runs(Stage::HeightHistogram) {
+        let histogram = if plan.runs(WorkPart::HeightHistogram) {
             self.histogram.clone()
         } else {
             None
@@ -500,10 +500,10 @@ impl Simulation {
         Ok(Outcome {
             line: facts,
             governing,
-            ideal_adhesion_force: ideal,
-            smooth_adhesion_force: smooth,
-            first_touch_adhesion_force: first_touch,
-            zero_force_adhesion_force: zero_force,
+            ideal_pull_off_force: ideal,
+            smooth_pull_off_force: smooth,
+            first_touch_pull_off_force: first_touch,
+            zero_force_pull_off_force: zero_force,
             tabor_number: governing.tabor_number(scene),
             steep_waves: SteepWaves::of(scene, &governing),
             regime: Regime::of_loading(&figures, first_touch, smooth),
@@ -513,7 +513,7 @@ impl Simulation {
                 .map(|stiffness| InstrumentFigures::of(&history, &figures, stiffness)),
             figures,
             history,
-            fragments,
+            patches,
             histogram,
             warnings,
             timings,
@@ -525,7 +525,7 @@ impl Simulation {
 struct Loaded {
     history: History,
     /// Contact patches at the end of each loading stage.
-    fragments: Vec<Vec<Patch>>,
+    patches: Vec<Vec<Patch>>,
     /// F_a(d=0) and F_a(F=0) in N; `None` if they were not computed.
     without_preload: [Option<f64>; 2],
 }
@@ -537,27 +537,27 @@ impl Prepared {
         scene: &Scene,
         plan: &Workload,
         stop: &dyn Fn() -> bool,
-        after: &mut AfterLeg<'_>,
+        after: &mut AfterStage<'_>,
     ) -> Result<Loaded, RunError> {
         let first_spring = self.facts.first;
         let begun = Instant::now();
         let mut stage = 0;
-        let mut fragments = Vec::new();
-        let mut after_leg = |record: &LegRecord, leg: &Leg| {
+        let mut patches = Vec::new();
+        let mut after_stage = |record: &StageRecord, motion: &Stage| {
             check_interruption(stop)?;
-            if plan.runs(Stage::Fragments) {
-                fragments.push(patches_at_end(record, leg, first_spring));
+            if plan.runs(WorkPart::Patches) {
+                patches.push(patches_at_end(record, motion, first_spring));
             }
             stage += 1;
-            after(stage - 1, record, leg)
+            after(stage - 1, record, motion)
         };
         let (mut history, without_preload) = load(
             scene,
             &self.contact,
-            plan.runs(Stage::WithoutPreload),
+            plan.runs(WorkPart::WithoutPreload),
             &mut self.timings,
             stop,
-            &mut after_leg,
+            &mut after_stage,
         )?;
         let timings = &mut self.timings;
         let seconds = begun.elapsed().as_secs_f64();
@@ -570,7 +570,7 @@ impl Prepared {
         history.work.heights_binned = self.heights_binned;
         Ok(Loaded {
             history,
-            fragments,
+            patches,
             without_preload,
         })
     }
@@ -586,11 +586,12 @@ fn check_interruption(stop: &dyn Fn() -> bool) -> Result<(), ContactError> {
 
 /// Returns the patches at the end of a loading stage. `first_spring` is the index of the first
 /// spring under the body.
-fn patches_at_end(record: &LegRecord, leg: &Leg, first_spring: usize) -> Vec<Patch> {
+fn patches_at_end(record: &StageRecord, motion: &Stage, first_spring: usize) -> Vec<Patch> {
     let Some(end) = record.end_in_contact() else {
         return Vec::new();
     };
-    leg.patches(end.indentation)
+    motion
+        .patches(end.indentation)
         .into_iter()
         .map(|patch| on_foundation(patch, first_spring))
         .collect()
@@ -632,7 +633,7 @@ fn load(
     without_preload: bool,
     timings: &mut Timings,
     stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
 ) -> Result<(History, [Option<f64>; 2]), ContactError> {
     match scene.numerics.solver {
         SolverChoice::Stepwise { step } => {
@@ -647,7 +648,7 @@ fn load_exactly(
     contact: &Contact,
     without_preload: bool,
     timings: &mut Timings,
-    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
 ) -> Result<(History, [Option<f64>; 2]), ContactError> {
     let mut body = Body::new(contact, scene.numerics.samples as usize);
     let mut history = load_body(&mut body, &scene.loading, see)?;
@@ -669,7 +670,7 @@ fn load_stepwise(
     without_preload: bool,
     timings: &mut Timings,
     stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
 ) -> Result<(History, [Option<f64>; 2]), ContactError> {
     let samples = scene.numerics.samples as usize;
     let mut solver = Stepwise::new(contact, step, samples, stop)?;
@@ -685,11 +686,11 @@ fn load_stepwise(
         let turned = match load_body(&mut solver, &[turn, Move::ToSeparation], |_, _| Ok(())) {
             Ok(turned) => turned,
             Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-            // If the steps of the stepwise solver do not reach a turning point, the adhesion force
+            // If the steps of the stepwise solver do not reach a turning point, the pull-off force
             // after this turning point remains unknown.
             Err(_) => continue,
         };
-        *force = Figures::of(&turned).adhesion_force;
+        *force = Figures::of(&turned).pull_off_force;
         history.work.steps += turned.work.steps;
         history.work.relaxation_sweeps += turned.work.relaxation_sweeps;
         history.work.spring_updates += turned.work.spring_updates;

@@ -4,7 +4,7 @@
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
 use crate::scene::model::{Observer, Roughness, Scene, Solver};
-use asperity_contact::{CurvePoint, Edges, LegRecord};
+use asperity_contact::{CurvePoint, Edges, StageRecord};
 use serde::Serialize;
 
 /// Number of bytes for each spring, for the heights of the roughness or the gaps of the profile.
@@ -14,7 +14,7 @@ const HEIGHT: u64 = 8;
 /// turning points. In addition, every fourth spring has two sums.
 const NODE: u64 = 20;
 /// Number of bytes for each spring, for finding events: thresholds of a quarter of the springs, and
-/// the runs of the present and the previous stage. A run is a patch over a range of indentations.
+/// the runs of the present and the previous part. A run is a patch over a range of indentations.
 /// There are few runs unless the adhesion is very small.
 const PASSED: u64 = 12;
 /// Number of bytes for each spring, for the stepwise solver: the threshold and the state of contact
@@ -65,11 +65,11 @@ const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
 /// Part of the computation from a scene to its force curve. The variants are in the order of
-/// execution. A stage of the computation is not a loading stage of the scene
+/// execution. A part of the computation is not a loading stage of the scene
 /// ([`Scene::loading`](crate::Scene::loading)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Stage {
+pub enum WorkPart {
     /// Addition of the macroscopic form to the profile.
     Form,
     /// Random phases and their Fourier transform, which give a random profile.
@@ -90,16 +90,16 @@ pub enum Stage {
     /// until the contact does not change.
     Relaxation,
     /// Two loadings without a preload: one ends at first touch and one at zero force. The loadings
-    /// give two adhesion forces, F_a(d=0) and F_a(F=0), and the regimes.
+    /// give two pull-off forces, F_a(d=0) and F_a(F=0), and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
-    Fragments,
+    Patches,
     /// Histogram of the heights of the profile.
     HeightHistogram,
 }
 
 #[rustfmt::skip]
-impl Stage {
+impl WorkPart {
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
         "unloading passes", "stepwise relaxation", "adhesion without preload", "contact patches",
@@ -108,15 +108,15 @@ impl Stage {
 
     /// Returns the name of this part for users, such as `contact tree`.
     pub fn name(self) -> &'static str {
-        Stage::NAMES[self as usize]
+        WorkPart::NAMES[self as usize]
     }
 }
 
 /// Part of the computation of a scene in a [`Workload`], with its costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct PlannedStage {
+pub struct PlannedPart {
     /// The part of the computation, such as the contact tree.
-    pub stage: Stage,
+    pub part: WorkPart,
     /// True if the scene needs this part of the computation.
     pub runs: bool,
     /// Name of the field that requires this part of the computation, or the reason in words why the
@@ -136,12 +136,12 @@ pub struct PlannedStage {
 /// the memory that they need.
 ///
 /// ```
-/// use asperity_scene::stages::{Stage, Workload};
+/// use asperity_scene::workload::{WorkPart, Workload};
 /// use asperity_scene::open;
 ///
 /// // Without adhesion there is no contact tree.
 /// let bare = open("jkr-sphere")?.set("adhesion", "None")?;
-/// assert!(!Workload::of(bare.scene()).runs(Stage::Tree));
+/// assert!(!Workload::of(bare.scene()).runs(WorkPart::Tree));
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -155,7 +155,7 @@ pub struct Workload {
     /// program itself.
     pub resident_bytes: u64,
     /// All parts of the computation, including those that are skipped.
-    pub stages: Vec<PlannedStage>,
+    pub parts: Vec<PlannedPart>,
 }
 
 impl Workload {
@@ -187,19 +187,19 @@ impl Workload {
             springs,
             peak_bytes: 0,
             resident_bytes: 0,
-            stages: planner.stages(),
+            parts: planner.parts(),
         };
         // The sum of all these parts is an upper bound. It would be needed only if the whole
         // contact under load already existed at first touch.
         let solved = [
-            Stage::Tree,
-            Stage::LoadingPass,
-            Stage::Relaxation,
-            Stage::WithoutPreload,
+            WorkPart::Tree,
+            WorkPart::LoadingPass,
+            WorkPart::Relaxation,
+            WorkPart::WithoutPreload,
         ];
         let mut contact = HEIGHT * springs;
-        for stage in solved {
-            contact += plan.bytes(stage);
+        for part in solved {
+            contact += plan.bytes(part);
         }
         let has_edges_between = planner.is_exact && scene.numerics.edges == Edges::SubCell;
         let sampled = if has_edges_between {
@@ -228,7 +228,7 @@ impl Workload {
         } else {
             0
         };
-        let synthesis = plan.bytes(Stage::Synthesis);
+        let synthesis = plan.bytes(WorkPart::Synthesis);
         let held = heights.saturating_add(contact).max(synthesis);
         plan.peak_bytes = held.saturating_add(reserved);
         let gaps = if history / LARGE_CURVE < scene.loading.len() as u64 {
@@ -241,17 +241,17 @@ impl Workload {
         plan
     }
 
-    /// Returns true if the scene needs the part `stage`.
-    pub fn runs(&self, stage: Stage) -> bool {
-        self.stages
+    /// Returns true if the scene needs the part `part`.
+    pub fn runs(&self, part: WorkPart) -> bool {
+        self.parts
             .iter()
-            .any(|planned| planned.stage == stage && planned.runs)
+            .any(|planned| planned.part == part && planned.runs)
     }
 
-    fn bytes(&self, stage: Stage) -> u64 {
-        self.stages
+    fn bytes(&self, part: WorkPart) -> u64 {
+        self.parts
             .iter()
-            .find(|planned| planned.stage == stage)
+            .find(|planned| planned.part == part)
             .map_or(0, |planned| planned.bytes)
     }
 
@@ -259,16 +259,16 @@ impl Workload {
     pub(super) fn line_bytes(&self) -> u64 {
         HEIGHT * self.springs
             + self
-                .bytes(Stage::Synthesis)
-                .max(self.bytes(Stage::MeasuredProfile))
+                .bytes(WorkPart::Synthesis)
+                .max(self.bytes(WorkPart::MeasuredProfile))
     }
 }
 
 /// Returns the memory in bytes of the force curves of all loading stages.
 fn bytes_of_history(scene: &Scene) -> u64 {
-    let points = scene.numerics.samples + LegRecord::FURTHER_POINTS as u64;
+    let points = scene.numerics.samples + StageRecord::FURTHER_POINTS as u64;
     let curve = points.saturating_mul(size_of::<CurvePoint>() as u64);
-    let stage = curve.saturating_add(RECORDS * size_of::<LegRecord>() as u64);
+    let stage = curve.saturating_add(RECORDS * size_of::<StageRecord>() as u64);
     stage.saturating_mul(scene.loading.len() as u64)
 }
 
@@ -286,11 +286,11 @@ struct Work {
     bytes: u64,
 }
 
-impl PlannedStage {
-    fn new(stage: Stage, because: Because, work: Work) -> Self {
+impl PlannedPart {
+    fn new(part: WorkPart, because: Because, work: Work) -> Self {
         match because {
-            Ok(field) => PlannedStage {
-                stage,
+            Ok(field) => PlannedPart {
+                part,
                 runs: true,
                 because: field,
                 passes: work.passes,
@@ -299,8 +299,8 @@ impl PlannedStage {
                     .map(|passes| passes.saturating_mul(work.springs)),
                 bytes: work.bytes,
             },
-            Err(reason) => PlannedStage {
-                stage,
+            Err(reason) => PlannedPart {
+                part,
                 runs: false,
                 because: reason,
                 passes: Some(0),
@@ -329,9 +329,9 @@ struct Planner<'s> {
 }
 
 impl Planner<'_> {
-    fn stages(&self) -> Vec<PlannedStage> {
+    fn parts(&self) -> Vec<PlannedPart> {
         let solved = self.because_solved();
-        let fragments = Work {
+        let patches = Work {
             passes: Some(self.scene.loading.len() as u64),
             springs: self.springs,
             bytes: 0,
@@ -339,38 +339,38 @@ impl Planner<'_> {
         let is_observed = |observer| self.scene.observe.contains(&observer);
         let not_observed = "not in observe";
         vec![
-            PlannedStage::new(Stage::Form, self.because_form(), self.once(0)),
+            PlannedPart::new(WorkPart::Form, self.because_form(), self.once(0)),
             self.synthesis(),
             self.measured_profile(),
-            PlannedStage::new(Stage::Tree, solved, self.once(NODE * self.springs)),
+            PlannedPart::new(WorkPart::Tree, solved, self.once(NODE * self.springs)),
             self.rule_of_hess(),
-            PlannedStage::new(
-                Stage::LoadingPass,
+            PlannedPart::new(
+                WorkPart::LoadingPass,
                 solved,
                 self.each_stage(PASSED * self.springs),
             ),
-            PlannedStage::new(
-                Stage::UnloadingPass,
+            PlannedPart::new(
+                WorkPart::UnloadingPass,
                 self.because_unloading(),
                 self.each_stage(0),
             ),
-            PlannedStage::new(
-                Stage::Relaxation,
+            PlannedPart::new(
+                WorkPart::Relaxation,
                 because(!self.is_exact, STEPWISE, "solver: Exact"),
                 self.each_stage(RELAXED * self.springs),
             ),
             self.without_preload(),
-            PlannedStage::new(
-                Stage::Fragments,
+            PlannedPart::new(
+                WorkPart::Patches,
                 because(
-                    is_observed(Observer::Fragments),
-                    "observe: Fragments",
+                    is_observed(Observer::Patches),
+                    "observe: Patches",
                     not_observed,
                 ),
-                fragments,
+                patches,
             ),
-            PlannedStage::new(
-                Stage::HeightHistogram,
+            PlannedPart::new(
+                WorkPart::HeightHistogram,
                 because(
                     is_observed(Observer::HeightHistogram),
                     "observe: HeightHistogram",
@@ -438,7 +438,7 @@ impl Planner<'_> {
         }
     }
 
-    fn synthesis(&self) -> PlannedStage {
+    fn synthesis(&self) -> PlannedPart {
         let because = match (self.is_random, self.is_measured) {
             (true, true) => Ok("roughness: Measured, its equivalent line"),
             (true, false) => Ok("roughness: SelfAffine"),
@@ -458,30 +458,30 @@ impl Planner<'_> {
             0
         };
         let work = self.over_profile(transform + convolution);
-        PlannedStage::new(Stage::Synthesis, because, work)
+        PlannedPart::new(WorkPart::Synthesis, because, work)
     }
 
-    fn measured_profile(&self) -> PlannedStage {
+    fn measured_profile(&self) -> PlannedPart {
         let reason = if self.is_random {
             "roughness: SelfAffine"
         } else {
             "no roughness: smooth"
         };
-        PlannedStage::new(
-            Stage::MeasuredProfile,
+        PlannedPart::new(
+            WorkPart::MeasuredProfile,
             because(self.is_measured, "roughness: Measured", reason),
             self.over_profile(HEIGHT * self.points),
         )
     }
 
-    fn rule_of_hess(&self) -> PlannedStage {
+    fn rule_of_hess(&self) -> PlannedPart {
         let no_pass = Work {
             passes: Some(0),
             springs: self.springs,
             bytes: 0,
         };
-        PlannedStage::new(
-            Stage::RuleOfHess,
+        PlannedPart::new(
+            WorkPart::RuleOfHess,
             because(
                 self.is_adhesive,
                 "adhesion",
@@ -491,7 +491,7 @@ impl Planner<'_> {
         )
     }
 
-    fn without_preload(&self) -> PlannedStage {
+    fn without_preload(&self) -> PlannedPart {
         let because = if !self.is_adhesive {
             Err("no adhesion: non-adhesive")
         } else if !self.goes_back {
@@ -499,7 +499,7 @@ impl Planner<'_> {
         } else {
             Ok("adhesion with a loading that goes back")
         };
-        // The adhesion force of the smooth body needs a further profile with its springs, unless
+        // The pull-off force of the smooth body needs a further profile with its springs, unless
         // the form has a closed form.
         let has_smooth = self.scene.roughness.is_some()
             && self
@@ -521,7 +521,7 @@ impl Planner<'_> {
         } else {
             self.each_stage(RELAXED * self.springs + smooth_bytes)
         };
-        PlannedStage::new(Stage::WithoutPreload, because, work)
+        PlannedPart::new(WorkPart::WithoutPreload, because, work)
     }
 }
 
@@ -545,9 +545,9 @@ mod tests {
 
     #[test]
     fn each_stage_is_planned_and_has_its_name() {
-        let planned = Workload::of(crate::scene::open::open("jkr-sphere").unwrap().scene()).stages;
-        let names: Vec<_> = planned.iter().map(|planned| planned.stage.name()).collect();
-        assert_eq!(names, Stage::NAMES);
+        let planned = Workload::of(crate::scene::open::open("jkr-sphere").unwrap().scene()).parts;
+        let names: Vec<_> = planned.iter().map(|planned| planned.part.name()).collect();
+        assert_eq!(names, WorkPart::NAMES);
     }
 
     #[test]

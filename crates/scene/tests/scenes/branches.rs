@@ -3,7 +3,7 @@
 use super::body::*;
 use asperity_contact::Figures;
 use asperity_contact::motion::MovingBody;
-use asperity_contact::{Direction, Edges, History, LegRecord, Move};
+use asperity_contact::{Direction, Edges, History, Move, StageRecord};
 use asperity_scene::{Outcome, Regime, Simulation, open};
 use proptest::prelude::*;
 
@@ -56,27 +56,27 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
         let stages = [1.05, 1.01, share].map(|share| format!("ToIndentation({:e})", share * least));
         after(&format!("[ToForce(1e-5), {}]", stages.join(", "))).figures
     };
-    assert_eq!(held(1.001).adhesion_force, None);
-    assert_eq!(held(0.999).adhesion_force, whole.figures.adhesion_force);
+    assert_eq!(held(1.001).pull_off_force, None);
+    assert_eq!(held(0.999).pull_off_force, whole.figures.pull_off_force);
     assert_eq!(held(0.999).preload, whole.figures.preload);
 }
 
 /// Forces and indentations of a history: F_n, F_a, and where they are.
-fn figures(legs: &[LegRecord]) -> [Option<f64>; 4] {
+fn figures(stages: &[StageRecord]) -> [Option<f64>; 4] {
     let found = Figures::of(&History {
-        legs: legs.to_vec(),
+        stages: stages.to_vec(),
         ..History::default()
     });
     [
         found.preload,
-        found.adhesion_force,
+        found.pull_off_force,
         found.preload_indentation,
         found.pull_off_indentation,
     ]
 }
 
 /// True for figures of the same bits, or but for `slack`, of forces in N and of indentations in m.
-fn agree(one: &[LegRecord], other: &[LegRecord], slack: [f64; 2]) -> bool {
+fn agree(one: &[StageRecord], other: &[StageRecord], slack: [f64; 2]) -> bool {
     let slack = [slack[0], slack[0], slack[1], slack[1]];
     figures(one)
         .into_iter()
@@ -105,7 +105,7 @@ proptest! {
         let mut targets = to_indentations(&turns);
         targets.extend(ends_separated.then_some(Move::ToSeparation));
         let (mut whole, mut by_indentation, mut by_force) = (body.on(33), body.on(samples), body.on(samples));
-        let (mut legs, mut cuts, mut force_cuts) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut stages, mut cuts, mut force_cuts) = (Vec::new(), Vec::new(), Vec::new());
         for (&target, (one, other, at)) in targets.iter().zip(shares.iter().cycle()) {
             let from = whole.point().indentation;
             let record = whole.advance(target).unwrap();
@@ -127,16 +127,16 @@ proptest! {
                 force_cuts.extend(by_force.advance(Move::ToForce(force)));
             }
             force_cuts.push(by_force.advance(target).unwrap());
-            legs.push(record);
+            stages.push(record);
         }
         // Between springs the force is stationary at its extremes: their place is known to the root
         // of a rounding.
         let rounding = [1e-13 * body.scales()[0], 1e-6 * (1.3 + body.largest_stretch())];
         let exact = if body.edges == Edges::Grid { [0.0; 2] } else { rounding };
-        prop_assert!(agree(&legs, &cuts, exact), "{:?}: {:?} {:?}", turns, figures(&legs), figures(&cuts));
+        prop_assert!(agree(&stages, &cuts, exact), "{:?}: {:?} {:?}", turns, figures(&stages), figures(&cuts));
         prop_assert!(
-            agree(&legs, &force_cuts, rounding),
-            "{:?}: {:?} {:?}", turns, figures(&legs), figures(&force_cuts)
+            agree(&stages, &force_cuts, rounding),
+            "{:?}: {:?} {:?}", turns, figures(&stages), figures(&force_cuts)
         );
     }
 }

@@ -6,7 +6,7 @@ mod waves;
 
 use super::body::{Body, Foundation, end};
 use super::numerics::observed_order;
-use asperity_contact::{Edges, LegRecord, Move};
+use asperity_contact::{Edges, Move, StageRecord};
 use asperity_surface::lines::{Line, Synthesizer};
 use asperity_surface::{Form, SelfAffine};
 use one_piece::{Loop, OnePiece};
@@ -56,20 +56,20 @@ impl Problem {
     }
 
     /// Its loading and its unloading.
-    fn legs(&self, edges: Edges, points: usize) -> [LegRecord; 2] {
+    fn stages(&self, edges: Edges, points: usize) -> [StageRecord; 2] {
         let targets = [Move::ToIndentation(self.deepest), Move::ToSeparation];
-        let legs = self.body(edges, points).history(&targets, 257).legs;
-        let separated = end(&legs[1]);
+        let stages = self.body(edges, points).history(&targets, 257).stages;
+        let separated = end(&stages[1]);
         assert_eq!(
             (separated.springs, separated.force),
             (0, 0.0),
             "{self:?} is not separated"
         );
         assert!(
-            legs[0].largest.springs < points as u64 || self.form.is_none(),
+            stages[0].largest.springs < points as u64 || self.form.is_none(),
             "the line is too short"
         );
-        legs.try_into().unwrap()
+        stages.try_into().unwrap()
     }
 
     fn closed_form(&self) -> Loop {
@@ -85,11 +85,11 @@ impl Problem {
 
     /// Relative errors of all figures; those of the curves over the largest force.
     fn errors(&self, exact: &Loop, edges: Edges, points: usize) -> [f64; 7] {
-        let [loading, unloading] = self.legs(edges, points);
+        let [loading, unloading] = self.stages(edges, points);
         let [pull_off, separation] = [exact.pull_off(), exact.separation()];
         let scale = exact.loading_force(self.deepest).abs().max(-pull_off.1);
-        let curve = |leg: &LegRecord, from: f64, force: &dyn Fn(f64) -> f64| {
-            let points = leg
+        let curve = |stage: &StageRecord, from: f64, force: &dyn Fn(f64) -> f64| {
+            let points = stage
                 .curve
                 .iter()
                 .filter(|point| point.springs > 0 && point.indentation >= from);
@@ -198,11 +198,11 @@ fn a_minor_loop_in_contact_loses_energy_only_with_whole_springs() {
             .map(Move::ToIndentation)
             .into_iter()
             .chain([Move::ToSeparation]);
-        let legs = sphere
+        let stages = sphere
             .body(edges, points)
             .history(&loading.collect::<Vec<_>>(), 2)
-            .legs;
-        let lost: Vec<f64> = legs.iter().map(|leg| leg.released_energy).collect();
+            .stages;
+        let lost: Vec<f64> = stages.iter().map(|stage| stage.released_energy).collect();
         (lost[1] + lost[2]) / lost.iter().sum::<f64>()
     };
     assert_eq!(
@@ -337,12 +337,12 @@ fn rough_bodies_of_few_modes_converge_with_the_square_of_the_distance_in_the_med
             let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
             let foundation = Foundation::new(line.spacing, 1.0);
             let body = Body::new(line.gaps.to_vec(), Edges::SubCell, foundation, work);
-            let legs = body
+            let stages = body
                 .history(&[Move::ToForce(4e-3), Move::ToSeparation], 64)
-                .legs;
+                .stages;
             [
-                legs[1].smallest.force,
-                legs.iter().map(|leg| leg.released_energy).sum(),
+                stages[1].smallest.force,
+                stages.iter().map(|stage| stage.released_energy).sum(),
             ]
         };
         let all = |points: usize| {

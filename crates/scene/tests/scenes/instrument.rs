@@ -5,7 +5,7 @@ use super::body::{cases, end};
 use asperity_contact::ClosedForm;
 use asperity_contact::motion::{Body, load_body};
 use asperity_contact::{
-    Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile,
+    Contact, CurvePoint, Direction, Figures, History, Modulus, Move, Profile, StageRecord,
 };
 use asperity_scene::instrument::{
     DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,
@@ -86,7 +86,7 @@ fn a_rigid_instrument_controls_the_indentation_and_a_soft_one_the_force() {
         &forces.map(|force| Move::ToDisplacement(force / soft)),
     );
     for (one, other) in [(by_indentation, by_displacement), (by_force, pulled)] {
-        for (one, other) in one.legs.iter().zip(&other.legs) {
+        for (one, other) in one.stages.iter().zip(&other.stages) {
             let [one, other] = [one, other].map(end);
             assert!((one.force - other.force).abs() < 1e-9, "{one:?} {other:?}");
             assert!(
@@ -102,8 +102,11 @@ fn a_rigid_instrument_controls_the_indentation_and_a_soft_one_the_force() {
         turns.map(Move::ToDisplacement),
     ]
     .map(|turns| {
-        let legs: Vec<LegRecord> = loaded(&bare, &turns).legs;
-        legs.into_iter().map(|leg| leg.curve).collect::<Vec<_>>()
+        let stages: Vec<StageRecord> = loaded(&bare, &turns).stages;
+        stages
+            .into_iter()
+            .map(|stage| stage.curve)
+            .collect::<Vec<_>>()
     });
     assert_eq!(one, other);
 }
@@ -119,8 +122,8 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
     let mut areas = vec![];
     for stiffness in [0.2, 1.0, 5.0, 100.0] {
         let history = loaded(&under(stiffness), &targets);
-        let unloading = &history.legs[1];
-        let smallest = reference.legs[1].smallest.force;
+        let unloading = &history.stages[1];
+        let smallest = reference.stages[1].smallest.force;
         assert!((unloading.smallest.force / smallest - 1.0).abs() < 1e-12);
         let figures = Figures::of(&history);
         let found = InstrumentFigures::of(&history, &figures, stiffness);
@@ -140,15 +143,15 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
         );
         let mut last = [targets[0], Move::ToSeparation];
         let separated = loaded(&under(stiffness), &last);
-        assert_eq!(end(&separated.legs[1]).indentation, pull_off);
+        assert_eq!(end(&separated.stages[1]).indentation, pull_off);
         last[1] = Move::ToDisplacement(pull_off.next_down());
-        assert_eq!(end(&loaded(&under(stiffness), &last).legs[1]).springs, 0);
+        assert_eq!(end(&loaded(&under(stiffness), &last).stages[1]).springs, 0);
         // ∮F dD: the energy lost in the contact and in the instrument.
         let area: f64 = history
-            .legs
+            .stages
             .iter()
-            .map(|leg| {
-                let curve = DisplacementCurve::new(leg.direction, &leg.curve, stiffness);
+            .map(|stage| {
+                let curve = DisplacementCurve::new(stage.direction, &stage.curve, stiffness);
                 let work = |pair: &[_]| {
                     let [one, next]: [DisplacementPoint; 2] = [pair[0], pair[1]];
                     0.5 * (one.force + next.force) * (next.displacement - one.displacement)
@@ -163,14 +166,14 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
         );
         assert!(found.loop_area > figures.dissipated_energy);
         areas.push(found.loop_area.unwrap());
-        for leg in &history.legs {
-            let sign = if leg.direction == Direction::Loading {
+        for stage in &history.stages {
+            let sign = if stage.direction == Direction::Loading {
                 1.0
             } else {
                 -1.0
             };
             assert!(
-                displacements(leg, stiffness)
+                displacements(stage, stiffness)
                     .map(|at| sign * at)
                     .is_sorted()
             );

@@ -75,7 +75,7 @@ proptest! {
         let roughness = format!("roughness: SelfAffine(hurst: {hurst:?}, {}, {}, seed: {seed}), ", amplitude.0, waves.0);
         let roughness = if is_rough { roughness } else { String::new() };
         let text = format!(
-            "(version: 1, material: (effective_modulus: 1.0e6), length: {LENGTH:e}, {}{roughness}adhesion: (work: 1.0e-3), \
+            "(version: 1, material: (modulus: 1.0e6), length: {LENGTH:e}, {}{roughness}adhesion: (work: 1.0e-3), \
              loading: [ToForce(1.0e-6), ToSeparation], numerics: (points: {points}))",
             form.0,
         );
@@ -97,7 +97,7 @@ proptest! {
         let stages = [Move::ToForce(1.0e-6), Move::ToSeparation];
         let run = builder.run(Modulus::effective(1.0e6).unwrap(), Some(Adhesion::by_work(1.0e-3)), &stages).unwrap();
         let outcome = simulation.compute(document.scene()).unwrap();
-        prop_assert!(run.history.legs == outcome.history.legs && run.figures == outcome.figures);
+        prop_assert!(run.history.stages == outcome.history.stages && run.figures == outcome.figures);
         prop_assert_eq!((run.governing, run.regime), (outcome.governing, outcome.regime));
     }
 
@@ -160,7 +160,7 @@ fn a_profile_with_a_measured_spectrum_is_that_of_a_scene() {
                 .all(|(gap, height)| *gap == summit - height)
         );
         let text = format!(
-            "(version: 1, material: (effective_modulus: 1.0), length: {length}, form: Paraboloid(radius: 1.0e-3), \
+            "(version: 1, material: (modulus: 1.0), length: {length}, form: Paraboloid(radius: 1.0e-3), \
              roughness: Measured(file: \"any.txt\", seed: 7), numerics: (points: {points}))"
         );
         let document = Document::parse(&text, "scene").unwrap();

@@ -4,8 +4,8 @@
 use asperity_contact::Move;
 use asperity_scene::fields::{Effect, FIELDS, Range};
 use asperity_scene::library::DEFAULT;
-use asperity_scene::stages::{Stage, Workload};
 use asperity_scene::text::{LONGEST_TEXT, Text, TextSpan, to_ron};
+use asperity_scene::workload::{WorkPart, Workload};
 use asperity_scene::{Document, Roughness, Scene, Simulation, open, presets};
 
 fn locate(text: &str, path: &str) -> Option<TextSpan> {
@@ -19,7 +19,7 @@ fn message(text: &str) -> String {
 /// A scene with this third line.
 fn with_line(line: &str) -> String {
     format!(
-        "(\n    version: 1,\n    {line}\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n)\n"
+        "(\n    version: 1,\n    {line}\n    material: (modulus: 1.0e6),\n    length: 1.0e-4,\n)\n"
     )
 }
 
@@ -74,7 +74,7 @@ fn nesting_does_not_overflow_the_stack() {
 #[test]
 fn effects_are_on_where_their_stages_run() {
     let document = open_default();
-    let legs = [
+    let stages = [
         Move::ToForce(1e-6),
         Move::ToForce(1e-5),
         Move::ToIndentation(-1e-9),
@@ -83,11 +83,15 @@ fn effects_are_on_where_their_stages_run() {
         Move::ToZeroForce,
         Move::ToSeparation,
     ];
-    let mut loadings: Vec<Vec<Move>> = legs.iter().map(|leg| vec![*leg]).collect();
+    let mut loadings: Vec<Vec<Move>> = stages.iter().map(|stage| vec![*stage]).collect();
     for length in 1..3 {
         let longer = loadings.iter().filter(|loading| loading.len() == length);
         let longer: Vec<_> = longer
-            .flat_map(|loading| legs.iter().map(|leg| [&loading[..], &[*leg]].concat()))
+            .flat_map(|loading| {
+                stages
+                    .iter()
+                    .map(|stage| [&loading[..], &[*stage]].concat())
+            })
             .collect();
         loadings.extend(longer);
     }
@@ -97,7 +101,7 @@ fn effects_are_on_where_their_stages_run() {
         let Ok(scene) = document.scene().with(|scene| scene.loading = loading) else {
             continue;
         };
-        let runs = Workload::of(&scene).runs(Stage::UnloadingPass);
+        let runs = Workload::of(&scene).runs(WorkPart::UnloadingPass);
         assert_eq!(Effect::Unloading.is_on(&scene), runs, "{:?}", scene.loading);
     }
     for (path, value) in [
@@ -109,14 +113,14 @@ fn effects_are_on_where_their_stages_run() {
     ] {
         let document = document.set(path, value).unwrap();
         let plan = Workload::of(document.scene());
-        let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
+        let runs = |stages: &[WorkPart]| stages.iter().any(|stage| plan.runs(*stage));
         for (effect, stages) in [
-            (Effect::Form, &[Stage::Form][..]),
+            (Effect::Form, &[WorkPart::Form][..]),
             (
                 Effect::Roughness,
-                &[Stage::Synthesis, Stage::MeasuredProfile],
+                &[WorkPart::Synthesis, WorkPart::MeasuredProfile],
             ),
-            (Effect::Adhesion, &[Stage::RuleOfHess]),
+            (Effect::Adhesion, &[WorkPart::RuleOfHess]),
         ] {
             assert_eq!(
                 effect.is_on(document.scene()),
@@ -174,7 +178,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         let stiffness = if solver == "Exact" { "1.0" } else { "None" };
         for (material, adhesion) in [
             (
-                "(effective_modulus: 1.0e6)",
+                "(modulus: 1.0e6)",
                 "(work: 0.1, closing_work: 0.05, range: 1.0e-9)",
             ),
             ("(youngs_modulus: 1.0e6, poisson_ratio: 0.5)", "None"),
@@ -224,7 +228,7 @@ fn paths_of(value: &serde_json::Value, path: String, found: &mut Vec<String>) {
 
 #[test]
 fn the_choices_of_the_table_can_be_set() {
-    let smooth = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+    let smooth = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4)";
     let document = Document::parse(smooth, "x").unwrap();
     for field in FIELDS {
         match field.range {
@@ -269,7 +273,7 @@ fn the_choices_of_the_table_can_be_set() {
 
 #[test]
 fn what_the_table_says_of_left_out_fields_is_so() {
-    let smooth = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+    let smooth = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4)";
     let document = Document::parse(smooth, "x").unwrap();
     let left_out = |path: &str| locate(smooth, path).is_none();
     let fields = FIELDS

@@ -2,7 +2,7 @@
 //! grids of one profile.
 
 use asperity_contact::{Move, Work};
-use asperity_scene::stages::Timings;
+use asperity_scene::workload::Timings;
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
 
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
@@ -45,7 +45,7 @@ fn work(overrides: Overrides) -> Work {
 }
 
 const KAPPA: (&str, &str) = ("adhesion.kappa", "20.0");
-const OBSERVED: (&str, &str) = ("observe", "[Fragments, HeightHistogram]");
+const OBSERVED: (&str, &str) = ("observe", "[Patches, HeightHistogram]");
 const STEPS: (&str, &str) = ("numerics.solver", "Stepwise(step: 2.0e-9)");
 const BARE: (&str, &str) = ("adhesion", "None");
 
@@ -115,8 +115,8 @@ fn kept_stages_do_not_change_results() {
         assert_eq!(found, expected, "{edit:?}");
 
         let without_preload = [
-            found.first_touch_adhesion_force,
-            found.zero_force_adhesion_force,
+            found.first_touch_pull_off_force,
+            found.zero_force_pull_off_force,
         ];
         for (force, turn) in without_preload
             .into_iter()
@@ -127,7 +127,7 @@ fn kept_stages_do_not_change_results() {
                 .unwrap();
             let turned = outcome(&mut Simulation::default(), &turned)
                 .figures
-                .adhesion_force;
+                .pull_off_force;
             assert_eq!(
                 force,
                 turned.filter(|_| scene.adhesion.is_some()),
@@ -174,10 +174,10 @@ fn an_interrupted_run_does_not_affect_the_next() {
             Err(error) => assert!(error.is_interruption()),
             Ok(found) => {
                 assert!(allowed > 2);
-                assert_eq!(found.history.legs, expected.history.legs);
+                assert_eq!(found.history.stages, expected.history.stages);
                 assert_eq!(
-                    found.first_touch_adhesion_force,
-                    expected.first_touch_adhesion_force
+                    found.first_touch_pull_off_force,
+                    expected.first_touch_pull_off_force
                 );
                 assert_eq!(found.histogram, expected.histogram);
                 return;

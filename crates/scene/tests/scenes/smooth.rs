@@ -12,7 +12,7 @@ fn run(
     loading: &str,
 ) -> Outcome {
     let text = format!(
-        "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+        "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
          adhesion: {adhesion}, loading: {loading}, numerics: (points: 2048, samples: 9))"
     );
     let document = Document::parse(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
@@ -119,8 +119,8 @@ fn the_smooth_force_is_that_of_a_run_without_roughness() {
             loading,
         );
         let smooth = run(&mut without, form, "None", adhesion, loading);
-        let expected = smooth.figures.adhesion_force.unwrap();
-        for found in [&rough, &smooth].map(|outcome| outcome.smooth_adhesion_force.unwrap()) {
+        let expected = smooth.figures.pull_off_force.unwrap();
+        for found in [&rough, &smooth].map(|outcome| outcome.smooth_pull_off_force.unwrap()) {
             let share = found / expected;
             assert!(
                 (share - 1.0).abs() <= error,
@@ -135,7 +135,7 @@ fn the_smooth_force_is_that_of_a_run_without_roughness() {
             adhesion,
             loading,
         );
-        assert_eq!(again.smooth_adhesion_force, rough.smooth_adhesion_force);
+        assert_eq!(again.smooth_pull_off_force, rough.smooth_pull_off_force);
     }
     // A smooth body that is not pulled off has the force all the same, and no adhesion none.
     let form = "Some(WavySphere(radius: 1.75e-4, amplitude: 2.85e-8, wavelength: 1.0e-5))";
@@ -148,11 +148,11 @@ fn the_smooth_force_is_that_of_a_run_without_roughness() {
     );
     let pulled = run(&mut without, form, "None", "(work: 0.01)", pressed);
     assert_eq!(
-        (held.figures.adhesion_force, held.smooth_adhesion_force),
-        (None, pulled.figures.adhesion_force)
+        (held.figures.pull_off_force, held.smooth_pull_off_force),
+        (None, pulled.figures.pull_off_force)
     );
     assert_eq!(
-        run(&mut without, form, "None", "(work: 0.0)", pressed).smooth_adhesion_force,
+        run(&mut without, form, "None", "(work: 0.0)", pressed).smooth_pull_off_force,
         None
     );
 }

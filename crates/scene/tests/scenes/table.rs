@@ -20,7 +20,7 @@ fn rows(reach: f64, depth: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
 
 fn scene(form: &str, length: f64) -> Document {
     let text = format!(
-        "(version: 1, material: (effective_modulus: 1.0e6), length: {length:e}, form: {form}, adhesion: (work: 0.05), \
+        "(version: 1, material: (modulus: 1.0e6), length: {length:e}, form: {form}, adhesion: (work: 0.05), \
          loading: [ToForce(5.0e-5), ToSeparation], numerics: (points: 2001, samples: 65))"
     );
     Document::parse(&text, "test").unwrap()
@@ -77,10 +77,10 @@ fn a_thousand_rows_are_their_closed_form() {
                 .unwrap()
         };
         let [exact, table] = [form, "Table(file: \"tip.csv\")"].map(run);
-        let pull_off = |outcome: &Outcome| outcome.figures.adhesion_force.unwrap();
+        let pull_off = |outcome: &Outcome| outcome.figures.pull_off_force.unwrap();
         let share = pull_off(&table) / pull_off(&exact);
         assert!((share - 1.0).abs() < 1e-6, "{form}: pull-off {share}");
-        for (one, other) in exact.history.legs.iter().zip(&table.history.legs) {
+        for (one, other) in exact.history.stages.iter().zip(&table.history.stages) {
             for (one, other) in one.curve.iter().zip(&other.curve) {
                 // Ends and extremes have indentations of their own.
                 let same = (one.indentation - other.indentation).abs() < 1e-9 * 1e-6;
@@ -90,7 +90,7 @@ fn a_thousand_rows_are_their_closed_form() {
         }
         if !form.starts_with("Wavy") {
             let smooth =
-                table.smooth_adhesion_force.unwrap() / exact.smooth_adhesion_force.unwrap();
+                table.smooth_pull_off_force.unwrap() / exact.smooth_pull_off_force.unwrap();
             assert!((smooth - 1.0).abs() < 1e-4, "{form}: F_smooth {smooth}");
         }
         let number = [&exact, &table].map(|outcome| outcome.tabor_number);
@@ -401,7 +401,7 @@ fn tips_with_edges_have_their_own_forces() {
     let punch = run("0,0\n2e-5,0\n2.0001e-5,5e-6\n5.1e-5,6e-6\n", 1e-3);
     // Kendall: √(8πa³E*γ); the edge of 2001 springs is known to a spring.
     let kendall = (8.0 * std::f64::consts::PI * 2e-5_f64.powi(3) * 1e6 * 0.05).sqrt();
-    let share = punch.figures.adhesion_force.unwrap() / kendall;
+    let share = punch.figures.pull_off_force.unwrap() / kendall;
     assert!((share - 1.0).abs() < 5e-3, "{share}");
     // Beyond the edge the profile is b h/√(x² − b²) deep, nowhere above the end.
     assert!(
@@ -445,13 +445,13 @@ fn tips_with_edges_have_their_own_forces() {
         }
         let figures = outcome.figures;
         assert!(
-            (figures.adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3,
+            (figures.pull_off_force.unwrap() / -least - 1.0).abs() < 2e-3,
             "{figures:?} {least}"
         );
         assert!(
             (figures.preload_indentation.unwrap() / pressed - 1.0).abs() < 1e-3,
             "{figures:?} {pressed}"
         );
-        assert!((outcome.smooth_adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3);
+        assert!((outcome.smooth_pull_off_force.unwrap() / -least - 1.0).abs() < 2e-3);
     }
 }

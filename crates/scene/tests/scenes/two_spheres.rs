@@ -9,7 +9,7 @@ fn outcome(form: &str, length: f64, points: usize, behind: f64) -> Outcome {
     let stages =
         INDENTATIONS.map(|indentation| format!("ToIndentation({:e})", indentation - behind));
     let text = format!(
-        "(version: 1, material: (effective_modulus: 8.0e5), length: {length:e}, form: {form}, \
+        "(version: 1, material: (modulus: 8.0e5), length: {length:e}, form: {form}, \
          adhesion: (work: 0.017, closing_work: 0.01), loading: [{}], \
          numerics: (points: {points}, samples: 257))",
         stages.join(", ")
@@ -18,9 +18,9 @@ fn outcome(form: &str, length: f64, points: usize, behind: f64) -> Outcome {
     Simulation::default().compute(document.scene()).unwrap()
 }
 
-/// Force in N at an indentation in m on a leg, between two of its samples.
-fn force_at(outcome: &Outcome, leg: usize, indentation: f64) -> f64 {
-    let curve = &outcome.history.legs[leg].curve;
+/// Force in N at an indentation in m on a stage, between two of its samples.
+fn force_at(outcome: &Outcome, stage: usize, indentation: f64) -> f64 {
+    let curve = &outcome.history.stages[stage].curve;
     let mut nearest = &curve[0];
     for point in curve {
         let distance = (point.indentation - indentation).abs();
@@ -51,10 +51,10 @@ fn the_forces_of_both_spheres_add() {
         };
         let first = alone(5.4e-6, points / 2, 0.0);
         let second = alone(3.2e-6, points - points / 2, behind);
-        let largest = both.figures.adhesion_force.unwrap();
-        for (leg, &end) in INDENTATIONS.iter().enumerate() {
-            let sum = force_at(&first, leg, end) + force_at(&second, leg, end - behind);
-            let found = force_at(&both, leg, end);
+        let largest = both.figures.pull_off_force.unwrap();
+        for (stage, &end) in INDENTATIONS.iter().enumerate() {
+            let sum = force_at(&first, stage, end) + force_at(&second, stage, end - behind);
+            let found = force_at(&both, stage, end);
             assert!(
                 (found - sum).abs() < 1e-9 * largest,
                 "{points}: {found} against {sum}"
@@ -70,7 +70,7 @@ fn equal_spheres_double_the_force_and_a_far_one_adds_none() {
     let force = |form: &str| {
         outcome(form, 2.4e-5, 4096, 0.0)
             .figures
-            .adhesion_force
+            .pull_off_force
             .unwrap()
     };
     let single = force("Paraboloid(radius: 5.4e-6)");

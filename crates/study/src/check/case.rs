@@ -201,7 +201,7 @@ impl Body {
     /// `samples` is the number of points of the force curve in each move.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
-        let legs: Vec<Move> = turns
+        let stages: Vec<Move> = turns
             .chain(separates.then_some(Move::ToSeparation))
             .collect();
         let profile = Profile::from_heights(
@@ -213,6 +213,6 @@ impl Body {
             .work_of_adhesion(self.work)
             .edges(self.edges)
             .build()?;
-        Ok(contact.load_with(&legs, LoadOptions::default().samples(samples))?)
+        Ok(contact.load_with(&stages, LoadOptions::default().samples(samples))?)
     }
 }

@@ -12,19 +12,18 @@ const KNOWN: [&str; 2] = ["closed-forms", CLOSED_FORM];
 const PULL_OFF: &str = "force and place of pull-off";
 
 const HERTZ: &str =
-    "(version: 1, material: (effective_modulus: 1.0), length: 4.0, form: Paraboloid(radius: 1.0),
+    "(version: 1, material: (modulus: 1.0), length: 4.0, form: Paraboloid(radius: 1.0),
     loading: [ToIndentation(1.0)], numerics: (points: 4001, samples: 257))";
 const SPHERE: &str =
-    "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5),
+    "(version: 1, material: (modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5),
     adhesion: (work: 0.5), loading: [ToIndentation(0.75), ToSeparation], numerics: (points: 4001))";
-const CONE: &str =
-    "(version: 1, material: (effective_modulus: 1.0), length: 8.0, form: Cone(angle: 1.0),
+const CONE: &str = "(version: 1, material: (modulus: 1.0), length: 8.0, form: Cone(angle: 1.0),
     adhesion: (work: 0.5), loading: [ToIndentation(2.0), ToSeparation], numerics: (points: 4001))";
 const FLAT: &str =
-    "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, adhesion: (work: 2.0e-5),
+    "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4, adhesion: (work: 2.0e-5),
     loading: [ToIndentation(1.0e-7), ToSeparation], numerics: (samples: 9))";
 const PUNCH: &str =
-    "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, form: Punch(radius: 2.0e-5),
+    "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4, form: Punch(radius: 2.0e-5),
     adhesion: (work: 0.05), loading: [ToIndentation(1.0e-7), ToSeparation], numerics: (samples: 9))";
 
 #[rustfmt::skip]
@@ -36,7 +35,7 @@ pub const CASES: &[Case] = &[
     Case::row(KNOWN, ["cone", "4001 springs pull a cone off at the force and the indentation of the closed form.",
         PULL_OFF], &both(1e-2, 1e-5), OfScene(CONE, pull_off)),
     Case::row(KNOWN, ["flat-line", "5 to 100 000 springs of a flat profile attach and detach at once, at the ideal \
-        adhesion force √(πγE*L³).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(FLAT, flat)),
+        pull-off force √(πγE*L³).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(FLAT, flat)),
     Case::row(KNOWN, ["flat-punch", "A flat punch of whole cells attaches and detaches at once, at Kendall's force \
         √(8πa³E*γ).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(PUNCH, flat)),
 ];
@@ -46,7 +45,7 @@ fn power_law(scene: &CheckedScene) -> Measured<ClosedForm> {
         .adhesion
         .and_then(|adhesion| adhesion.work())
         .unwrap_or(0.0);
-    let modulus = scene.material.effective_modulus();
+    let modulus = scene.material.modulus_in_pascals();
     let closed = scene
         .form
         .as_ref()
@@ -58,18 +57,18 @@ fn hertz(scene: &CheckedScene) -> Measured {
     let closed = power_law(scene)?;
     let outcome = outcome(scene)?;
     let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
-    let leg = &outcome.history.legs[0];
-    let errors = leg
+    let stage = &outcome.history.stages[0];
+    let errors = stage
         .curve
         .iter()
         .map(|point| (point.force - force(point.indentation)).abs());
-    Ok(errors.fold(0.0, f64::max) / force(leg.end()))
+    Ok(errors.fold(0.0, f64::max) / force(stage.end()))
 }
 
 fn pull_off(scene: &CheckedScene) -> Measured {
     let closed = power_law(scene)?;
     let outcome = outcome(scene)?;
-    let unloading = &outcome.history.legs[1];
+    let unloading = &outcome.history.stages[1];
     let place = closed.indentation(closed.displacement_controlled_pull_off().0);
     let force = closed.force_controlled_pull_off().1;
     relative_errors([(unloading.smallest.force, force), (unloading.end(), place)])
@@ -83,10 +82,10 @@ fn flat(scene: &CheckedScene) -> Measured {
         .map_or(scene.length, |radius| 2.0 * radius);
     largest([5, 1000, 100_000].map(|points| {
         let outcome = outcome(&scene.with(|scene| scene.numerics.points = points)?)?;
-        let stiffness = outcome.governing.effective_modulus * width;
+        let stiffness = outcome.governing.modulus * width;
         let work = outcome.governing.adhesive_work().unwrap_or(0.0);
-        let place = -(PI * width * work / outcome.governing.effective_modulus).sqrt();
-        let [loading, unloading] = &outcome.history.legs[..] else {
+        let place = -(PI * width * work / outcome.governing.modulus).sqrt();
+        let [loading, unloading] = &outcome.history.stages[..] else {
             return Ok(f64::NAN);
         };
         relative_errors([

@@ -16,7 +16,7 @@ const KNOWN: [&str; 2] = ["hard-cases", CLOSED_FORM];
 const LAW: [&str; 2] = ["hard-cases", SELF_CONSISTENCY];
 const ROUNDINGS: &str = "force, over the effect of a rounding of the indentation";
 
-const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
+const ROUGH: &str = "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-25, modes: (1, 128), seed: 1),
     adhesion: (work: 1.0e-41), numerics: (points: 257, samples: 17))";
 #[rustfmt::skip]
@@ -34,7 +34,7 @@ pub const CASES: &[Case] = &[
 /// closed form. The roughness is a sum of cosines with the mean 0, so the mean gap at first touch
 /// equals the height of the highest point.
 fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
-    outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
+    outcome.governing.modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
 
 fn near_ties(body: &Body) -> Measured {
@@ -101,13 +101,13 @@ fn far_loads(scene: &CheckedScene) -> Measured {
 fn far_load(scene: &CheckedScene, load: f64) -> Measured {
     let outcome = pressed(scene, Move::ToIndentation(load))?;
     let expected = full_contact(&outcome, load);
-    let there = end(&outcome.history.legs[0]);
-    let again = end(&pressed(scene, Move::ToForce(there.force))?.history.legs[0]);
+    let there = end(&outcome.history.stages[0]);
+    let again = end(&pressed(scene, Move::ToForce(there.force))?.history.stages[0]);
     let is_whole = relative_error(there.contact_length, scene.length) <= 2.0 * f64::EPSILON;
     ensure(is_whole, || {
         format!("{:e} m in contact at {load:e} m", there.contact_length)
     })?;
-    let stiffness = scene.material.effective_modulus() * scene.length;
+    let stiffness = scene.material.modulus_in_pascals() * scene.length;
     let rounding = stiffness * (load - load.next_down()) + f64::EPSILON * there.force;
     let errors = [there.force - expected, again.force - there.force];
     largest(errors.map(|error| Ok(error.abs() / rounding)))

@@ -5,17 +5,17 @@ use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
     Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
 };
-use asperity_contact::{CurvePoint, Cycle, Edges, LegRecord};
+use asperity_contact::{CurvePoint, Cycle, Edges, StageRecord};
 use asperity_scene::{CheckedScene, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
 const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
 const FORCE: &str = "force, over the scale";
 
-const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
+const ROUGH: &str = "(version: 1, material: (modulus: 2.0e6), length: 1.0e-4,
     roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 128), seed: 1), adhesion: (work: 2.0e-5),
     loading: [ToTouch, ToIndentation(1.9e-7), ToIndentation(0.43e-7), ToIndentation(1.1e-7), ToIndentation(3.1e-7),
-    ToIndentation(-0.2e-7)], numerics: (points: 400, samples: 9), observe: [Fragments])";
+    ToIndentation(-0.2e-7)], numerics: (points: 400, samples: 9), observe: [Patches])";
 
 #[rustfmt::skip]
 pub const CASES: &[Case] = &[
@@ -32,8 +32,8 @@ pub const CASES: &[Case] = &[
         &[(Edges::Grid, 1e-15)], OfScene(ROUGH, stepwise)),
 ];
 
-pub fn end(leg: &LegRecord) -> CurvePoint {
-    leg.curve.last().copied().unwrap_or_default()
+pub fn end(stage: &StageRecord) -> CurvePoint {
+    stage.curve.last().copied().unwrap_or_default()
 }
 
 /// Loads and unloads a body without adhesion, and returns the largest difference between the forces
@@ -48,7 +48,10 @@ fn no_adhesion(body: &Body) -> Measured {
     let [loading, unloading] = cycle.stages() else {
         return Ok(f64::NAN);
     };
-    let is_lossless = cycle.stages().iter().all(|leg| leg.released_energy == 0.0);
+    let is_lossless = cycle
+        .stages()
+        .iter()
+        .all(|stage| stage.released_energy == 0.0);
     ensure(is_lossless, || "energy is lost".into())?;
     ensure(loading.curve.len() == unloading.curve.len(), || {
         "other points on the way back".into()
@@ -61,7 +64,7 @@ fn no_adhesion(body: &Body) -> Measured {
             .map(|(one, other)| {
                 let is_same = one.indentation.to_bits() == other.indentation.to_bits()
                     && one.springs == other.springs
-                    && one.fragments == other.fragments;
+                    && one.patches == other.patches;
                 ensure(is_same, || {
                     format!("at {:e} m another contact", one.indentation)
                 })?;
@@ -95,14 +98,14 @@ fn memory(body: &Body) -> Measured {
 /// Returns the force in N at the end of a loading.
 fn last_force(cycle: &Cycle) -> f64 {
     match cycle.stages().last() {
-        Some(leg) => end(leg).force,
+        Some(stage) => end(stage).force,
         None => f64::NAN,
     }
 }
 
 /// Returns the energy in J that several stages release.
-fn released(stages: &[LegRecord]) -> f64 {
-    stages.iter().map(|leg| leg.released_energy).sum()
+fn released(stages: &[StageRecord]) -> f64 {
+    stages.iter().map(|stage| stage.released_energy).sum()
 }
 
 fn energy(body: &Body) -> Measured {
@@ -118,8 +121,8 @@ fn energy(body: &Body) -> Measured {
     // A jump of the force may lie anywhere between two points of the curve. The error of the work,
     // computed by the trapezoidal rule, therefore decreases with the number of points.
     let mut done = -0.0;
-    for leg in cycle.stages() {
-        for pair in leg.curve.windows(2) {
+    for stage in cycle.stages() {
+        for pair in stage.curve.windows(2) {
             let [before, after] = [pair[0], pair[1]];
             done += 0.5 * (before.force + after.force) * (after.indentation - before.indentation);
         }
@@ -163,9 +166,9 @@ fn bits(cycle: &Cycle, height: f64, force: f64) -> Vec<([u64; 2], u64)> {
         let values = [point.indentation * height, point.force * force];
         bits.push((values.map(|value| (value + 0.0).to_bits()), point.springs));
     }
-    for leg in cycle.stages() {
-        let energy = leg.released_energy * force * height;
-        bits.push(([(energy + 0.0).to_bits(), 0], leg.detached));
+    for stage in cycle.stages() {
+        let energy = stage.released_energy * force * height;
+        bits.push(([(energy + 0.0).to_bits(), 0], stage.detached));
     }
     bits
 }
@@ -204,13 +207,13 @@ fn stepwise(scene: &CheckedScene) -> Measured {
                     outcome(&scene.with(|scene| {
                         scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 }
                     })?)?;
-                ensure(exact.fragments == steps.fragments, || {
+                ensure(exact.patches == steps.patches, || {
                     format!("γ = {work:e} J/m²: another contact")
                 })?;
-                let unit = exact.governing.effective_modulus * scene.length * exact.line.deepest;
-                let legs = exact.history.legs.iter().zip(&steps.history.legs);
+                let unit = exact.governing.modulus * scene.length * exact.line.deepest;
+                let stages = exact.history.stages.iter().zip(&steps.history.stages);
                 largest(
-                    legs.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)),
+                    stages.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)),
                 )
             }),
     )

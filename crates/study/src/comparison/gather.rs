@@ -14,21 +14,21 @@ use asperity_half_space::check_cells;
 
 /// Ratios of the results of the loops with adhesion. A ratio is `None` if a result is unknown.
 struct ComparedLoops {
-    adhesion_force: Option<Compared>,
-    first_touch_adhesion_force: Option<Compared>,
+    pull_off_force: Option<Compared>,
+    first_touch_pull_off_force: Option<Compared>,
     dissipated_energy: Option<Compared>,
 }
 
 impl ComparedLoops {
     fn of(loops: &[LineLoop], squares: &[SquareResult]) -> Self {
         ComparedLoops {
-            adhesion_force: compared_loops(
-                loops.iter().map(|line| line.adhesion_force),
+            pull_off_force: compared_loops(
+                loops.iter().map(|line| line.pull_off_force),
                 squares,
-                |pulling| pulling.adhesion_force,
+                |pulling| pulling.pull_off_force,
             ),
-            first_touch_adhesion_force: compared_loops(
-                loops.iter().map(|line| line.first_touch_adhesion_force),
+            first_touch_pull_off_force: compared_loops(
+                loops.iter().map(|line| line.first_touch_pull_off_force),
                 squares,
                 |pulling| pulling.at_touch,
             ),
@@ -57,7 +57,7 @@ impl Comparison<'_> {
         let line_is_exact = self.resolved.line_is_exact && !own.is_full;
         let last = loading.last().filter(|last| last.force >= lines.preload);
         let headline = loops
-            .adhesion_force
+            .pull_off_force
             .as_ref()
             .or(last.map(|last| &last.indentation));
         if let (None, Some(left_out)) = (headline, left_out.last()) {
@@ -76,8 +76,8 @@ impl Comparison<'_> {
             compared_loading: [own.turn.stage(), Move::ToSeparation],
             preload: lines.preload,
             budget: ReferenceBudget::new(largest_residual(squares), headline, bodies),
-            adhesion_force: loops.adhesion_force,
-            first_touch_adhesion_force: loops.first_touch_adhesion_force,
+            pull_off_force: loops.pull_off_force,
+            first_touch_pull_off_force: loops.first_touch_pull_off_force,
             dissipated_energy: loops.dissipated_energy,
             loading,
             left_out,
@@ -92,7 +92,7 @@ impl Comparison<'_> {
 
     fn roughness(&self) -> Option<RoughnessOfBoth> {
         let body = &self.resolved.body;
-        let half_space = body.shells.as_ref()?.roughness(body.effective_modulus);
+        let half_space = body.shells.as_ref()?.roughness(body.modulus);
         Some(RoughnessOfBoth {
             line: self.resolved.line_roughness?,
             half_space,

@@ -32,8 +32,8 @@ pub(super) struct LineLoop {
     pub preload: f64,
     /// Distance in m between the indentations at the preload and at pull-off.
     pub depth: f64,
-    pub adhesion_force: Option<f64>,
-    pub first_touch_adhesion_force: Option<f64>,
+    pub pull_off_force: Option<f64>,
+    pub first_touch_pull_off_force: Option<f64>,
     pub dissipated_energy: Option<f64>,
 }
 
@@ -62,8 +62,8 @@ impl LineLoop {
         LineLoop {
             preload: outcome.figures.preload.unwrap_or(0.0),
             depth: depth(outcome),
-            adhesion_force: outcome.figures.adhesion_force,
-            first_touch_adhesion_force: outcome.first_touch_adhesion_force,
+            pull_off_force: outcome.figures.pull_off_force,
+            first_touch_pull_off_force: outcome.first_touch_pull_off_force,
             dissipated_energy: outcome.figures.dissipated_energy,
         }
     }
@@ -76,7 +76,7 @@ impl Comparison<'_> {
         let line = &self.resolved.line;
         let outcome = run(line, &mut self.resolved.simulation(), self.stop)?;
         let preload = outcome.figures.preload.unwrap_or(0.0);
-        let turning_point = Branch::preload(&outcome.history.legs);
+        let turning_point = Branch::preload(&outcome.history.stages);
         let Some((stage, largest)) = turning_point.filter(|_| preload > 0.0) else {
             let found = "the loading has no preload above 0 N";
             let allowed = "a loading to a force or an indentation before the separation";
@@ -170,7 +170,7 @@ impl Comparison<'_> {
             scene.loading = forces.iter().map(|force| Move::ToForce(*force)).collect();
         });
         let bare_scene = bare_scene.map_err(|errors| of_scene(errors.into()))?;
-        let modulus = self.resolved.body.effective_modulus;
+        let modulus = self.resolved.body.modulus;
         self.each_line(&bare_scene, passes, control, |outcome| {
             pressed_line(&outcome, modulus)
         })
@@ -186,7 +186,7 @@ impl Comparison<'_> {
         control: &mut Control<'_, ReferenceEvent>,
         figures: impl Fn(Outcome) -> F + Sync,
     ) -> Result<Vec<F>, StudyError> {
-        let lines = self.options.lines;
+        let lines = self.options.profiles;
         let figures = &figures;
         let worker = |sender: Sender<()>| {
             let mut simulation = self.resolved.simulation();
@@ -211,14 +211,14 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the adhesion force of each profile in N or, for a scene without adhesion, the
+    /// Returns the pull-off force of each profile in N or, for a scene without adhesion, the
     /// indentation of each profile at the preload in m.
     pub fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
             lines
                 .loops
                 .iter()
-                .filter_map(|line| line.adhesion_force)
+                .filter_map(|line| line.pull_off_force)
                 .collect()
         } else {
             lines
@@ -250,9 +250,9 @@ fn depth(outcome: &Outcome) -> f64 {
 /// Returns the state of a profile at the end of each stage of a loading without adhesion. `modulus`
 /// is E* in Pa.
 fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
-    let mut states = Vec::with_capacity(outcome.history.legs.len());
-    for leg in &outcome.history.legs {
-        let end = leg.curve.last().copied().unwrap_or_default();
+    let mut states = Vec::with_capacity(outcome.history.stages.len());
+    for stage in &outcome.history.stages {
+        let end = stage.curve.last().copied().unwrap_or_default();
         // Each spring in contact has the stiffness E* Δx, so the stiffness of the contact is E*
         // times the contact length.
         let stiffness = modulus * end.contact_length;

@@ -35,7 +35,7 @@ impl Reference {
         mut control: Control<'_, ReferenceEvent>,
     ) -> Result<Reference, StudyError> {
         StudyError::check_threads(control.threads())?;
-        if options.maps == 0 || options.lines == 0 {
+        if options.surfaces == 0 || options.profiles == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
         let resolved = Resolved::of(scene, options.cells, simulation)?;
@@ -43,8 +43,8 @@ impl Reference {
         let options = match seed {
             Some(_) => options,
             None => ReferenceOptions {
-                maps: 1,
-                lines: 1,
+                surfaces: 1,
+                profiles: 1,
                 ..options
             },
         };
@@ -70,9 +70,9 @@ impl Comparison<'_> {
         let own = self.own_loading()?;
         let time = self.estimate(&own, threads)?;
         let bytes = self.bytes_of_square() * threads as u64;
-        let seconds = time.of_squares(self.options.maps, threads);
+        let seconds = time.of_squares(self.options.surfaces, threads);
         control.report(ReferenceEvent::Begins {
-            maps: self.options.maps,
+            surfaces: self.options.surfaces,
             threads,
             bytes,
             seconds,

@@ -50,8 +50,8 @@ impl Comparison<'_> {
     /// time.
     pub fn threads_for_squares(&self) -> Result<usize, StudyError> {
         let bytes = self.bytes_of_square();
-        let maps = usize::try_from(self.options.maps).unwrap_or(usize::MAX);
-        for threads in (1..=self.threads.clamp(1, maps)).rev() {
+        let surfaces = usize::try_from(self.options.surfaces).unwrap_or(usize::MAX);
+        for threads in (1..=self.threads.clamp(1, surfaces)).rev() {
             if check_room(bytes.saturating_mul(threads as u64)).is_ok() {
                 return Ok(threads);
             }
@@ -70,11 +70,13 @@ impl Comparison<'_> {
 
     /// Estimates the computing time of the square surfaces. Returns an error if it is too long.
     pub fn estimate(&self, own: &OwnLoading, threads: usize) -> Result<SquareTime, StudyError> {
-        let ReferenceOptions { cells, maps, .. } = self.options;
+        let ReferenceOptions {
+            cells, surfaces, ..
+        } = self.options;
         let loading = self.square_loading(own.turn, own.preload, own.depth);
         let body = &self.resolved.body;
         let time = SquareTime::estimate(body, cells, self.seed, &loading, self.stop)?;
-        check_time(cells, maps, threads, &time)?;
+        check_time(cells, surfaces, threads, &time)?;
         Ok(time)
     }
 
@@ -94,7 +96,7 @@ impl Comparison<'_> {
                 Ok(square)
             }
         };
-        on_threads_received(self.options.maps, threads, worker, &mut |event| {
+        on_threads_received(self.options.surfaces, threads, worker, &mut |event| {
             control.report(event)
         })
     }
@@ -108,12 +110,14 @@ impl Comparison<'_> {
         time: &SquareTime,
         sender: &Sender<ReferenceEvent>,
     ) -> Result<SquareResult, StudyError> {
-        let ReferenceOptions { cells, maps, .. } = self.options;
+        let ReferenceOptions {
+            cells, surfaces, ..
+        } = self.options;
         let seed = self.seed.wrapping_add(map);
         let begun = Instant::now();
         let loaded = || {
             let _ = sender.send(ReferenceEvent::Loaded {
-                share: time.share_of_load(maps),
+                share: time.share_of_load(surfaces),
             });
         };
         let fine = self.resolved.body.load(

@@ -11,9 +11,9 @@ use asperity_scene::open;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-/// Returns the results on `lines` profiles and `maps` squares for a rough scene, some fields of
+/// Returns the results on `lines` profiles and `surfaces` squares for a rough scene, some fields of
 /// which are changed.
-fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
+fn population(fields: &[(&str, &str)], surfaces: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
     let scene = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../../docs/examples/rough-square.ron"
@@ -24,8 +24,8 @@ fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<Squ
     }
     let options = ReferenceOptions {
         cells: 32,
-        maps,
-        lines,
+        surfaces,
+        profiles: lines,
     };
     let resolved = Resolved::of(document.scene(), 32, &mut Simulation::default()).unwrap();
     let comparison = Comparison {
@@ -61,8 +61,8 @@ struct Population {
 
 /// Returns the values of the quantities that a comparison contains: with adhesion the results
 /// of the loop, without adhesion the indentation at the preload.
-fn populations(fields: &[(&str, &str)], maps: u64, count: u64) -> Vec<Population> {
-    let (lines, squares) = population(fields, maps, count);
+fn populations(fields: &[(&str, &str)], surfaces: u64, count: u64) -> Vec<Population> {
+    let (lines, squares) = population(fields, surfaces, count);
     let of_lines = |figure: fn(&LineLoop) -> Option<f64>| -> Vec<f64> {
         lines.loops.iter().filter_map(figure).collect()
     };
@@ -75,12 +75,12 @@ fn populations(fields: &[(&str, &str)], maps: u64, count: u64) -> Vec<Population
     let mut all = vec![
         Population {
             quantity: "F_a",
-            lines: of_lines(|line| line.adhesion_force),
-            squares: of_squares(|pulling| pulling.adhesion_force),
+            lines: of_lines(|line| line.pull_off_force),
+            squares: of_squares(|pulling| pulling.pull_off_force),
         },
         Population {
             quantity: "touch",
-            lines: of_lines(|line| line.first_touch_adhesion_force),
+            lines: of_lines(|line| line.first_touch_pull_off_force),
             squares: of_squares(|pulling| pulling.at_touch),
         },
         Population {

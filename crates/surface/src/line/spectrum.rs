@@ -258,8 +258,8 @@ impl Amplitude {
     /// let expected = 1e6 * TAU / 1e-6 * 1e-18 / 4.0;
     /// assert!((wave.elastic_energy(1e6) / expected - 1.0).abs() < 1e-12);
     /// ```
-    pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
-        effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
+    pub fn elastic_energy(&self, modulus: f64) -> f64 {
+        modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
     }
 }
 

@@ -8,9 +8,9 @@ use asperity_contact::Patch;
 /// Points of a stretch of levels at which the rule is evaluated before bisection.
 const POINTS: usize = 24;
 
-/// A fragment: the component of {c ≤ level} that holds a spring.
+/// A patch: the component of {c ≤ level} that holds a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Fragment {
+struct LevelPatch {
     spring: usize,
     level: f64,
 }
@@ -38,25 +38,23 @@ pub struct Relaxed<'a> {
     stiffness: f64,
     /// m
     spacing: f64,
-    /// Largest stretch of a fragment one cell long before it grows, m.
+    /// Largest stretch of a patch one cell long before it grows, m.
     closing: f64,
-    /// Largest stretch of a fragment one cell long before it recedes, m.
+    /// Largest stretch of a patch one cell long before it recedes, m.
     opening: f64,
     indentation: f64,
-    fragments: Vec<Fragment>,
+    patches: Vec<LevelPatch>,
 }
 
 impl<'a> Relaxed<'a> {
     pub fn new(body: &'a Body) -> Self {
         let Foundation {
-            spacing,
-            effective_modulus,
-            ..
+            spacing, modulus, ..
         } = body.foundation;
         let [closing, opening] = [body.closing_work, body.work]
-            .map(|work| (std::f64::consts::PI * spacing * work / effective_modulus).sqrt());
-        let stiffness = effective_modulus * spacing;
-        let (gaps, fragments) = (body.gaps.as_slice(), Vec::new());
+            .map(|work| (std::f64::consts::PI * spacing * work / modulus).sqrt());
+        let stiffness = modulus * spacing;
+        let (gaps, patches) = (body.gaps.as_slice(), Vec::new());
         Relaxed {
             gaps,
             stiffness,
@@ -64,7 +62,7 @@ impl<'a> Relaxed<'a> {
             closing,
             opening,
             indentation: 0.0,
-            fragments,
+            patches,
         }
     }
 
@@ -128,7 +126,7 @@ impl<'a> Relaxed<'a> {
 
     pub fn move_to(&mut self, indentation: f64) {
         let from = std::mem::replace(&mut self.indentation, indentation);
-        if indentation > from || (self.fragments.is_empty() && indentation >= 0.0) {
+        if indentation > from || (self.patches.is_empty() && indentation >= 0.0) {
             self.press();
         } else if indentation < from {
             self.pull();
@@ -137,19 +135,19 @@ impl<'a> Relaxed<'a> {
 
     fn press(&mut self) {
         let d = self.indentation;
-        for fragment in &mut self.fragments {
-            fragment.level = fragment.level.max(d);
+        for patch in &mut self.patches {
+            patch.level = patch.level.max(d);
         }
         for (spring, &gap) in self.gaps.iter().enumerate() {
             if gap <= d {
-                self.fragments.push(Fragment { spring, level: d });
+                self.patches.push(LevelPatch { spring, level: d });
             }
         }
         self.merge();
         loop {
-            let before = self.fragments.clone();
-            for index in 0..self.fragments.len() {
-                let Fragment { spring, mut level } = self.fragments[index];
+            let before = self.patches.clone();
+            for index in 0..self.patches.len() {
+                let LevelPatch { spring, mut level } = self.patches[index];
                 while let Some(next) = self.next_gap(level) {
                     let grown = self.grow(spring, level, next);
                     if grown == level {
@@ -160,16 +158,16 @@ impl<'a> Relaxed<'a> {
                         break;
                     }
                 }
-                self.fragments[index].level = level;
+                self.patches[index].level = level;
             }
             self.merge();
-            if self.fragments == before {
+            if self.patches == before {
                 return;
             }
         }
     }
 
-    /// The level to which a fragment grows, up to the next spring's gap.
+    /// The level to which a patch grows, up to the next spring's gap.
     fn grow(&self, spring: usize, level: f64, next: f64) -> f64 {
         let holds = |at: f64| self.rest(self.closing, spring, at, at < next) <= self.indentation;
         let point = |k: usize| {
@@ -190,41 +188,37 @@ impl<'a> Relaxed<'a> {
         next
     }
 
-    /// Drops fragments within another one.
+    /// Drops patches within another one.
     fn merge(&mut self) {
         let parts: Vec<Part> = self.parts().map(|(_, part)| part).collect();
         let is_within = |a: usize, b: usize| {
             let (inner, outer) = (parts[a], parts[b]);
             if (inner.first, inner.last) == (outer.first, outer.last) {
-                let (inner, outer) = (self.fragments[a].level, self.fragments[b].level);
+                let (inner, outer) = (self.patches[a].level, self.patches[b].level);
                 return outer > inner || (outer == inner && b < a);
             }
             outer.first <= inner.first && inner.last <= outer.last
         };
         let stays = |a: usize| !(0..parts.len()).any(|b| a != b && is_within(a, b));
-        self.fragments = (0..parts.len())
+        self.patches = (0..parts.len())
             .filter(|&a| stays(a))
-            .map(|a| self.fragments[a])
+            .map(|a| self.patches[a])
             .collect();
     }
 
     fn pull(&mut self) {
         // A part that a spring has just left no longer reaches up to the gap of that spring.
-        let mut waiting: Vec<_> = self
-            .fragments
-            .drain(..)
-            .map(|fragment| (fragment, true))
-            .collect();
-        while let Some((Fragment { spring, level }, closed)) = waiting.pop() {
+        let mut waiting: Vec<_> = self.patches.drain(..).map(|patch| (patch, true)).collect();
+        while let Some((LevelPatch { spring, level }, closed)) = waiting.pop() {
             let below = self.last_gap(level, closed);
             let stop = below.max(self.indentation);
             match self.sink(spring, level, stop, closed) {
-                Some(level) => self.fragments.push(Fragment { spring, level }),
-                // An unstretched fragment stays.
+                Some(level) => self.patches.push(LevelPatch { spring, level }),
+                // An unstretched patch stays.
                 None if below <= self.indentation => {
                     let part = self.part(spring, level, closed);
                     let held = (part.first..=part.last).find(|&spring| self.gaps[spring] <= stop);
-                    self.fragments.extend(held.map(|spring| Fragment {
+                    self.patches.extend(held.map(|spring| LevelPatch {
                         spring,
                         level: stop,
                     }));
@@ -239,7 +233,7 @@ impl<'a> Relaxed<'a> {
                     let starts = (part.first..=part.last).filter(|&spring| starts(spring));
                     waiting.extend(starts.map(|spring| {
                         (
-                            Fragment {
+                            LevelPatch {
                                 spring,
                                 level: below,
                             },
@@ -251,7 +245,7 @@ impl<'a> Relaxed<'a> {
         }
     }
 
-    /// The level down to which a fragment sinks, above `stop`; `None` if it sinks to `stop`.
+    /// The level down to which a patch sinks, above `stop`; `None` if it sinks to `stop`.
     fn sink(&self, spring: usize, level: f64, stop: f64, closed: bool) -> Option<f64> {
         let rest = |at: f64| self.rest(self.opening, spring, at, closed || at < level);
         if rest(level) < self.indentation {
@@ -273,7 +267,7 @@ impl<'a> Relaxed<'a> {
         Some(bisect(lowest, level, |at| rest(at) >= self.indentation).0)
     }
 
-    /// First and last spring of each fragment.
+    /// First and last spring of each patch.
     pub fn contacts(&self) -> Vec<Patch> {
         let mut contacts: Vec<_> = self
             .parts()
@@ -287,7 +281,7 @@ impl<'a> Relaxed<'a> {
     }
 
     fn parts(&self) -> impl Iterator<Item = (f64, Part)> {
-        self.fragments
+        self.patches
             .iter()
             .map(|one| (one.level, self.part(one.spring, one.level, true)))
     }

@@ -61,12 +61,12 @@ impl Specimen<'_> {
         let seed = seed_of(self.scene, line);
         let scene = self.scene.with_seed(seed);
         let (bare, _) = simulation.contact(&scene)?;
-        let modulus = Modulus::effective(bare.effective_modulus())?;
+        let modulus = Modulus::effective(bare.modulus_in_pascals())?;
         let protocol = &self.protocols[line as usize % self.protocols.len()];
         let mut noise = Noise::new(seed, protocol);
         let mut all = Vec::with_capacity(ranges.len() * moduli.len());
         for range in ranges {
-            let work = range.exp() * bare.effective_modulus();
+            let work = range.exp() * bare.modulus_in_pascals();
             let contact = bare
                 .with(modulus)
                 .works_of_adhesion([self.closing * work, work])
@@ -79,7 +79,7 @@ impl Specimen<'_> {
                 if (self.stop)() {
                     return Err(ContactError::Interrupted.into());
                 }
-                let scale = modulus.exp() / contact.effective_modulus();
+                let scale = modulus.exp() / contact.modulus_in_pascals();
                 let force_loop = ForceLoop {
                     stiffness: self.stiffness / scale,
                     scale,
@@ -186,7 +186,7 @@ impl ForceLoop<'_> {
         let least_force = LEAST_TURN * protocol.preload;
         let turning_force = (protocol.preload + preload_error).max(least_force);
         body.move_to(Move::ToForce(turning_force / self.scale))?;
-        let approach = body.leg();
+        let approach = body.stage();
         let turn = body.point().indentation;
         let retraction = approach.turn(turn)?;
         let sampling = Sampling {

@@ -149,7 +149,7 @@ fn compare(
         computed: &computed,
         report,
     };
-    let known = (!options.is_modulus_free).then(|| governing.effective_modulus.ln());
+    let known = (!options.is_modulus_free).then(|| governing.modulus.ln());
     let centre = placed(&workers, &measured, &governing, known)?;
     let mut table = first_table(&workers, centre, known, options.lines)?;
     let predictions = grown_predictions(&mut table, &workers, &measured, known)?;

@@ -44,7 +44,7 @@ pub(crate) fn placed(
         None => 0.0,
     };
     let largest_range = largest_range.max(f64::MIN_POSITIVE).ln();
-    let modulus = governing.effective_modulus.ln();
+    let modulus = governing.modulus.ln();
     let mut low = largest_range - HIGHEST_KAPPA.powi(2).ln();
     let mut soft = COARSE_MODULI.first_around(modulus);
     for moves_left in (0..MOST_MOVES).rev() {

@@ -40,7 +40,7 @@ fn problem(amplitude: f64, work: f64, deepest: f64) -> Problem {
 
 /// Errors of the smallest force, of the place of separation and of the energy.
 fn errors(problem: &Problem, expected: [f64; 3], edges: Edges, points: usize) -> [f64; 3] {
-    let [loading, unloading] = problem.legs(edges, points);
+    let [loading, unloading] = problem.stages(edges, points);
     let energy = loading.released_energy + unloading.released_energy;
     let found = [unloading.smallest.force, unloading.end(), energy];
     std::array::from_fn(|index| (found[index] / expected[index] - 1.0).abs())
@@ -96,8 +96,8 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
         (&again, 1),
         (&exact.unloading, 1),
     ];
-    let pull_off = -history.legs[3].smallest.force;
-    for (record, (path, most)) in history.legs.iter().zip(paths) {
+    let pull_off = -history.stages[3].smallest.force;
+    for (record, (path, most)) in history.stages.iter().zip(paths) {
         let (mut jumps, mut followed, mut before) = (0, 0, None);
         for point in record.curve.iter().filter(|point| point.springs > 0) {
             let (d, found) = (point.indentation, 0.5 * point.contact_length);
@@ -129,7 +129,7 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
         assert_eq!(jumps, most, "{:?}", record.target);
         assert!(followed > 300, "{:?}: {followed} points", record.target);
     }
-    assert!(end(&history.legs[3]).springs == 0);
+    assert!(end(&history.stages[3]).springs == 0);
 }
 
 /// Where the profile falls behind a crest the rule of Hess detaches earlier than JKR. Both figures
@@ -181,7 +181,7 @@ fn steep_waves_of_a_scene_agree_with_the_closed_form() {
         );
         let fields = [
             ("form", form),
-            ("material", "(effective_modulus: 1.0e6)".to_owned()),
+            ("material", "(modulus: 1.0e6)".to_owned()),
             ("adhesion", format!("(work: {work:?})")),
             ("length", "1.0".to_owned()),
         ];

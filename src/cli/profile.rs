@@ -1,4 +1,4 @@
-//! `asperity line`: writes the rigid profile of a scene.
+//! `asperity profile`: writes the rigid profile of a scene.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES, only_formats};
@@ -9,22 +9,25 @@ use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity line profile-hurst-025 > profile.csv
-  asperity line profile-hurst-025 --set numerics.points=65536 -o finer.csv
-  asperity line profile-hurst-025 -o profile.npy
+  asperity profile profile-hurst-025 > profile.csv
+  asperity profile profile-hurst-025 --set numerics.points=65536 -o finer.csv
+  asperity profile profile-hurst-025 -o profile.npy
 
 The finer profile is the same profile: a wave keeps its phase on every grid.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(only_formats(TABLES)))]
-pub struct LineArguments {
+pub struct ProfileTableArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn profile(
+    arguments: &ProfileTableArguments,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let format = arguments.output.format(TABLES, Format::Csv)?;
     let document = arguments.scene.open()?;
     warn(&document, &document.scene().warnings());

@@ -1,12 +1,12 @@
-//! Jumps of a leg: which patches change, how many springs attach or detach, and which elastic
+//! Jumps of a stage: which patches change, how many springs attach or detach, and which elastic
 //! energy the springs gain or release.
 
-use super::{Leg, Patches};
+use super::{Patches, Stage};
 use crate::adhesive::jumps::{Boundary, PatchJump};
 use crate::adhesive::levels::Edges;
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
-use crate::history::{Direction, LegRecord, Patch};
+use crate::history::{Direction, Patch, StageRecord};
 
 /// A jump of the contact: at one indentation, several springs of a patch attach or detach together.
 ///
@@ -27,13 +27,13 @@ use crate::history::{Direction, LegRecord, Patch};
 ///     .build()?;
 /// let mut body = Body::new(&contact, 2);
 /// let loading = body.move_to(Move::ToIndentation(1.0e-6))?.expect("a way to go");
-/// let jumps = loading.leg.jumps(f64::NEG_INFINITY, loading.high)?;
+/// let jumps = loading.stage.jumps(f64::NEG_INFINITY, loading.high)?;
 /// // Under so much adhesion the first touch is full contact.
 /// assert_eq!((jumps.len(), jumps[0].kind, jumps[0].springs), (1, JumpKind::Touches, 20));
 /// // The springs have 1 N/m, and ∫ c² dx over the groove and its two sides is 3 + 2/3 µm².
 /// let energy = 0.5 * (3.0 + 2.0 / 3.0) * 1.0e-12;
 /// assert!((jumps[0].energy / energy - 1.0).abs() < 1e-9);
-/// assert_eq!(loading.leg.forces_at_jumps(&jumps)?[0][0], 0.0);
+/// assert_eq!(loading.stage.forces_at_jumps(&jumps)?[0][0], 0.0);
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +138,7 @@ impl Jump {
     pub const LEAST_SPRINGS: i32 = 4;
 }
 
-impl LegRecord {
+impl StageRecord {
     /// Returns the range of indentations in m that this motion passes, such that the events above
     /// the first and up to the second happen on the motion. The first is −∞ if the body touches or
     /// separates on the motion, because this happens at its end or just below it.
@@ -156,7 +156,7 @@ impl LegRecord {
     }
 }
 
-impl Leg {
+impl Stage {
     /// Returns the jumps of the contact at indentations above `low` and up to `high` (m), in the
     /// order of the motion. In a jump at least [`Jump::LEAST_SPRINGS`] springs of a patch attach or
     /// detach. The list is empty without adhesion, because springs then touch without a stretch.

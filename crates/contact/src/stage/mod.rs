@@ -1,4 +1,4 @@
-//! A leg: the contact at all indentations of a motion in one direction.
+//! A stage: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::Runs;
 use super::adhesive::levels::{EdgeCell, EdgeCells, Edges, Slider, Span};
@@ -13,12 +13,12 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// A motion of a contact in one direction. A leg gives the springs in contact, the force and the
+/// A motion of a contact in one direction. A stage gives the springs in contact, the force and the
 /// energy at each indentation of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
-/// use asperity_contact::motion::Leg;
+/// use asperity_contact::motion::Stage;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -27,14 +27,14 @@ use std::sync::Arc;
 /// #     .build()?;
 /// // Approach, and turn at an indentation of 100 nm: in one piece the contact returns along the
 /// // same curve.
-/// let loading = Leg::approach(&contact)?;
+/// let loading = Stage::approach(&contact)?;
 /// let unloading = loading.turn(1.0e-7)?;
 /// let [up, down] = [loading.point(0.5e-7)?, unloading.point(0.5e-7)?];
 /// assert!((up.force - down.force).abs() <= 1e-12 * up.force.abs());
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct Stage {
     contact: Contact,
     direction: Direction,
     patches: Patches,
@@ -99,17 +99,17 @@ struct PinnedPatch {
     pin: Option<f64>,
 }
 
-/// Evaluates an expression with the runs of a leg, the patches over ranges of indentations in which
+/// Evaluates an expression with the runs of a stage, the patches over ranges of indentations in which
 /// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
 macro_rules! along_runs {
-    ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
-        match $leg.contact.edges {
+    ($stage:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
+        match $stage.contact.edges {
             Edges::Grid => {
-                let $along = $leg.along::<false>($tree, $runs);
+                let $along = $stage.along::<false>($tree, $runs);
                 $value
             }
             Edges::SubCell => {
-                let $along = $leg.along::<true>($tree, $runs);
+                let $along = $stage.along::<true>($tree, $runs);
                 $value
             }
         }
@@ -119,8 +119,8 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 pub(crate) mod jumps;
 
-impl Leg {
-    /// Adds the computing work for this leg to the counts in `work`: the pass over the contact tree
+impl Stage {
+    /// Adds the computing work for this stage to the counts in `work`: the pass over the contact tree
     /// and the evaluations of the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
@@ -138,7 +138,7 @@ impl Leg {
 
     /// Creates a motion in which the body touches no spring.
     pub fn apart(contact: &Contact, direction: Direction) -> Self {
-        Leg {
+        Stage {
             contact: contact.clone(),
             direction,
             patches: Patches::Springs(Arc::default()),
@@ -148,19 +148,19 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring has a threshold: the smallest indentation in m at which
+    /// Creates a stage on which each spring has a threshold: the smallest indentation in m at which
     /// the spring is in contact. The threshold is −∞ for a spring that is always in contact, and +∞
-    /// for a spring that is never in contact. The leg is known up to the indentation `end` in m.
+    /// for a spring that is never in contact. The stage is known up to the indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
         end: f64,
         thresholds: Vec<f64>,
     ) -> Self {
-        Leg {
+        Stage {
             patches: Patches::Springs(Arc::new(thresholds)),
             end,
-            ..Leg::apart(&contact.of_whole_springs(), direction)
+            ..Stage::apart(&contact.of_whole_springs(), direction)
         }
     }
 
@@ -169,20 +169,20 @@ impl Leg {
             Direction::Loading => contact.profile.deepest(),
             Direction::Unloading => 0.0,
         };
-        Leg {
+        Stage {
             patches: Patches::Springs(Arc::clone(&contact.profile.springs.gaps)),
             end,
-            ..Leg::apart(contact, direction)
+            ..Stage::apart(contact, direction)
         }
     }
 
     /// Computes the loading that begins with a separated body.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if !contact.has_adhesion() {
-            return Ok(Leg::without_adhesion(contact, Direction::Loading));
+            return Ok(Stage::without_adhesion(contact, Direction::Loading));
         }
         let tree = contact.profile.springs.tree(contact.edges)?;
-        Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
+        Stage::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
     /// Computes the motion in the opposite direction. The new motion begins at `indentation` in m,
@@ -198,17 +198,17 @@ impl Leg {
         };
         self.refuse_stepwise()?;
         match &self.patches {
-            Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
+            Patches::Springs(_) => Ok(Stage::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
                 let held: Vec<HeldPatch> = along_runs!(self, tree, runs, along => along
                     .held_at(indentation, self.pins())
                     .collect());
-                Leg::apart(&self.contact, direction).list(tree, &held, indentation)
+                Stage::apart(&self.contact, direction).list(tree, &held, indentation)
             }
         }
     }
 
-    /// Lists the runs of this leg. `held` are the patches in contact where the leg begins, at the
+    /// Lists the runs of this stage. `held` are the patches in contact where the stage begins, at the
     /// indentation `from` in m.
     fn list(
         self,
@@ -228,7 +228,7 @@ impl Leg {
             }
             Direction::Unloading => along.ground.open(held, from)?,
         });
-        Ok(Leg {
+        Ok(Stage {
             patches: Patches::Runs(Arc::clone(tree), Arc::new(listed.runs)),
             end: listed.end,
             evaluations: evaluations_of_closing + listed.evaluations,
@@ -243,7 +243,7 @@ impl Leg {
         self.contact.has_adhesion() && !thresholds.is_empty()
     }
 
-    /// Returns an error if the leg belongs to the stepwise solver, because such a leg is known only
+    /// Returns an error if the stage belongs to the stepwise solver, because such a stage is known only
     /// at its steps.
     pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
         if self.is_stepwise() {
@@ -253,7 +253,7 @@ impl Leg {
         }
     }
 
-    /// Returns the contact whose motion this leg describes.
+    /// Returns the contact whose motion this stage describes.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
@@ -268,7 +268,7 @@ impl Leg {
     ///
     /// * on loading, the smallest indentation with all springs in contact;
     /// * on unloading, the smallest indentation with any spring in contact;
-    /// * for a leg of the stepwise solver, the indentation that the solver has reached.
+    /// * for a stage of the stepwise solver, the indentation that the solver has reached.
     pub fn end(&self) -> f64 {
         self.end
     }

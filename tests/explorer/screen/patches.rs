@@ -5,11 +5,11 @@ use asperity::contact::Patch;
 use asperity::explorer::snapshot::PatchFacts;
 
 #[test]
-fn the_close_up_goes_round_all_fragments() {
+fn the_close_up_goes_round_all_patches() {
     let mut driver = Driver::start(rough());
     driver.press(">");
-    let count = driver.point().fragments as usize;
-    assert!(count > 3, "{count} fragments");
+    let count = driver.point().patches as usize;
+    assert!(count > 3, "{count} patches");
     for closer in ["", "+ +", "- - - -"] {
         driver.press(closer);
         for key in ["n", "p"] {
@@ -34,12 +34,12 @@ fn the_close_up_goes_round_all_fragments() {
 }
 
 #[test]
-fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
+fn a_moment_on_its_way_does_not_take_the_chosen_patch_away() {
     let mut driver = pressed("");
     let number = |driver: &Driver| driver.snapshot().close_up.patch.unwrap().number;
     let before = driver.snapshot().clone();
     let first = number(&driver);
-    // The fragment is requested just after a snapshot requested by the animation.
+    // The patch is requested just after a snapshot requested by the animation.
     let effects = driver.update("next-patch");
     assert_eq!(effects, [Task::Ask]);
     driver.act(Action::Reply(Reply::Shown(before.into())));
@@ -50,7 +50,7 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
 }
 
 /// Contact patches, from a picture with a column for each spring.
-fn fragments(driver: &mut Driver) -> Vec<Patch> {
+fn patches(driver: &mut Driver) -> Vec<Patch> {
     let (size, pane) = (driver.app.view.size, driver.app.view.pane);
     driver.app.view.pane = Pane::Profile;
     driver.press("z");
@@ -70,7 +70,7 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
 fn the_close_up_holds_the_whole_patch_and_both_its_ends() {
     for keys in ["", ". . . . . . . .", "> . . ."] {
         let mut driver = pressed(keys);
-        let all = fragments(&mut driver);
+        let all = patches(&mut driver);
         assert!(all.len() > 3, "{all:?}");
         let (mut seen, mut forces) = (Vec::new(), Vec::new());
         for _ in 0..all.len() {

@@ -1,16 +1,16 @@
-//! Table of the stages in which a scene is computed.
+//! Table of the parts of the computation of a scene.
 
 use crate::sheet::Sheet;
 use asperity_data::{counted, grouped, memory_size};
-use asperity_scene::stages::{PlannedStage, Workload};
+use asperity_scene::workload::{PlannedPart, Workload};
 
-/// Returns a table of the stages in which the program computes a scene, such as the stage that
-/// makes the profile. Each row has the number of passes over the springs, an upper bound of the
-/// number of springs visited in all passes, the memory that the stage needs, and the reason why the
-/// stage is computed or skipped.
-pub fn stages_text(plan: &Workload) -> String {
-    let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
-    rows.extend(plan.stages.iter().map(row));
+/// Returns a table of the parts of the computation of a scene, such as the part that makes the
+/// profile. Each row has the number of passes over the springs, an upper bound of the number of
+/// springs visited in all passes, the memory that the part needs, and the reason why the part is
+/// computed or skipped.
+pub fn parts_text(plan: &Workload) -> String {
+    let mut rows = vec![["part", "passes", "springs", "memory", "because"].map(String::from)];
+    rows.extend(plan.parts.iter().map(row));
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let springs = counted(plan.springs, "spring");
@@ -22,7 +22,7 @@ pub fn stages_text(plan: &Workload) -> String {
     sheet.into_text()
 }
 
-fn row(planned: &PlannedStage) -> [String; 5] {
+fn row(planned: &PlannedPart) -> [String; 5] {
     let passes = match planned.passes {
         _ if !planned.runs => "skipped".to_owned(),
         None => "per stage".to_owned(),
@@ -38,7 +38,7 @@ fn row(planned: &PlannedStage) -> [String; 5] {
         bytes => memory_size(bytes),
     };
     [
-        planned.stage.name().into(),
+        planned.part.name().into(),
         passes,
         springs,
         memory,

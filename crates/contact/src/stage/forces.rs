@@ -1,5 +1,5 @@
-//! Forces and energies of a leg: on a grid of indentations, at the extremes of the force, and at
-//! the indentation at which the force reaches a value. A leg is the contact at all indentations of
+//! Forces and energies of a stage: on a grid of indentations, at the extremes of the force, and at
+//! the indentation at which the force reaches a value. A stage is the contact at all indentations of
 //! a motion in one direction.
 //!
 //! An event is an indentation at which springs attach or detach in a jump. While the indentation d
@@ -9,7 +9,7 @@
 //! difference of the two indentations. A search examines only those intervals whose bounds allow
 //! the sought force.
 
-use super::{Leg, Patches};
+use super::{Patches, Stage};
 use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
 use crate::detachment::ContactRule;
@@ -35,7 +35,7 @@ pub(crate) struct SeparatedEnds {
     pub at_end: bool,
 }
 
-impl Leg {
+impl Stage {
     /// Returns the point of the force curve of this motion at an indentation in m.
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
         Ok(self.state(indentation)?.point(self.contact.foundation))
@@ -62,7 +62,7 @@ impl Leg {
     }
 
     /// Converts a sum of squared stretches in m² to the energy in J that springs release on this
-    /// leg. The sum is over springs that attach or detach, each with its stretch at this moment.
+    /// stage. The sum is over springs that attach or detach, each with its stretch at this moment.
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // 0.0 − energy instead of −energy, so that an energy of zero is not −0.
@@ -77,12 +77,12 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// Returns the leg together with the instrument, which counts as springs parallel to the
+    /// Returns the stage together with the instrument, which counts as springs parallel to the
     /// contact. Their common force is k D with D = d + F/k. If the instrument is rigid, its
     /// displacement is the indentation, and no springs are added.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
-        Leg {
+        Stage {
             instrument: if springs.is_infinite() { 0.0 } else { springs },
             ..self.clone()
         }
@@ -122,9 +122,9 @@ impl Leg {
         sampled: &[ContactState],
         work: &mut Work,
     ) -> Result<ContactState, ContactError> {
-        let leg = self.with_instrument();
-        let sampled = leg.beside_instrument(sampled);
-        self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
+        let stage = self.with_instrument();
+        let sampled = stage.beside_instrument(sampled);
+        self.state(stage.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
     /// Adds the springs that represent the instrument to the states of the contact.
@@ -144,15 +144,15 @@ impl Leg {
         separated: SeparatedEnds,
         extreme: &mut Option<f64>,
     ) -> f64 {
-        let leg = self.with_instrument();
-        if leg.instrument == 0.0 || !self.contact.has_adhesion() {
+        let stage = self.with_instrument();
+        if stage.instrument == 0.0 || !self.contact.has_adhesion() {
             return 0.0;
         }
-        let sampled = leg.beside_instrument(sampled);
+        let sampled = stage.beside_instrument(sampled);
         let low = sampled[0];
         let high = sampled[sampled.len() - 1];
         let begin = match self.direction {
-            Direction::Loading if separated.at_begin => leg.instrument * low.indentation,
+            Direction::Loading if separated.at_begin => stage.instrument * low.indentation,
             Direction::Loading => low.compression,
             Direction::Unloading => high.compression,
         };
@@ -162,14 +162,14 @@ impl Leg {
         match self.direction {
             Direction::Loading => {
                 for pairs in pairs.chunks(AT_ONCE) {
-                    for interval in &leg.events(pairs, &mut Work::default()) {
+                    for interval in &stage.events(pairs, &mut Work::default()) {
                         area.add(interval.jumped_on_loading(&mut reached));
                     }
                 }
             }
             Direction::Unloading => {
                 for pairs in pairs.rchunks(AT_ONCE) {
-                    for interval in leg.events(pairs, &mut Work::default()).iter().rev() {
+                    for interval in stage.events(pairs, &mut Work::default()).iter().rev() {
                         area.add(interval.jumped_on_unloading(&mut reached));
                     }
                 }
@@ -178,8 +178,8 @@ impl Leg {
         // After the contact is lost, the instrument relaxes until no force deflects it. The energy
         // of this last jump also counts.
         if separated.at_end {
-            let free = low.indentation - reached / leg.instrument;
-            area.add(0.5 * leg.instrument * free.max(0.0) * free);
+            let free = low.indentation - reached / stage.instrument;
+            area.add(0.5 * stage.instrument * free.max(0.0) * free);
         }
         *extreme = Some(reached);
         self.contact.foundation.spring_stiffness() * area.total()
@@ -230,8 +230,8 @@ impl Leg {
         Ok(indentation)
     }
 
-    /// Computes the contact of this leg at the points of a grid of indentations. If a search uses
-    /// the leg, the result includes the springs that represent the instrument.
+    /// Computes the contact of this stage at the points of a grid of indentations. If a search uses
+    /// the stage, the result includes the springs that represent the instrument.
     pub(crate) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
@@ -278,17 +278,17 @@ impl Leg {
     }
 
     /// Finds the contact with the extreme force between the first and the last point of a sampled
-    /// leg.
+    /// stage.
     pub(crate) fn extreme(
         &self,
         extreme: Extreme,
-        leg: &[ContactState],
+        stage: &[ContactState],
         work: &mut Work,
     ) -> ContactState {
-        let mut best = extreme.among(leg);
+        let mut best = extreme.among(stage);
         // Without adhesion the force never falls, so an extreme lies at one of the sampled points.
         if self.contact.has_adhesion() {
-            let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
+            let chosen = intervals(stage, |low, high| extreme.may_lie(low, high, &best));
             for interval in &self.events(&chosen, work) {
                 interval.extreme(extreme, &mut best);
             }
@@ -306,10 +306,10 @@ impl Leg {
     ) -> Result<ContactState, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let best = Extreme::Smallest.among(&coarse);
-        let leg = self.refined(grid, coarse, |low, high| {
+        let stage = self.refined(grid, coarse, |low, high| {
             Extreme::Smallest.may_lie(low, high, &best)
         })?;
-        Ok(self.extreme(Extreme::Smallest, &leg, work))
+        Ok(self.extreme(Extreme::Smallest, &stage, work))
     }
 
     /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is
@@ -326,11 +326,11 @@ impl Leg {
         };
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let first_of_coarse = first_point_at_least(&coarse, wanted);
-        let leg = self.refined(grid, coarse, |low, high| {
+        let stage = self.refined(grid, coarse, |low, high| {
             may_lie(first_of_coarse, low, high)
         })?;
-        let first = first_point_at_least(&leg, wanted);
-        let chosen = intervals(&leg, |low, high| may_lie(first, low, high));
+        let first = first_point_at_least(&stage, wanted);
+        let chosen = intervals(&stage, |low, high| may_lie(first, low, high));
         for interval in &self.events(&chosen, work) {
             if let Some(indentation) = interval.first_at_least(wanted) {
                 return Ok(Some(indentation));
@@ -362,12 +362,12 @@ impl Leg {
         Ok(coarse)
     }
 
-    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the
+    /// Finds the largest indentation in m, between the ends of a sampled stage, at which the
     /// compression is at most `wanted` in m. Returns `None` if there is none.
-    fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
-        let last = leg.iter().rfind(|state| state.compression <= wanted);
+    fn last_at_most(&self, stage: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
+        let last = stage.iter().rfind(|state| state.compression <= wanted);
         let last = last.map(|state| state.indentation);
-        let chosen = intervals(leg, |low, high| {
+        let chosen = intervals(stage, |low, high| {
             low.indentation >= last.unwrap_or(f64::NEG_INFINITY) && lower_bound(low, high) <= wanted
         });
         for interval in self.events(&chosen, work).iter().rev() {
@@ -379,9 +379,9 @@ impl Leg {
     }
 }
 
-/// Returns the smallest indentation in m among the points of a sampled leg at which the compression
+/// Returns the smallest indentation in m among the points of a sampled stage at which the compression
 /// is at least `wanted` in m. Returns `None` if no point has this compression.
-fn first_point_at_least(leg: &[ContactState], wanted: f64) -> Option<f64> {
-    let first = leg.iter().find(|state| state.compression >= wanted)?;
+fn first_point_at_least(stage: &[ContactState], wanted: f64) -> Option<f64> {
+    let first = stage.iter().find(|state| state.compression >= wanted)?;
     Some(first.indentation)
 }
