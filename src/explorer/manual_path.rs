@@ -3,7 +3,6 @@
 //! scene changes.
 
 use super::player::{At, Player};
-use super::snapshot::FollowedPath;
 use asperity_contact::{Move, StageRecord};
 use asperity_data::format_rounded;
 use asperity_scene::loading::loading_text;
@@ -89,12 +88,12 @@ impl ManualPath {
         }
     }
 
-    /// Returns the part of this path that ends at a position of the animation. `followed` is the
-    /// path as the body has followed it. Before the first move, the part is a path without moves
-    /// that starts at this position.
-    pub fn until(&self, player: Player, followed: &FollowedPath) -> Self {
-        let indentation = player.indentation(&followed.stages);
-        let Some(moves) = player.stage.checked_sub(followed.before) else {
+    /// Returns the part of this path that ends at a position of the animation. `stages` are the
+    /// records of the path, of which the first `before` lead to its start. Before the first move,
+    /// the part is a path without moves that starts at this position.
+    pub fn until(&self, player: Player, stages: &[StageRecord], before: usize) -> Self {
+        let indentation = player.indentation(stages);
+        let Some(moves) = player.stage.checked_sub(before) else {
             // The stages before the start are those of the scene, the last one perhaps in part.
             let is_whole_stage = player.stage < self.start.stage;
             let at = match player.at {

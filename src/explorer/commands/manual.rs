@@ -83,7 +83,10 @@ fn present_path(app: &App) -> Option<ManualPath> {
         return new_path(app);
     };
     match app.play_of_path {
-        Some(player) => Some(path.until(player, app.followed()?)),
+        Some(player) => {
+            let followed = app.followed()?;
+            Some(path.until(player, &followed.stages, followed.before))
+        }
         None => Some(ManualPath::clone(path)),
     }
 }
