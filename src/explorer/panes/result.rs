@@ -257,7 +257,11 @@ fn largest_error(rows: &[(&str, String)]) -> Option<String> {
     let source = largest.split(':').next().unwrap_or(largest);
     let words = sources.iter().find(|(name, _)| *name == source);
     Some(match words {
-        Some((_, words)) => format!("{source} {words}"),
+        Some((_, words)) => {
+            // The number of profiles is in the title of the pane.
+            let (error, _) = words.split_once(" of the median").unwrap_or((words, ""));
+            format!("{source} {error}")
+        }
         None => largest.clone(),
     })
 }
