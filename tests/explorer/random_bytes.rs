@@ -9,7 +9,7 @@ use asperity::explorer::terminal_input::Input;
 use std::time::Duration;
 
 /// Events in a quick run and in a slow one.
-const QUICK: usize = 3_000;
+const QUICK: usize = 1_500;
 const SLOW: usize = 200_000;
 
 /// Events for which one explorer is used.

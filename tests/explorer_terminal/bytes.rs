@@ -49,7 +49,7 @@ fn assert_keys_cost_little(theme: &str) {
     select(&mut terminal, "Young");
     cost_of(&mut terminal, "l");
     let mut edits = vec![cost_of(&mut terminal, "l")];
-    for row in ["κ", "rms height", "Hurst"] {
+    for row in ["κ", "rms height"] {
         select(&mut terminal, row);
         edits.push(cost_of(&mut terminal, "l"));
     }
@@ -72,6 +72,7 @@ fn a_key_costs_few_bytes_and_frames_on_a_dark_background() {
 }
 
 #[test]
+#[ignore = "the same in other colours; .ci/run runs it"]
 fn a_key_costs_few_bytes_and_frames_on_a_light_background() {
     assert_keys_cost_little("light");
 }

@@ -235,7 +235,8 @@ fn the_playhead_hides_no_letter_of_a_stage() {
     let mut driver = at_beginning(open("pressure-sensitive").unwrap());
     driver.resize((120, 36));
     driver.press("Tab");
-    for _ in 0..120 {
+    // Over all letters of the first name, column by column.
+    for _ in 0..48 {
         driver.press("Right");
         let area = driver.area(Pane::Timeline);
         let row = driver.rows()[usize::from(area.bottom()) - 1].replace('◆', " ");
