@@ -80,7 +80,7 @@ impl EnsembleArguments {
         } = *self;
         let is_modulus_free = free.iter().any(|one| one.parameter == Modulus);
         Ok(EnsembleOptions {
-            lines: u64::from(lines),
+            profiles: u64::from(lines),
             is_modulus_free,
             height_error,
             hurst_error,

@@ -144,7 +144,7 @@ impl EnsembleFitReport<'_> {
         let fit = self.fit;
         let count = fit.curves.len();
         let curves = plural("curve", count as u64);
-        let profiles = grouped(fit.lines);
+        let profiles = grouped(fit.profiles);
         let spectrum = if self.has_roughness_errors {
             "this roughness"
         } else {
@@ -203,7 +203,7 @@ impl EnsembleFitReport<'_> {
             prospects.push(format!("{} curves ± {half_width}", prospect.curves));
         }
         if !prospects.is_empty() {
-            let profiles = grouped(fit.lines);
+            let profiles = grouped(fit.profiles);
             let prospects = prospects.join(", ");
             sheet.paragraph(&format!("With {profiles} profiles γ by {prospects}."));
         }

@@ -280,7 +280,7 @@ mod tests {
         }
     }
 
-    /// For a sphere the line is exact. Both models therefore agree within the error of the grid,
+    /// For a sphere the profile is exact. Both models therefore agree within the error of the grid,
     /// and this error is stated.
     #[test]
     fn a_sphere_is_the_same_in_both_models() {

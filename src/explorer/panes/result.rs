@@ -189,7 +189,7 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
         ("F_a", Quantity::PullOffForce, figures.pull_off_force, "N"),
         ("F_a/F_a,max", Quantity::AdhesionShare, share, "%"),
         (
-            "energy lost",
+            "dissipated",
             Quantity::DissipatedEnergy,
             figures.dissipated_energy,
             "J",

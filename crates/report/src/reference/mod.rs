@@ -80,14 +80,16 @@ impl ReferenceReport<'_> {
         let options = &self.reference.options;
         let cells = options.cells;
         let Some((first, last)) = self.reference.waves else {
-            return format!("A square of {cells} × {cells} cells and a line, both smooth.");
+            return format!(
+                "A square surface of {cells} × {cells} cells and a profile, both smooth."
+            );
         };
         let surfaces = grouped(options.surfaces);
         let lines = grouped(options.profiles);
         let first = grouped(first);
         let last = grouped(last);
         let mut sentences = format!(
-            "Means over {surfaces} random squares of {cells} × {cells} cells and over {lines} random lines, of {first} to {last} \
+            "Means over {surfaces} random square surfaces of {cells} × {cells} cells and over {lines} random profiles, of {first} to {last} \
              waves over the length."
         );
         if let Some(last_of_scene) = self.reference.omitted {
@@ -172,7 +174,7 @@ impl ReferenceReport<'_> {
     /// compared.
     fn add_loading(&self, sheet: &mut Sheet) {
         sheet.heading(
-            "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
+            "Without adhesion, indentations from first touch, ratio of the profile to three dimensions",
         );
         let mut rows = vec![header_with_grid()];
         for loaded in &self.reference.loading {
@@ -211,7 +213,7 @@ impl ReferenceReport<'_> {
         if rows.len() > 1 {
             let preload = format_quantity(reference.preload, "N");
             sheet.heading(&format!(
-                "With adhesion, after a preload of {preload}, ratio of the line to three dimensions"
+                "With adhesion, after a preload of {preload}, ratio of the profile to three dimensions"
             ));
             sheet.table(&rows);
         }
@@ -281,9 +283,11 @@ impl ReferenceReport<'_> {
                     "The largest is the model, at least {error}{waves}: more springs do not help."
                 )
             }
-            ("sample", _) => Note::new("The largest is the sample of squares and lines.")
-                .with(Remedy::Surfaces)
-                .in_words(self.wording),
+            ("sample", _) => {
+                Note::new("The largest is the sample of square surfaces and profiles.")
+                    .with(Remedy::Surfaces)
+                    .in_words(self.wording)
+            }
             ("grid", _) => Note::new("The largest is the grid of the squares.")
                 .with(Remedy::FinerGrid)
                 .in_words(self.wording),
@@ -325,7 +329,7 @@ impl Report for ReferenceReport<'_> {
             .map(|seconds| format_quantity(seconds, "s"));
         let convolutions = grouped(reference.convolutions);
         sheet.heading(&format!(
-            "Time: {lines} for the lines; {squares} and {convolutions} convolutions for the squares."
+            "Time: {lines} for the profiles; {squares} and {convolutions} convolutions for the square surfaces."
         ));
         Some(sheet.into_text())
     }
