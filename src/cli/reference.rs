@@ -1,4 +1,4 @@
-//! `asperity reference`: compares the results of a scene on profiles (lines) with the results in
+//! `asperity reference`: compares the results of a scene on profiles with the results in
 //! three dimensions.
 
 use super::advice::option;
@@ -19,7 +19,7 @@ Examples:
   asperity reference my-scene.ron --format json | jq .budget
 
 Random squares with the spectrum of the scene are pressed on an elastic half-space and pulled off,
-beside random lines. Their means are compared; the area of contact of a line means nothing.";
+beside random profiles. Their means are compared; the contact area of a profile means nothing.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]

@@ -168,7 +168,7 @@ mod tests {
     }
 
     /// For smooth bodies, a flat square and a line may differ although there is no error of a
-    /// sample. For a body of revolution the line is exact.
+    /// sample. For a body of revolution the profile is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

@@ -172,7 +172,7 @@ impl ReferenceReport<'_> {
     /// compared.
     fn add_loading(&self, sheet: &mut Sheet) {
         sheet.heading(
-            "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
+            "Without adhesion, indentations from first touch, ratio of the profile to three dimensions",
         );
         let mut rows = vec![header_with_grid()];
         for loaded in &self.reference.loading {
@@ -211,7 +211,7 @@ impl ReferenceReport<'_> {
         if rows.len() > 1 {
             let preload = format_quantity(reference.preload, "N");
             sheet.heading(&format!(
-                "With adhesion, after a preload of {preload}, ratio of the line to three dimensions"
+                "With adhesion, after a preload of {preload}, ratio of the profile to three dimensions"
             ));
             sheet.table(&rows);
         }
@@ -281,7 +281,7 @@ impl ReferenceReport<'_> {
                     "The largest is the model, at least {error}{waves}: more springs do not help."
                 )
             }
-            ("sample", _) => Note::new("The largest is the sample of squares and lines.")
+            ("sample", _) => Note::new("The largest is the sample of squares and profiles.")
                 .with(Remedy::Surfaces)
                 .in_words(self.wording),
             ("grid", _) => Note::new("The largest is the grid of the squares.")

@@ -74,7 +74,7 @@ fn what_is_left_out_is_said() {
         assert!(words.ends_with(waves), "{name}: {words}");
     }
     assert!(
-        rows[3].1.starts_with("line against three dimensions, "),
+        rows[3].1.starts_with("profile against three dimensions, "),
         "{rows:?}"
     );
     let text = report.text().unwrap();
@@ -136,7 +136,7 @@ fn a_sphere_has_no_error_of_the_model() {
     assert!(largest.starts_with("The largest is the grid"), "{largest}");
     assert!(rows.contains(&(
         "model",
-        "none: the line is exact for this body of revolution".to_owned()
+        "none: the profile is exact for this body of revolution".to_owned()
     )));
     assert!(
         rows.contains(&("sample", "none: nothing is random".to_owned())),

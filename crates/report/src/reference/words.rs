@@ -43,7 +43,7 @@ fn error_sentence(reference: &Reference) -> String {
 }
 
 /// Returns in words the relative difference between the results with profiles and in three
-/// dimensions, with its 95 % interval: `line against three dimensions, +4 ± 45 %`. The results in
+/// dimensions, with its 95 % interval: `profile against three dimensions, +4 ± 45 %`. The results in
 /// three dimensions belong to random square surfaces. If these surfaces lack waves of the scene,
 /// the words also state which waves are compared. Returns `None` if the difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
@@ -56,7 +56,7 @@ pub fn difference_words(reference: &Reference) -> Option<String> {
     };
     let waves = omitted_waves(reference);
     Some(format!(
-        "line against three dimensions, {sign}{difference}{error}{waves}"
+        "profile against three dimensions, {sign}{difference}{error}{waves}"
     ))
 }
 
@@ -64,7 +64,7 @@ pub fn difference_words(reference: &Reference) -> Option<String> {
 /// three dimensions that the errors of the sample and of the grid do not explain.
 pub fn model_words(reference: &Reference) -> String {
     if reference.line_is_exact {
-        return "none: the line is exact for this body of revolution".to_owned();
+        return "none: the profile is exact for this body of revolution".to_owned();
     }
     match reference.budget.model {
         Some(model) if model > 0.0 => {
