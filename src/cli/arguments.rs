@@ -45,7 +45,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
-    Run(run::RunArguments),
+    Run(run::arguments::RunArguments),
     /// Find the preload, or another number of a scene, at which a quantity has a value
     Find(find::FindArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload

@@ -7,7 +7,7 @@ use super::error::CliError;
 use super::fits::{Curves, show_curves};
 use super::output::Origin;
 use super::progress::{Task, watched};
-use super::scene::{holds_warnings, open_scene, threads, warn};
+use super::scene::{open_scene, threads, warn_beside};
 use crate::explorer::recognition::no_curve;
 use asperity_data::{parse_quantity, printable};
 use asperity_experiment::{EnsembleOptions, Free, Parameter, fit_ensemble};
@@ -80,7 +80,7 @@ impl EnsembleArguments {
         } = *self;
         let is_modulus_free = free.iter().any(|one| one.parameter == Modulus);
         Ok(EnsembleOptions {
-            lines: u64::from(lines),
+            profiles: u64::from(lines),
             is_modulus_free,
             height_error,
             hurst_error,
@@ -138,8 +138,6 @@ pub(super) fn ensemble(
         format,
         Origin::Scene(&document, document.scene()),
     )?;
-    if !holds_warnings(format) {
-        warn(&document, &report.warning_texts());
-    }
+    warn_beside(&document, &report, format);
     Ok(())
 }

@@ -4,8 +4,9 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
-use asperity_report::{FindReport, Format, counted_texts};
+use super::scene::{ProfileArguments, SceneArguments, warn_beside};
+use asperity_data::counted;
+use asperity_report::{FindReport, Format};
 use asperity_scene::{Document, Simulation};
 use asperity_study::{Axis, Found, Quantity, Question};
 use clap::Args;
@@ -78,12 +79,12 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let task = Task {
         name: Some(document.name()),
         threads: arguments.profiles.threads(),
-        begins: format!("0 of {profiles} profiles"),
+        begins: format!("0 of {}", counted(profiles, "profile")),
     };
     let found = watched(
         task,
         |done: &u64, line: &mut ProgressLine| {
-            line.show(&format!("{done} of {profiles} profiles"), None)
+            line.show(&format!("{done} of {}", counted(profiles, "profile")), None)
         },
         |control| Found::of(question, &mut simulation, control),
     )?;
@@ -92,9 +93,7 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
         scene,
         found: &found,
     };
-    if !holds_warnings(format) {
-        warn(&document, &counted_texts(&found.warnings, profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments
         .output
         .write(stdout, &report, format, Origin::Scene(&document, scene))

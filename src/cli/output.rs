@@ -8,7 +8,7 @@ use asperity_plot::{Figure, Palette, figure_text};
 use asperity_report::{
     Format, LEAST_HEIGHT, LEAST_WIDTH, Report, alternatives, check_extension, entries,
     files_provenance, parameter_lines, parse_printed_length, printed_pixels, scene_provenance,
-    scenes_provenance,
+    scenes_provenance, with_warnings,
 };
 use asperity_scene::text::quoted;
 use asperity_scene::{Document, Scene};
@@ -218,8 +218,9 @@ impl OutputArguments {
             parameters,
             ..figure
         })?;
+        let origin = with_warnings(&provenance, &report.warnings());
         self.fill(stdout, |out| {
-            asperity_report::write(out, &figure, format, &provenance)
+            asperity_report::write(out, &figure, format, &origin)
         })
     }
 

@@ -1,12 +1,12 @@
-//! `asperity reference`: compares the results of a scene on profiles with the results in
+//! `asperity reference`: compares the results of a scene on profiles (lines) with the results in
 //! three dimensions.
 
 use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
-use asperity_report::{Format, ReferenceProgress, ReferenceReport, counted_texts};
+use super::scene::{ProfileArguments, SceneArguments, warn_beside};
+use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use clap::Args;
@@ -19,7 +19,7 @@ Examples:
   asperity reference my-scene.ron --format json | jq .budget
 
 Random squares with the spectrum of the scene are pressed on an elastic half-space and pulled off,
-beside random profiles. Their means are compared; the contact area of a profile means nothing.";
+beside random profiles. Their means are compared; the area of contact of a profile means nothing.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -59,10 +59,7 @@ pub(super) fn reference(
         scene,
         reference: &found,
     };
-    if !holds_warnings(format) {
-        let profiles = found.profiles_for_warnings();
-        warn(&document, &counted_texts(&found.warnings, profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments.output.write(
         stdout,
         &report,

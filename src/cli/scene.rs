@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::progress::{ProgressLine, Task, watched};
 use crate::explorer::recognition::no_scene;
-use asperity_data::{Control, parallel, printable};
-use asperity_report::Format;
+use asperity_data::{Control, counted, parallel, printable};
+use asperity_report::{Format, Report};
 use asperity_scene::library::open_argument;
 use asperity_scene::{CheckedScene, Document, Outcome, RunError, Scene, Simulation};
 use asperity_study::{Axis, Ensemble, Staircase};
@@ -94,6 +94,14 @@ pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
+/// Writes the warnings of a report to standard error, unless its text or JSON states them. A table
+/// or a figure also has them, but not where the user sees them at once.
+pub(super) fn warn_beside(document: &Document, report: &impl Report, format: Format) {
+    if !holds_warnings(format) {
+        warn(document, &report.warnings());
+    }
+}
+
 /// Opens the scene that an argument of the command line names. If the argument is a measured file
 /// and not a scene, the error message names the commands that read such files.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
@@ -142,12 +150,15 @@ pub(super) fn compute_stages(
     let task = Task {
         name: Some(document.name()),
         threads: 1,
-        begins: format!("0 of {stages} stages"),
+        begins: format!("0 of {}", counted(stages as u64, "stage")),
     };
     watched(
         task,
         |done: &usize, line: &mut ProgressLine| {
-            line.show(&format!("{done} of {stages} stages"), None)
+            line.show(
+                &format!("{done} of {}", counted(stages as u64, "stage")),
+                None,
+            )
         },
         |mut control: Control<'_, usize>| {
             let stop = control.stop();

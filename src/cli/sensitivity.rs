@@ -3,8 +3,9 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{SceneArguments, holds_warnings, threads, warn};
-use asperity_report::{Format, SensitivityReport, counted_texts};
+use super::scene::{SceneArguments, threads, warn_beside};
+use asperity_data::counted;
+use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
 use asperity_study::Sensitivity;
 use clap::Args;
@@ -46,7 +47,7 @@ pub(super) fn sensitivity(
     let found = watched(
         task,
         |found: &Sensitivity, line: &mut ProgressLine| {
-            line.show(&format!("{} profiles", found.profiles), None)
+            line.show(&counted(found.profiles, "profile"), None)
         },
         |control| Sensitivity::of(scene, &mut simulation, control),
     )?;
@@ -55,9 +56,7 @@ pub(super) fn sensitivity(
         scene,
         sensitivity: &found,
     };
-    if !holds_warnings(format) {
-        warn(&document, &counted_texts(&found.warnings, found.profiles));
-    }
+    warn_beside(&document, &report, format);
     arguments
         .output
         .write(stdout, &report, format, Origin::Scene(&document, scene))

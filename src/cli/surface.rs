@@ -8,7 +8,7 @@ use super::scene::{MOST_LINES, holds_warnings, threads, warn_of};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
 use asperity_data::{Control, Remedied, Wording, parse_quantity, path_name, round_to, write_new};
-use asperity_report::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
+use asperity_report::{Format, MeasuredFace, Report, SurfaceFile, SurfaceReport, named_from};
 use asperity_scene::workload::equivalent_springs;
 use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
 use asperity_study::trust::MeasuredAdhesion;

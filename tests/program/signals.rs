@@ -105,15 +105,15 @@ fn an_interrupted_fit_of_many_curves_goes_on() {
     let curve = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/rubber.csv");
     let folder = place.path().join("many");
     fs::create_dir(&folder).unwrap();
-    for number in 0..8 {
+    for number in 0..4 {
         fs::copy(&curve, folder.join(format!("{number}.csv"))).unwrap();
     }
     let command = "fit many jkr-sphere --set form.radius=7.5u --set length=24u --set loading_stiffness=3.01 \
-                   --set numerics.points=256 --free work,modulus,offset -o table.csv --curves models";
+                   --set numerics.points=256 --free work,offset -o table.csv --curves models";
     let table = place.path().join("table.csv");
     let child = start(place.path(), &format!("{command} --jobs 1"));
     let clock = Instant::now();
-    while rows(&table).len() < 2 {
+    while rows(&table).is_empty() {
         assert!(clock.elapsed() < PATIENCE);
         sleep(Duration::from_millis(2));
     }
@@ -121,9 +121,9 @@ fn an_interrupted_fit_of_many_curves_goes_on() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{message}");
     let kept = rows(&table);
-    assert!((2..8).contains(&kept.len()), "{kept:?}");
+    assert!((1..4).contains(&kept.len()), "{kept:?}");
     let last = format!(
-        "stopped: {} of 8 curves done; the same command goes on",
+        "stopped: {} of 4 curves done; the same command goes on",
         kept.len()
     );
     assert_eq!(message.lines().last(), Some(&*last));
@@ -140,16 +140,16 @@ fn an_interrupted_fit_of_many_curves_goes_on() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{message}");
     let all = rows(&table);
-    assert_eq!(all.len(), 8);
+    assert_eq!(all.len(), 4);
     assert!(kept.iter().all(|row| all.contains(row)));
-    assert_eq!(fs::read_dir(&models).unwrap().count(), 8);
+    assert_eq!(fs::read_dir(&models).unwrap().count(), 4);
     // All curves are equal, and so are the results and the tables.
     let result_of = |row: &String| row.split_once(',').unwrap().1.to_owned();
     assert!(all.iter().all(|row| result_of(row) == result_of(&all[0])));
 
-    let first = models.join("7.csv");
+    let first = models.join("3.csv");
     let written = fs::read(&first).unwrap();
-    fs::copy(&curve, folder.join("7.csv")).unwrap();
+    fs::copy(&curve, folder.join("3.csv")).unwrap();
     fs::remove_file(&first).unwrap();
     let again = start(place.path(), command).wait_with_output().unwrap();
     assert!(again.status.success());
@@ -160,7 +160,7 @@ fn an_interrupted_fit_of_many_curves_goes_on() {
     let refused = start(place.path(), command).wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&refused.stderr);
     assert_eq!(refused.status.code(), Some(1));
-    assert!(message.starts_with("models/7.csv: this file is no table of this command; allowed:"));
+    assert!(message.starts_with("models/3.csv: this file is no table of this command; allowed:"));
     assert_eq!(message.lines().count(), 1, "{message}");
     assert_eq!(fs::read(&first).unwrap(), b"notes");
 }

@@ -51,7 +51,50 @@ fn warnings_of_a_surface_are_stated_with_every_format() {
             .collect();
         assert_eq!(stated, expected, "{output}");
         written.succeeded();
+        if output.ends_with("csv") || output.ends_with("svg") {
+            let file = std::fs::read_to_string(folder.path().join(output)).unwrap();
+            let held: Vec<String> = file
+                .lines()
+                .filter_map(|line| line.trim_start_matches("# ").strip_prefix("warning: "))
+                .map(unbroken)
+                .collect();
+            assert_eq!(held.len(), warnings.len(), "{output}");
+        }
     }
+}
+
+/// A table or a figure that is passed on still states which premises it does not meet, and a table
+/// is opened as its scene all the same.
+#[test]
+fn tables_and_figures_hold_their_warnings() {
+    let folder = tempfile::tempdir().unwrap();
+    let short = [
+        "run",
+        "jkr-sphere",
+        "--set",
+        "length=20um",
+        "--set",
+        "material=(modulus: 1.0e6)",
+        "--set",
+        "loading=100 µN, separation",
+    ];
+    let run = |more: &[&str]| asperity_in(folder.path(), &[&short[..], more].concat());
+    let warnings = warnings_of(&run(&["--format", "json"]).succeeded());
+    assert!(
+        warnings[0].contains("reaches an end of the profile"),
+        "{warnings:?}"
+    );
+    for output in ["short.csv", "short.svg"] {
+        run(&["-o", output]).succeeded();
+        let file = std::fs::read_to_string(folder.path().join(output)).unwrap();
+        let held: Vec<&str> = file
+            .lines()
+            .filter_map(|line| line.trim_start_matches("# ").strip_prefix("warning: "))
+            .collect();
+        assert_eq!(held, warnings, "{output}");
+    }
+    let again = asperity_in(folder.path(), &["run", "short.csv", "--format", "json"]);
+    assert_eq!(warnings_of(&again.succeeded()), warnings);
 }
 
 /// Writes the force curve of a sphere to a file, with a force in N that rises by `drift` over the

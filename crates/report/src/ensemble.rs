@@ -171,6 +171,10 @@ impl StatisticsJson {
 /// Report on an ensemble, which is the results of a scene on several random profiles. The table has
 /// a row for each profile.
 impl Report for Ensemble {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&Ensemble::warnings(self), self.profiles())
+    }
+
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleJson::new(self)))
     }
@@ -210,6 +214,10 @@ struct ResultsJson<'a> {
 /// Report on the results of a parameter study that are in memory. The table has a row for each
 /// combination of values on the axes of the study and for each random profile.
 impl Report for Results {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.all_warnings(), self.plan().lines)
+    }
+
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let plan = self.plan();
         let mut axes = BTreeMap::new();
@@ -220,7 +228,7 @@ impl Report for Results {
             scene: &plan.scene,
             axes,
             profiles: plan.lines,
-            warnings: counted_texts(&self.all_warnings(), plan.lines),
+            warnings: Report::warnings(self),
             records: Results::table(self),
         }))
     }

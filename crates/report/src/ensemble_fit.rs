@@ -2,11 +2,11 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
-use crate::words::{plural, whole_percent};
+use crate::warnings::{counted_texts, sentences_section};
+use crate::words::whole_percent;
 use asperity_data::{
     AxisScale, Kind, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
-    grouped, per_cent,
+    grouped, per_cent, plural,
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -44,6 +44,12 @@ pub struct EnsembleFitReport<'a> {
 }
 
 impl Report for EnsembleFitReport<'_> {
+    /// Returns the premises of the model that random profiles with the fitted values do not meet.
+    /// There is one text for each premise.
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
+    }
+
     fn text(&self) -> Option<String> {
         let fit = self.fit;
         let mut sheet = Sheet::default();
@@ -66,14 +72,14 @@ impl Report for EnsembleFitReport<'_> {
         }
         let computed = grouped(fit.computed as u64);
         sheet.paragraph(&format!("{computed} curves were computed. {INDEPENDENT}"));
-        counted_section(&mut sheet, &fit.warnings, EnsembleFit::EXAMINED);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleFitJson {
             fit: self.fit,
-            warnings: self.warning_texts(),
+            warnings: self.warnings(),
         }))
     }
 
@@ -132,19 +138,13 @@ struct EnsembleFitJson<'a> {
 }
 
 impl EnsembleFitReport<'_> {
-    /// Returns the premises of the model that random profiles with the fitted values do not meet.
-    /// There is one text for each premise.
-    pub fn warning_texts(&self) -> Vec<String> {
-        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
-    }
-
     /// Adds the work of adhesion and the modulus, and the numbers of curves and profiles from which
     /// they follow.
     fn add_values(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let count = fit.curves.len();
         let curves = plural("curve", count as u64);
-        let profiles = grouped(fit.lines);
+        let profiles = grouped(fit.profiles);
         let spectrum = if self.has_roughness_errors {
             "this roughness"
         } else {
@@ -203,7 +203,7 @@ impl EnsembleFitReport<'_> {
             prospects.push(format!("{} curves ± {half_width}", prospect.curves));
         }
         if !prospects.is_empty() {
-            let profiles = grouped(fit.lines);
+            let profiles = grouped(fit.profiles);
             let prospects = prospects.join(", ");
             sheet.paragraph(&format!("With {profiles} profiles γ by {prospects}."));
         }

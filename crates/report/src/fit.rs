@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{sentences_section, warning_texts};
 use crate::words::percent;
 use asperity_data::{
     AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded, grouped,
@@ -63,6 +63,10 @@ struct FitJson<'a> {
 }
 
 impl Report for FitReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        warning_texts(&self.fit.warnings)
+    }
+
     fn text(&self) -> Option<String> {
         let fit = self.fit;
         let mut sheet = Sheet::default();
@@ -86,7 +90,7 @@ impl Report for FitReport<'_> {
         if fit.document.scene().roughness.is_some() {
             sheet.paragraph(ROUGH);
         }
-        warnings_section(&mut sheet, &fit.warnings);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

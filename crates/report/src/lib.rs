@@ -57,7 +57,7 @@ pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, w
 pub use printed_size::{LEAST_HEIGHT, LEAST_WIDTH, parse_printed_length, printed_pixels};
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance,
-    scenes_provenance,
+    scenes_provenance, with_warnings,
 };
 pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
 pub use report::{Format, Json, Report, alternatives, check_extension, write};
@@ -74,10 +74,11 @@ pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
-pub use trust::{error_rows, theory_rows};
+pub use trust::{error_rows, theories_briefly, theory_rows};
 pub use warnings::{
-    counted_record_texts, counted_section, counted_texts, warning_texts, warnings_section,
+    counted_record_texts, counted_section, counted_texts, outcome_warnings, warning_texts,
+    warnings_section,
 };
-pub use words::{counted, letter, percent};
+pub use words::{letter, percent};
 pub use work_precision::work_precision;
 pub use workload::parts_text;

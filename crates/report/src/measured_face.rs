@@ -1,8 +1,9 @@
 //! Measured surfaces of one body, which are analysed together as samples of the same roughness,
 //! with facts about their files and warnings about the analysis.
 
-use crate::words::plural;
-use asperity_data::{NamedHeight, Note, Warning, format_quantity, grouped, path_name, printable};
+use asperity_data::{
+    NamedHeight, Note, Warning, format_quantity, grouped, path_name, plural, printable,
+};
 use asperity_surface::spectra::End;
 use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};

@@ -2,8 +2,10 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{counted_section, counted_texts};
-use asperity_data::{AxisScale, Table, format_quantity, format_range, format_rounded, grouped};
+use crate::warnings::{counted_texts, sentences_section};
+use asperity_data::{
+    AxisScale, Table, counted, format_quantity, format_range, format_rounded, grouped,
+};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_scene::discretisation::Choice;
@@ -132,6 +134,10 @@ impl<'a> PreloadReport<'a> {
 }
 
 impl Report for PreloadReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.results.all_warnings(), self.results.plan().lines)
+    }
+
     fn text(&self) -> Option<String> {
         let plan = self.results.plan();
         let mut sheet = Sheet::default();
@@ -140,9 +146,9 @@ impl Report for PreloadReport<'_> {
             1 => "one profile".to_owned(),
             count => format!("{} random profiles", grouped(count)),
         };
-        let springs = grouped(plan.scene.numerics.points);
+        let springs = counted(plan.scene.numerics.points, "spring");
         sheet.heading(&format!(
-            "Adhesion against preload, {profiles} of {springs} springs"
+            "Adhesion against preload, {profiles} of {springs}"
         ));
         if self.is_mean() {
             self.add_statistics(&mut sheet);
@@ -152,7 +158,7 @@ impl Report for PreloadReport<'_> {
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
         }
-        counted_section(&mut sheet, &self.results.all_warnings(), plan.lines);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

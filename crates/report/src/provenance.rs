@@ -18,6 +18,9 @@ const SHOWN_DIGITS: usize = 12;
 /// Beginning of the line with the command.
 const COMMAND: &str = "command: ";
 
+/// Beginning of a line with a premise of the model that the result does not meet.
+const WARNING: &str = "warning: ";
+
 /// Returns the first lines of a table, from which the table can be computed again: version,
 /// command, measured files with their SHA-256, and scene. `folder` is the folder of the scene, and
 /// `destination` is the folder of the table.
@@ -48,6 +51,20 @@ pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
             let name = printable(name);
             let scene = to_ron(scene);
             text += &format!("scene {name}:\n{scene}");
+        }
+    }
+    text
+}
+
+/// Adds a line for each warning of a result below the line with the command.
+pub fn with_warnings(provenance: &str, warnings: &[String]) -> String {
+    let mut text = String::new();
+    for line in provenance.lines() {
+        text += &format!("{line}\n");
+        if line.starts_with(COMMAND) {
+            for warning in warnings {
+                text += &format!("{WARNING}{}\n", printable(&warning.replace('\n', " ")));
+            }
         }
     }
     text

@@ -1,7 +1,7 @@
 //! A result has up to four forms: text, JSON, table and figure. A format says how a form is written
 //! into a file.
 
-use crate::provenance::entries;
+use crate::provenance::{entries, with_warnings};
 use asperity_data::{Kind, Table, path_name, printable, write_json};
 use asperity_plot::{Chart, ChartAxis, Figure, Layer};
 use serde::Serialize;
@@ -31,6 +31,12 @@ pub trait Report {
     /// Returns the result as a figure; `None` if the result has no figure.
     fn figure(&self) -> Option<Figure> {
         None
+    }
+
+    /// Returns a sentence for each premise of the model that the result does not meet; empty if all
+    /// premises are met.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
     }
 }
 
@@ -97,7 +103,8 @@ fn column_name(axis: &ChartAxis) -> String {
 
 /// Writes a report in a format. `provenance` has the lines of
 /// [`scene_provenance`](crate::scene_provenance). These lines are written only into CSV, SVG and
-/// JSON.
+/// JSON. In CSV and SVG the warnings of the report follow them, so that a table or a figure that is
+/// passed on still states which premises of the model it does not meet.
 ///
 /// # Errors
 /// Returns an error if the report lacks the form that the format needs, or if the output cannot be
@@ -118,11 +125,11 @@ pub fn write(
         Format::Csv => report
             .table()
             .ok_or_else(missing)?
-            .write_csv(out, provenance),
+            .write_csv(out, &with_warnings(provenance, &report.warnings())),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out),
         Format::Svg => {
             let figure = Figure {
-                origin: provenance.to_owned(),
+                origin: with_warnings(provenance, &report.warnings()),
                 ..report.figure().ok_or_else(missing)?
             };
             out.write_all(figure.svg().as_bytes())

@@ -5,7 +5,7 @@ use crate::ensemble::{EnsembleJson, caption};
 use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
 use crate::summary::Summary;
-use crate::warnings::warning_texts;
+use crate::warnings::{outcome_warnings, warning_texts};
 use asperity_contact::{CurvePoint, Move, Patch, StageRecord, Work};
 use asperity_data::{Table, Warning, Wording};
 use asperity_plot::Figure;
@@ -56,6 +56,10 @@ impl<'a> RunReport<'a> {
 }
 
 impl Report for RunReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        outcome_warnings(self.outcome, self.ensemble)
+    }
+
     fn text(&self) -> Option<String> {
         let summary = Summary {
             scene: self.scene,

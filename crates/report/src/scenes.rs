@@ -5,7 +5,7 @@ use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
-use crate::warnings::{counted_texts, sentences_section, warning_texts};
+use crate::warnings::{outcome_warnings, sentences_section};
 use crate::words::letter;
 use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Figure, Palette, figure_text};
@@ -136,22 +136,6 @@ impl ScenesReport<'_> {
         }
     }
 
-    /// Returns the warnings of all scenes. Each begins with the letter of its scene.
-    fn warnings(&self) -> Vec<String> {
-        let mut sentences = Vec::new();
-        for (number, scene) in self.scenes.iter().enumerate() {
-            let letter = letter(number);
-            let warnings = match &scene.ensemble {
-                Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
-                None => warning_texts(&scene.outcome.warnings),
-            };
-            for warning in warnings {
-                sentences.push(format!("{letter}: {warning}"));
-            }
-        }
-        sentences
-    }
-
     /// Returns the headings of a table with a column for each scene.
     fn header(&self) -> Vec<String> {
         let mut header = vec![String::new()];
@@ -239,6 +223,18 @@ impl ComparedScene<'_> {
 }
 
 impl Report for ScenesReport<'_> {
+    /// Returns the warnings of all scenes. Each begins with the letter of its scene.
+    fn warnings(&self) -> Vec<String> {
+        let mut sentences = Vec::new();
+        for (number, scene) in self.scenes.iter().enumerate() {
+            let letter = letter(number);
+            for warning in outcome_warnings(&scene.outcome, scene.ensemble.as_ref()) {
+                sentences.push(format!("{letter}: {warning}"));
+            }
+        }
+        sentences
+    }
+
     /// Returns the titles, the fields in which each scene differs from the first one, and tables of
     /// the results with their ratios to the results of the first scene.
     fn text(&self) -> Option<String> {

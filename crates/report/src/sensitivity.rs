@@ -2,9 +2,9 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{counted_section, counted_texts};
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
-use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, one_unit};
+use asperity_data::{AxisScale, Kind, Table, counted, format_quantity, format_rounded, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
@@ -357,24 +357,28 @@ pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
 }
 
 impl Report for SensitivityReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(&self.sensitivity.warnings, self.sensitivity.profiles)
+    }
+
     fn text(&self) -> Option<String> {
         let sensitivity = self.sensitivity;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         if sensitivity.missing().is_none() {
-            let springs = grouped(self.scene.numerics.points);
+            let springs = counted(self.scene.numerics.points, "spring");
             let results = if sensitivity.range.is_some() {
                 "medians"
             } else {
                 "results"
             };
             sheet.heading(&format!(
-                "Changes of the {results} where one number changes, {springs} springs"
+                "Changes of the {results} where one number changes, {springs}"
             ));
             sheet.table(&sensitivity_table(sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
-        counted_section(&mut sheet, &sensitivity.warnings, sensitivity.profiles);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 

@@ -9,7 +9,7 @@ use crate::warnings::sentences_section;
 use crate::words::whole_percent;
 use asperity_contact::Move;
 use asperity_data::{
-    Kind, Remedy, Table, Warning, Wording, format_quantity, format_range, grouped, path_name,
+    Kind, Remedy, Table, Warning, Wording, counted, format_quantity, format_range, path_name,
     per_cent,
 };
 use asperity_plot::Figure;
@@ -84,6 +84,20 @@ impl SurfaceReport {
 }
 
 impl Report for SurfaceReport {
+    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
+    /// attraction.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            let whose = if number == 0 { "" } else { "opposite face: " };
+            for warning in face.warnings() {
+                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
+            }
+        }
+        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
+        warnings
+    }
+
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         for (number, face) in self.faces.iter().enumerate() {
@@ -290,20 +304,6 @@ impl SurfaceReport {
         }
     }
 
-    /// Returns the warnings about the faces (surfaces of the two bodies) and about the range of the
-    /// attraction.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        for (number, face) in self.faces.iter().enumerate() {
-            let whose = if number == 0 { "" } else { "opposite face: " };
-            for warning in face.warnings() {
-                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
-            }
-        }
-        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
-        warnings
-    }
-
     /// Returns the rows of the table of spectra. The measured spectra come first, and then the
     /// spectrum of the equivalent line.
     fn spectrum_rows(&self) -> Vec<SpectrumRow> {
@@ -419,8 +419,8 @@ fn add_adhesion(
     };
     sheet.row("loading", loading);
     let length = format_quantity(scene.length, "m");
-    let springs = grouped(scene.numerics.points);
-    sheet.row("length L", format!("{length} on {springs} springs"));
+    let springs = counted(scene.numerics.points, "spring");
+    sheet.row("length L", format!("{length} on {springs}"));
     let label = if preload.is_some() {
         "pull-off force F_a"
     } else {
@@ -428,7 +428,7 @@ fn add_adhesion(
     };
     let Some(computed) = computed else {
         let profiles = wording(&Remedy::Profiles(PROFILES));
-        let hint = format!("not computed on {springs} springs; {profiles} does");
+        let hint = format!("not computed on {springs}; {profiles} does");
         sheet.row(label, hint);
         return;
     };

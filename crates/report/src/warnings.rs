@@ -2,6 +2,8 @@
 
 use crate::sheet::Sheet;
 use asperity_data::{CountedWarning, Warning, grouped};
+use asperity_scene::Outcome;
+use asperity_study::Ensemble;
 
 /// Adds a section to the text `sheet` with the premises of the model that a result does not meet.
 /// Adds nothing if there are no warnings.
@@ -46,6 +48,15 @@ pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> Stri
         return text.to_owned();
     }
     format!("On {} of {} {things}: {text}", grouped(count), grouped(all))
+}
+
+/// Returns the warnings about the results of a scene. If there are several random profiles, each
+/// warning states to how many of them it applies.
+pub fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
+    match ensemble {
+        Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
+        None => warning_texts(&outcome.warnings),
+    }
 }
 
 /// Adds a section with warnings that are already sentences. Adds nothing if there are no sentences.

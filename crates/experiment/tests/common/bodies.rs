@@ -159,7 +159,7 @@ impl Specimen {
             .map(|seed| (seed.to_string(), self.curve(&mut simulation, seed)))
             .collect();
         let options = EnsembleOptions {
-            lines,
+            profiles: lines,
             is_modulus_free: true,
             height_error: None,
             hurst_error: None,

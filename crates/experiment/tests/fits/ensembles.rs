@@ -128,7 +128,7 @@ fn compare(name: &str, with_errors: bool) {
             };
             let stated = ROUGHNESS_ERRORS.map(|error| Some(error).filter(|_| with_errors));
             let options = EnsembleOptions {
-                lines: 128,
+                profiles: 128,
                 is_modulus_free,
                 height_error: stated[0],
                 hurst_error: stated[1],

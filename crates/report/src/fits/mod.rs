@@ -12,8 +12,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::spread::Spread;
 use crate::warnings::{sentences_section, with_share};
-use crate::words::counted;
-use asperity_data::{AxisScale, Kind, Note, Remedy, Table, Wording};
+use asperity_data::{AxisScale, Kind, Note, Remedy, Table, Wording, counted};
 use asperity_data::{format_rounded, format_within, grouped, one_unit};
 use asperity_experiment::Parameter;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
@@ -101,38 +100,6 @@ impl FitsReport<'_> {
         sentences
     }
 
-    /// Returns a text for each premise of the model that some of the fitted scenes do not meet. The
-    /// text states the number of curves whose scene does not meet the premise, and the values for
-    /// the first of these curves.
-    pub fn warning_texts(&self) -> Vec<String> {
-        let mut first_of_kind: Vec<&RowWarning> = Vec::new();
-        let mut counts: Vec<u64> = Vec::new();
-        let mut fitted = 0;
-        for row in self.rows {
-            if !row.error.is_empty() {
-                continue;
-            }
-            fitted += 1;
-            for warning in &row.warnings {
-                let known = first_of_kind
-                    .iter()
-                    .position(|known| known.name == warning.name);
-                match known {
-                    Some(kind) => counts[kind] += 1,
-                    None => {
-                        first_of_kind.push(warning);
-                        counts.push(1);
-                    }
-                }
-            }
-        }
-        let mut texts = Vec::with_capacity(counts.len());
-        for (warning, count) in first_of_kind.iter().zip(counts) {
-            texts.push(with_share(&warning.text, count, fitted, "curves"));
-        }
-        texts
-    }
-
     fn first_parameter(&self) -> FirstParameter {
         let mut values = FirstParameter {
             described: Vec::new(),
@@ -216,6 +183,38 @@ impl FitsReport<'_> {
 }
 
 impl Report for FitsReport<'_> {
+    /// Returns a text for each premise of the model that some of the fitted scenes do not meet. The
+    /// text states the number of curves whose scene does not meet the premise, and the values for
+    /// the first of these curves.
+    fn warnings(&self) -> Vec<String> {
+        let mut first_of_kind: Vec<&RowWarning> = Vec::new();
+        let mut counts: Vec<u64> = Vec::new();
+        let mut fitted = 0;
+        for row in self.rows {
+            if !row.error.is_empty() {
+                continue;
+            }
+            fitted += 1;
+            for warning in &row.warnings {
+                let known = first_of_kind
+                    .iter()
+                    .position(|known| known.name == warning.name);
+                match known {
+                    Some(kind) => counts[kind] += 1,
+                    None => {
+                        first_of_kind.push(warning);
+                        counts.push(1);
+                    }
+                }
+            }
+        }
+        let mut texts = Vec::with_capacity(counts.len());
+        for (warning, count) in first_of_kind.iter().zip(counts) {
+            texts.push(with_share(&warning.text, count, fitted, "curves"));
+        }
+        texts
+    }
+
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let symbol = self
@@ -237,7 +236,7 @@ impl Report for FitsReport<'_> {
             }
         }
         self.add_spreads(&mut sheet);
-        sentences_section(&mut sheet, &self.warning_texts());
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
@@ -248,7 +247,7 @@ impl Report for FitsReport<'_> {
             all: DistributionJson::new(values.all()),
             described: DistributionJson::new(values.described),
             spreads: self.spreads(),
-            warnings: self.warning_texts(),
+            warnings: self.warnings(),
             curves: self.table(),
             scene: self.scene,
         }))

@@ -146,7 +146,7 @@ fn premises_are_counted_over_the_fitted_curves() {
             free: &[Parameter::Work],
             rows,
         };
-        let warnings = report.warning_texts();
+        let warnings = report.warnings();
         let text = report.text().unwrap().replace('\n', " ");
         let mut bytes = Vec::new();
         report.json().unwrap().write_json(&mut bytes, &[]).unwrap();

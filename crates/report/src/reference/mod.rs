@@ -14,7 +14,7 @@ pub use words::{difference_words, model_sentence, model_words, omitted_waves};
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::counted_section;
+use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
 use asperity_contact::Move;
 use asperity_data::{Note, Remedy, Table, Wording, format_quantity, format_rounded, grouped};
@@ -80,14 +80,16 @@ impl ReferenceReport<'_> {
         let options = &self.reference.options;
         let cells = options.cells;
         let Some((first, last)) = self.reference.waves else {
-            return format!("A square of {cells} × {cells} cells and a line, both smooth.");
+            return format!(
+                "A square surface of {cells} × {cells} cells and a profile, both smooth."
+            );
         };
         let surfaces = grouped(options.surfaces);
         let lines = grouped(options.profiles);
         let first = grouped(first);
         let last = grouped(last);
         let mut sentences = format!(
-            "Means over {surfaces} random squares of {cells} × {cells} cells and over {lines} random lines, of {first} to {last} \
+            "Means over {surfaces} random square surfaces of {cells} × {cells} cells and over {lines} random profiles, of {first} to {last} \
              waves over the length."
         );
         if let Some(last_of_scene) = self.reference.omitted {
@@ -281,9 +283,11 @@ impl ReferenceReport<'_> {
                     "The largest is the model, at least {error}{waves}: more springs do not help."
                 )
             }
-            ("sample", _) => Note::new("The largest is the sample of squares and profiles.")
-                .with(Remedy::Surfaces)
-                .in_words(self.wording),
+            ("sample", _) => {
+                Note::new("The largest is the sample of square surfaces and profiles.")
+                    .with(Remedy::Surfaces)
+                    .in_words(self.wording)
+            }
             ("grid", _) => Note::new("The largest is the grid of the squares.")
                 .with(Remedy::FinerGrid)
                 .in_words(self.wording),
@@ -293,13 +297,19 @@ impl ReferenceReport<'_> {
 }
 
 impl Report for ReferenceReport<'_> {
+    fn warnings(&self) -> Vec<String> {
+        counted_texts(
+            &self.reference.warnings,
+            self.reference.profiles_for_warnings(),
+        )
+    }
+
     fn text(&self) -> Option<String> {
         let reference = self.reference;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
-        let profiles = reference.profiles_for_warnings();
-        counted_section(&mut sheet, &reference.warnings, profiles);
+        sentences_section(&mut sheet, &self.warnings());
         if let Some(sentence) = self.compared_loading() {
             sheet.paragraph(&sentence);
         }
@@ -319,7 +329,7 @@ impl Report for ReferenceReport<'_> {
             .map(|seconds| format_quantity(seconds, "s"));
         let convolutions = grouped(reference.convolutions);
         sheet.heading(&format!(
-            "Time: {lines} for the lines; {squares} and {convolutions} convolutions for the squares."
+            "Time: {lines} for the profiles; {squares} and {convolutions} convolutions for the square surfaces."
         ));
         Some(sheet.into_text())
     }

@@ -2,8 +2,8 @@
 
 use super::words::{omitted_waves, ratio};
 use crate::status::duration;
-use crate::words::{counted, whole_percent};
-use asperity_data::memory_size;
+use crate::words::whole_percent;
+use asperity_data::{counted, memory_size};
 use asperity_study::half_space::{ReferenceEvent, SquareLoops};
 use std::time::{Duration, Instant};
 
@@ -70,7 +70,7 @@ impl ReferenceProgress {
             }
             ReferenceEvent::Profiles { count, lines } => {
                 self.lines_done += count;
-                format!("lines: {} %", 100 * self.lines_done / lines.max(1))
+                format!("profiles: {} %", 100 * self.lines_done / lines.max(1))
             }
             ReferenceEvent::ProfilesEnd { .. } => {
                 self.begun = Instant::now();
@@ -140,7 +140,7 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
         Some(reference) => omitted_waves(reference),
         None => format!(", {} of {surfaces} squares", loops.curves.len()),
     };
-    format!("{symbol} line/three dimensions {ratio}{squares}")
+    format!("{symbol} profile/three dimensions {ratio}{squares}")
 }
 
 #[cfg(test)]
@@ -167,7 +167,7 @@ mod tests {
                 lines: 64,
             })
             .0;
-        assert_eq!(lines, "lines: 25 %");
+        assert_eq!(lines, "profiles: 25 %");
         let begun = progress
             .words(&ReferenceEvent::ProfilesEnd { lines: Vec::new() })
             .0;

@@ -2,32 +2,44 @@
 
 use super::*;
 use asperity_data::Control;
-use asperity_scene::{Simulation, open};
+use asperity_scene::{Document, Simulation, open};
 use asperity_study::half_space::ReferenceOptions;
 use asperity_study::trust::Budget;
+
+/// Compares `surfaces` square surfaces of `cells` cells along a side with 16 profiles for each, or
+/// with the only profile of a smooth body.
+fn compared(document: &Document, cells: usize, surfaces: u64) -> Reference {
+    let is_rough = document.scene().roughness.is_some();
+    let options = ReferenceOptions {
+        cells,
+        surfaces,
+        profiles: if is_rough { 16 * surfaces } else { 1 },
+    };
+    let control = Control::default().on_threads(2);
+    Reference::of(
+        document.scene(),
+        options,
+        &mut Simulation::default(),
+        control,
+    )
+    .unwrap()
+}
+
+fn report_on<'a>(document: &'a Document, found: &'a Reference) -> ReferenceReport<'a> {
+    ReferenceReport {
+        wording: |remedy| format!("{remedy:?}"),
+        title: "A body",
+        scene: document.scene(),
+        reference: found,
+    }
+}
 
 /// The figure shows a curve and a band for each model within its axes.
 #[test]
 fn the_figure_has_both_models() {
     let document = open("jkr-sphere").unwrap();
-    let options = ReferenceOptions {
-        cells: 32,
-        surfaces: 1,
-        profiles: 1,
-    };
-    let found = Reference::of(
-        document.scene(),
-        options,
-        &mut Simulation::default(),
-        Control::default().on_threads(1),
-    )
-    .unwrap();
-    let report = ReferenceReport {
-        wording: |remedy| format!("{remedy:?}"),
-        title: "A sphere",
-        scene: document.scene(),
-        reference: &found,
-    };
+    let found = compared(&document, 32, 1);
+    let report = report_on(&document, &found);
     let figure = report.figure().unwrap();
     assert_eq!(figure.size, Figure::WIDE);
     let legend: Vec<String> = figure
@@ -50,24 +62,8 @@ fn the_figure_has_both_models() {
 #[test]
 fn what_is_left_out_is_said() {
     let document = open("pressure-sensitive").unwrap();
-    let options = ReferenceOptions {
-        cells: 64,
-        surfaces: 2,
-        profiles: 32,
-    };
-    let found = Reference::of(
-        document.scene(),
-        options,
-        &mut Simulation::default(),
-        Control::default().on_threads(2),
-    )
-    .unwrap();
-    let report = ReferenceReport {
-        wording: |remedy| format!("{remedy:?}"),
-        title: "Rough",
-        scene: document.scene(),
-        reference: &found,
-    };
+    let found = compared(&document, 64, 2);
+    let report = report_on(&document, &found);
     let waves = ", of waves 4 to 8 of 4 to 512";
     let (rows, _) = report.errors();
     for (name, words) in &rows[1..4] {
@@ -114,24 +110,8 @@ fn what_is_left_out_is_said() {
 #[test]
 fn a_sphere_has_no_error_of_the_model() {
     let document = open("jkr-sphere").unwrap().set("length", "4.2e-5").unwrap();
-    let options = ReferenceOptions {
-        cells: 64,
-        surfaces: 1,
-        profiles: 1,
-    };
-    let found = Reference::of(
-        document.scene(),
-        options,
-        &mut Simulation::default(),
-        Control::default().on_threads(1),
-    )
-    .unwrap();
-    let report = ReferenceReport {
-        wording: |remedy| format!("{remedy:?}"),
-        title: "A sphere",
-        scene: document.scene(),
-        reference: &found,
-    };
+    let found = compared(&document, 64, 1);
+    let report = report_on(&document, &found);
     let (rows, largest) = report.errors();
     assert!(largest.starts_with("The largest is the grid"), "{largest}");
     assert!(rows.contains(&(

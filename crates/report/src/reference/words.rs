@@ -19,7 +19,7 @@ pub fn model_sentence(reference: &Reference) -> Option<String> {
     let waves = omitted_waves(reference);
     let error = error_sentence(reference);
     Some(format!(
-        "The mean of {quantity} over random lines is {ratio} times the mean over random squares in three dimensions{waves}. {error}"
+        "The mean of {quantity} over random profiles is {ratio} times the mean over random squares in three dimensions{waves}. {error}"
     ))
 }
 

@@ -54,15 +54,15 @@ impl Specimen<'_> {
     pub fn curves(
         &self,
         simulation: &mut Simulation,
-        line: u64,
+        profile: u64,
         ranges: &[f64],
         moduli: &[f64],
     ) -> Result<Vec<Summaries>, ExperimentError> {
-        let seed = seed_of(self.scene, line);
+        let seed = seed_of(self.scene, profile);
         let scene = self.scene.with_seed(seed);
         let (bare, _) = simulation.contact(&scene)?;
         let modulus = Modulus::effective(bare.modulus_in_pascals())?;
-        let protocol = &self.protocols[line as usize % self.protocols.len()];
+        let protocol = &self.protocols[profile as usize % self.protocols.len()];
         let mut noise = Noise::new(seed, protocol);
         let mut all = Vec::with_capacity(ranges.len() * moduli.len());
         for range in ranges {
@@ -96,11 +96,11 @@ impl Specimen<'_> {
 
 /// Returns the seed of a random profile of the table. Scenes with different seeds have different
 /// profiles.
-pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
+pub(super) fn seed_of(scene: &CheckedScene, profile: u64) -> u64 {
     let seed = scene.seed().unwrap_or_default();
     FIRST_SEED
         .wrapping_add(seed.wrapping_mul(SEEDS_OF_SCENE))
-        .wrapping_add(line)
+        .wrapping_add(profile)
 }
 
 /// Computation of one curve with approach and retraction. The computed forces and the stiffness of
@@ -245,22 +245,22 @@ impl Workers<'_> {
     /// first range come first.
     pub fn curves(
         &self,
-        lines: u64,
+        profiles: u64,
         ranges: &[f64],
         moduli: &[f64],
     ) -> Result<Vec<Vec<Summaries>>, ExperimentError> {
         let worker = || {
             let mut simulation = self.simulation.another();
-            move |line: u64| {
+            move |profile: u64| {
                 let curves = self
                     .specimen
-                    .curves(&mut simulation, line, ranges, moduli)?;
+                    .curves(&mut simulation, profile, ranges, moduli)?;
                 let before = self.computed.fetch_add(curves.len(), Ordering::Relaxed);
                 (self.report)(before + curves.len());
                 Ok(curves)
             }
         };
-        on_threads(lines, self.jobs, worker)
+        on_threads(profiles, self.jobs, worker)
     }
 }
 
@@ -283,10 +283,10 @@ mod tests {
             };
             let truth = specimen.truth.clone().checked().unwrap();
             let mut simulation = Simulation::default();
-            let curve = |line: u64| {
+            let curve = |profile: u64| {
                 (
-                    line.to_string(),
-                    specimen.curve(&mut simulation, seed_of(&truth, line)),
+                    profile.to_string(),
+                    specimen.curve(&mut simulation, seed_of(&truth, profile)),
                 )
             };
             let measured = Measurement::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
@@ -301,9 +301,9 @@ mod tests {
                 (specimen.work() / specimen.modulus()).ln(),
                 specimen.modulus().ln(),
             ];
-            let computed = |line: u64| {
+            let computed = |profile: u64| {
                 table
-                    .curves(&mut simulation, line, &[range], &[modulus])
+                    .curves(&mut simulation, profile, &[range], &[modulus])
                     .unwrap()[0]
             };
             let computed: Vec<Summaries> = (0..LINES).map(computed).collect();

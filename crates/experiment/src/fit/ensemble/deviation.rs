@@ -152,8 +152,8 @@ pub(crate) fn deviations(
         .map(|index| Expected::at(table, index, place))
         .collect();
     let node = nearest_node(table, place);
-    let mut profiles = Vec::with_capacity(table.lines.len());
-    for (curves, predicted) in table.lines.iter().zip(predicted) {
+    let mut profiles = Vec::with_capacity(table.profiles.len());
+    for (curves, predicted) in table.profiles.iter().zip(predicted) {
         profiles.push(Profile {
             summaries: curves[node],
             predicted: predicted[node],
@@ -163,11 +163,11 @@ pub(crate) fn deviations(
     let threshold = draws.threshold();
 
     let count = measured.curves as f64;
-    let lines = profiles.len() as f64;
+    let computed = profiles.len() as f64;
     let mut deviations = Vec::with_capacity(SUMMARIES);
     for (index, expected) in expected.iter().enumerate() {
         let logarithm = measured.summaries[index] - expected.mean;
-        let error = expected.standard_deviation * (1.0 / count + 1.0 / lines).sqrt();
+        let error = expected.standard_deviation * (1.0 / count + 1.0 / computed).sqrt();
         let deviation = logarithm / error;
         deviations.push(SummaryDeviation {
             summary: NAMES[index],
@@ -284,7 +284,7 @@ pub(crate) struct Shifts<'a> {
     pub measured: &'a Measurement,
     pub response: &'a Response,
     /// Number of random profiles.
-    pub lines: u64,
+    pub profiles: u64,
 }
 
 impl Shifts<'_> {
@@ -344,11 +344,13 @@ impl Shifts<'_> {
             },
             ..*self.workers
         };
-        let curves = workers.curves(self.lines, &[place.range], &[place.modulus])?;
+        let curves = workers.curves(self.profiles, &[place.range], &[place.modulus])?;
         let mut works = Vec::with_capacity(curves.len());
         let mut moduli = Vec::with_capacity(curves.len());
-        for (line, curve) in curves.iter().enumerate() {
-            let [work, modulus] = self.predictions.of_line(line, &curve[0], self.measured);
+        for (profile, curve) in curves.iter().enumerate() {
+            let [work, modulus] = self
+                .predictions
+                .of_profile(profile, &curve[0], self.measured);
             works.push(work);
             moduli.push(modulus);
         }

@@ -14,7 +14,7 @@ pub(crate) struct Likelihood {
     scatter: Scatter,
     limits: Limits,
     /// Number of random profiles of the table.
-    lines: f64,
+    profiles: f64,
 }
 
 /// Mean over the measured curves of the predicted parameters.
@@ -43,7 +43,7 @@ impl Likelihood {
                 ranges: Extent::of(&table.ranges),
                 moduli,
             },
-            lines: table.lines.len() as f64,
+            profiles: table.profiles.len() as f64,
         }
     }
 
@@ -57,7 +57,7 @@ impl Likelihood {
     pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
         let observed = Observed {
             prediction,
-            variance: 1.0 / curves + 1.0 / self.lines,
+            variance: 1.0 / curves + 1.0 / self.profiles,
         };
         let whole = self.limits.extents();
         let mut extents = whole;
@@ -115,7 +115,8 @@ impl Likelihood {
         let inverse = moments.inverse();
         let distance = inverse.squared_distance(moments.mean, observed.prediction);
         let square = distance / observed.variance;
-        -0.5 * inverse.log_determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
+        -0.5 * inverse.log_determinant
+            - 0.5 * self.profiles * (square / (self.profiles - 1.0)).ln_1p()
     }
 }
 
@@ -133,23 +134,23 @@ mod tests {
         deviation: f64,
         correlation: f64,
         known: Option<f64>,
-        lines: usize,
+        profiles: usize,
     ) -> Likelihood {
         let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
         let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
         let mut table = Table {
             ranges: axis(16, 0.2),
             moduli,
-            lines: Vec::new(),
+            profiles: Vec::new(),
         };
         let places: Vec<Place> = table.places();
-        table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
+        table.profiles = vec![vec![[0.0; SUMMARIES]; places.len()]; profiles];
         // Each profile has two uncorrelated deviations of this size.
-        let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();
+        let size = deviation * ((profiles - 1) as f64 / profiles as f64).sqrt();
         let sign = |is_positive: bool| if is_positive { size } else { -size };
-        let scatter = Scatter::of(&table, |line, node| {
+        let scatter = Scatter::of(&table, |profile, node| {
             let [work, modulus] = places[node].parameters();
-            let [one, other] = [sign(line % 2 == 0), sign(line / 2 % 2 == 0)];
+            let [one, other] = [sign(profile % 2 == 0), sign(profile / 2 % 2 == 0)];
             if known.is_some() {
                 return [work + one, 0.0];
             }

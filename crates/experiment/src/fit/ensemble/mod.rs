@@ -151,7 +151,7 @@ fn compare(
     };
     let known = (!options.is_modulus_free).then(|| governing.modulus.ln());
     let centre = placed(&workers, &measured, &governing, known)?;
-    let mut table = first_table(&workers, centre, known, options.lines)?;
+    let mut table = first_table(&workers, centre, known, options.profiles)?;
     let predictions = grown_predictions(&mut table, &workers, &measured, known)?;
     let comparison = Comparison {
         curves,
@@ -209,7 +209,7 @@ impl Comparison<'_> {
         }
         let deviations = deviations(
             self.table,
-            &self.predictions.of_lines,
+            &self.predictions.of_profiles,
             &response,
             best,
             &self.measured.mean(),
@@ -227,7 +227,7 @@ impl Comparison<'_> {
             roughness,
             instrument: None,
             warnings: warnings_at(self.workers, best, preload),
-            lines: self.options.lines,
+            profiles: self.options.profiles,
             computed: self.workers.computed.load(Ordering::Relaxed),
             preload,
             preload_scatter: self.measured.preload_scatter,
@@ -249,7 +249,7 @@ impl Comparison<'_> {
             predictions: self.predictions,
             measured: self.measured,
             response,
-            lines: self.options.lines,
+            profiles: self.options.profiles,
         };
         shifts.at(best)
     }
@@ -265,7 +265,7 @@ impl Comparison<'_> {
             half_width: posterior.estimate(WORK).half_width(),
             of_roughness,
             curves: self.curves.len() as f64,
-            lines: self.options.lines as f64,
+            profiles: self.options.profiles as f64,
         }
     }
 
@@ -294,14 +294,14 @@ fn first_table(
     workers: &Workers<'_>,
     centre: Place,
     known: Option<f64>,
-    lines: u64,
+    profiles: u64,
 ) -> Result<Table, ExperimentError> {
     let ranges = RANGES.nodes_around(centre.range);
     let moduli = match known {
         Some(modulus) => vec![modulus],
         None => MODULI.nodes_around(centre.modulus),
     };
-    Table::new(workers, lines, ranges, moduli)
+    Table::new(workers, profiles, ranges, moduli)
 }
 
 /// Extends a table until the parameters lie within it, and returns the predictions that are learned

@@ -9,7 +9,7 @@ use asperity_scene::{Roughness, Scene, Solver};
 
 /// Smallest allowed number of random profiles. With fewer profiles, the covariance of the
 /// predictions is too uncertain.
-const FEWEST_LINES: u64 = 16;
+const FEWEST_PROFILES: u64 = 16;
 /// Largest allowed standard error of the roughness. For larger errors the results would not change
 /// in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
@@ -20,7 +20,7 @@ const MOST_ERROR: f64 = 0.5;
 pub struct EnsembleOptions {
     /// Number of random profiles whose computed curves are compared with the measured curves, at
     /// least 16.
-    pub lines: u64,
+    pub profiles: u64,
     /// True if the effective modulus is a free parameter too; false if its value in the scene is
     /// used.
     pub is_modulus_free: bool,
@@ -69,10 +69,10 @@ pub(super) fn check(
         let allowed = "roughness: SelfAffine(…), or no errors";
         return refused_with(found, allowed, [Remedy::NoRoughnessErrors]);
     }
-    if options.lines < FEWEST_LINES {
-        let found = format!("{} profiles", options.lines);
-        let allowed = format!("at least {FEWEST_LINES}");
-        return refused_with(found, allowed, [Remedy::Profiles(FEWEST_LINES)]);
+    if options.profiles < FEWEST_PROFILES {
+        let found = format!("{} profiles", options.profiles);
+        let allowed = format!("at least {FEWEST_PROFILES}");
+        return refused_with(found, allowed, [Remedy::Profiles(FEWEST_PROFILES)]);
     }
     for (index, (name, curve)) in curves.iter().enumerate() {
         for (other_name, other) in &curves[..index] {

@@ -15,7 +15,7 @@ const RIDGE: f64 = 1e-5;
 /// Computed curve of a random profile with known parameters.
 pub(crate) struct Example {
     /// Number of the random profile.
-    pub line: u64,
+    pub profile: u64,
     pub description: Description,
     /// ln γ and ln E*.
     pub parameters: [f64; 2],
@@ -60,7 +60,7 @@ impl Polynomials {
         let mut right_of_work = vec![0.0; count];
         let mut right_of_modulus = vec![0.0; count];
         for example in examples {
-            if example.line % 2 != half {
+            if example.profile % 2 != half {
                 continue;
             }
             let terms = self.terms(&example.description);
@@ -122,8 +122,8 @@ impl Polynomials {
 
     /// Predicts ln γ and ln E* of a computed curve by the polynomial of the half that does not
     /// contain its random profile, so that the prediction has no bias from learning.
-    pub fn of_line(&self, line: u64, description: &Description) -> [f64; 2] {
-        self.by_half(&self.terms(description), 1 - (line % 2) as usize)
+    pub fn of_profile(&self, profile: u64, description: &Description) -> [f64; 2] {
+        self.by_half(&self.terms(description), 1 - (profile % 2) as usize)
     }
 
     /// Predicts ln γ and ln E* of a curve that belongs to no profile of the table, by the mean of
@@ -186,7 +186,7 @@ mod tests {
                 // the other half does not learn.
                 let [work, modulus] = parameters(&of);
                 Example {
-                    line: index % 16,
+                    profile: index % 16,
                     description: of,
                     parameters: [work + f64::from(u8::from(index % 2 == 0)), modulus],
                 }
@@ -196,8 +196,8 @@ mod tests {
         let of = random();
         let [work, modulus] = parameters(&of);
         for (found, expected) in [
-            (learned.of_line(0, &of), [work, modulus]),
-            (learned.of_line(1, &of), [work + 1.0, modulus]),
+            (learned.of_profile(0, &of), [work, modulus]),
+            (learned.of_profile(1, &of), [work + 1.0, modulus]),
             (learned.of_curve(&of), [work + 0.5, modulus]),
         ] {
             assert!(

@@ -18,14 +18,14 @@ pub(super) struct Precision {
     /// Number of measured curves.
     pub curves: f64,
     /// Number of random profiles.
-    pub lines: f64,
+    pub profiles: f64,
 }
 
 impl Precision {
     /// Returns the variance of the mean prediction over `curves` curves, in units of the variance
     /// over the random profiles.
     fn variance(&self, curves: f64) -> f64 {
-        1.0 / curves + 1.0 / self.lines
+        1.0 / curves + 1.0 / self.profiles
     }
 
     /// Returns the sources of the uncertainty of the work of adhesion. The interval of `work`
@@ -36,7 +36,7 @@ impl Precision {
         let all = work.half_width().powi(2);
         Shares {
             places: square / self.curves / variance / all,
-            profiles: square / self.lines / variance / all,
+            profiles: square / self.profiles / variance / all,
             roughness: self.of_roughness.powi(2) / all,
         }
     }

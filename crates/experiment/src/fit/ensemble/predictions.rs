@@ -57,7 +57,7 @@ pub(crate) struct Predictions {
     /// True if the table has a single E*, because E* is given.
     has_one_modulus: bool,
     /// Predicted ln γ and ln E* of each random profile at each node.
-    pub of_lines: Vec<Vec<[f64; 2]>>,
+    pub of_profiles: Vec<Vec<[f64; 2]>>,
     /// Scatter of the predictions over the random profiles.
     pub scatter: Scatter,
     likelihood: Likelihood,
@@ -72,34 +72,39 @@ impl Predictions {
         let examples = examples(table, measured);
         let polynomials = Polynomials::learned(&examples);
         let has_one_modulus = table.moduli.len() == 1;
-        let mut of_lines = Vec::with_capacity(table.lines.len());
-        for line in examples.chunks(table.places().len()) {
+        let mut of_profiles = Vec::with_capacity(table.profiles.len());
+        for profile in examples.chunks(table.places().len()) {
             let predict = |example: &Example| {
-                let prediction = polynomials.of_line(example.line, &example.description);
+                let prediction = polynomials.of_profile(example.profile, &example.description);
                 without_modulus_if(has_one_modulus, prediction)
             };
-            of_lines.push(line.iter().map(predict).collect::<Vec<_>>());
+            of_profiles.push(profile.iter().map(predict).collect::<Vec<_>>());
         }
         let mut of_curves = Vec::with_capacity(measured.summaries.len());
         for (index, summaries) in measured.summaries.iter().enumerate() {
             let prediction = polynomials.of_curve(&measured.describe(*summaries, index));
             of_curves.push(without_modulus_if(has_one_modulus, prediction));
         }
-        let scatter = Scatter::of(table, |line, node| of_lines[line][node]);
+        let scatter = Scatter::of(table, |profile, node| of_profiles[profile][node]);
         Predictions {
             likelihood: Likelihood::new(table, &scatter, known),
             polynomials,
             has_one_modulus,
-            of_lines,
+            of_profiles,
             scatter,
             of_curves,
         }
     }
 
     /// Predicts ln γ and ln E* of a further computed curve of a random profile of the table.
-    pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measurement) -> [f64; 2] {
-        let description = measured.describe(*curve, line);
-        let prediction = self.polynomials.of_line(line as u64, &description);
+    pub fn of_profile(
+        &self,
+        profile: usize,
+        curve: &Summaries,
+        measured: &Measurement,
+    ) -> [f64; 2] {
+        let description = measured.describe(*curve, profile);
+        let prediction = self.polynomials.of_profile(profile as u64, &description);
         without_modulus_if(self.has_one_modulus, prediction)
     }
 
@@ -169,7 +174,7 @@ impl Predictions {
         let moments = self.scatter.at(best);
         let inverse = moments.inverse();
         let distance = inverse.squared_distance(moments.mean, self.of_curves[index]);
-        let relative = distance / (1.0 + 1.0 / self.of_lines.len() as f64);
+        let relative = distance / (1.0 + 1.0 / self.of_profiles.len() as f64);
         let most = if self.has_one_modulus {
             FOREIGN_OF_WORK
         } else {
@@ -182,12 +187,12 @@ impl Predictions {
 /// Returns the computed curves of a table, profile by profile.
 fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
     let places = table.places();
-    let mut examples = Vec::with_capacity(table.lines.len() * places.len());
-    for (line, curves) in table.lines.iter().enumerate() {
+    let mut examples = Vec::with_capacity(table.profiles.len() * places.len());
+    for (profile, curves) in table.profiles.iter().enumerate() {
         for (curve, place) in curves.iter().zip(&places) {
             examples.push(Example {
-                line: line as u64,
-                description: measured.describe(*curve, line),
+                profile: profile as u64,
+                description: measured.describe(*curve, profile),
                 parameters: place.parameters(),
             });
         }

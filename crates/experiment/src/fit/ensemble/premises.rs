@@ -19,9 +19,9 @@ pub(super) fn warnings_at(
     let mut simulation = workers.simulation.another();
     let mut warnings = Vec::new();
     let mut computed = 0;
-    for line in 0..EnsembleFit::EXAMINED {
-        let profile = profile_at(&workers.specimen, place, preload, line);
-        let outcome = profile.and_then(|profile| simulation.compute(&profile).ok());
+    for number in 0..EnsembleFit::EXAMINED {
+        let profile = profile_at(&workers.specimen, place, preload, number);
+        let outcome = profile.and_then(|scene| simulation.compute(&scene).ok());
         let Some(outcome) = outcome else {
             continue;
         };
@@ -45,7 +45,7 @@ fn profile_at(
     specimen: &Specimen<'_>,
     place: Place,
     preload: f64,
-    line: u64,
+    number: u64,
 ) -> Option<CheckedScene> {
     let [work, modulus] = place.parameters().map(f64::exp);
     let has_closing_work = specimen.closing != 1.0;
@@ -60,7 +60,7 @@ fn profile_at(
             ..adhesion
         });
         scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
-        scene.set_seed(seed_of(specimen.scene, line));
+        scene.set_seed(seed_of(specimen.scene, number));
     });
     scene.ok()
 }

@@ -41,7 +41,7 @@ pub struct EnsembleFit {
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of random profiles with which the curves were compared.
-    pub lines: u64,
+    pub profiles: u64,
     /// Number of force curves computed on these profiles.
     pub computed: usize,
     /// Mean preload (largest force) in N of the measured curves.

@@ -119,8 +119,8 @@ impl Scatter {
         let count = table.ranges.len() * table.moduli.len();
         let mut nodes = Vec::with_capacity(count);
         for node in 0..count {
-            let lines = 0..table.lines.len();
-            let values: Vec<[f64; 2]> = lines.map(|line| value(line, node)).collect();
+            let profiles = 0..table.profiles.len();
+            let values: Vec<[f64; 2]> = profiles.map(|profile| value(profile, node)).collect();
             nodes.push(Moments::of(&values));
         }
         Scatter {
@@ -132,7 +132,9 @@ impl Scatter {
 
     /// Computes the moments of one summary; the second value is 0.
     pub fn of_summary(table: &Table, index: usize) -> Self {
-        Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])
+        Scatter::of(table, |profile, node| {
+            [table.profiles[profile][node][index], 0.0]
+        })
     }
 
     /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
@@ -190,9 +192,9 @@ mod tests {
 
     /// Returns a first summary that is a cubic polynomial of the place. The two profiles differ by
     /// the range.
-    fn cubic(place: Place, line: usize) -> f64 {
+    fn cubic(place: Place, profile: usize) -> f64 {
         place.range.powi(3) - 2.0 * place.range * place.modulus.powi(2)
-            + [-0.5, 0.5][line] * place.range
+            + [-0.5, 0.5][profile] * place.range
     }
 
     #[test]
@@ -204,18 +206,20 @@ mod tests {
         let mut table = Table {
             ranges,
             moduli,
-            lines: Vec::new(),
+            profiles: Vec::new(),
         };
         let places: Vec<Place> = table.places();
-        table.lines = (0..2)
-            .map(|line| {
+        table.profiles = (0..2)
+            .map(|profile| {
                 places
                     .iter()
-                    .map(|place| [cubic(*place, line); SUMMARIES])
+                    .map(|place| [cubic(*place, profile); SUMMARIES])
                     .collect()
             })
             .collect();
-        let scatter = Scatter::of(&table, |line, node| [table.lines[line][node][0], 0.0]);
+        let scatter = Scatter::of(&table, |profile, node| {
+            [table.profiles[profile][node][0], 0.0]
+        });
         for (range, modulus) in [(0.1, 1.05), (1.3, 1.6), (2.9, 1.9), (1.5, 1.3)] {
             let place = Place { range, modulus };
             let found = scatter.at(place);

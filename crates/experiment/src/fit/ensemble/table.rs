@@ -64,7 +64,7 @@ pub(crate) struct Table {
     /// ln E*, ascending and evenly spaced.
     pub moduli: Vec<f64>,
     /// Summaries of each random profile at all nodes. All moduli of the first range come first.
-    pub lines: Vec<Vec<Summaries>>,
+    pub profiles: Vec<Vec<Summaries>>,
 }
 
 /// An end of one of the two axes of a table.
@@ -105,15 +105,15 @@ impl End {
 impl Table {
     pub fn new(
         workers: &Workers<'_>,
-        lines: u64,
+        profiles: u64,
         ranges: Vec<f64>,
         moduli: Vec<f64>,
     ) -> Result<Self, ExperimentError> {
-        let lines = workers.curves(lines, &ranges, &moduli)?;
+        let profiles = workers.curves(profiles, &ranges, &moduli)?;
         Ok(Table {
             ranges,
             moduli,
-            lines,
+            profiles,
         })
     }
 
@@ -139,10 +139,10 @@ impl Table {
     ) -> Result<(), ExperimentError> {
         let added = end.nodes_beyond(&self.ranges, count);
         let place = end.place_in(&self.ranges);
-        let new = workers.curves(self.lines.len() as u64, &added, &self.moduli)?;
+        let new = workers.curves(self.profiles.len() as u64, &added, &self.moduli)?;
         let start = place * self.moduli.len();
-        for (line, curves) in self.lines.iter_mut().zip(new) {
-            line.splice(start..start, curves);
+        for (profile, curves) in self.profiles.iter_mut().zip(new) {
+            profile.splice(start..start, curves);
         }
         self.ranges.splice(place..place, added);
         Ok(())
@@ -156,22 +156,22 @@ impl Table {
     ) -> Result<(), ExperimentError> {
         let added = end.nodes_beyond(&self.moduli, count);
         let place = end.place_in(&self.moduli);
-        let new = workers.curves(self.lines.len() as u64, &self.ranges, &added)?;
-        for (line, curves) in self.lines.iter_mut().zip(new) {
-            let mut extended = Vec::with_capacity(line.len() + curves.len());
-            let rows = line.chunks(self.moduli.len()).zip(curves.chunks(count));
+        let new = workers.curves(self.profiles.len() as u64, &self.ranges, &added)?;
+        for (profile, curves) in self.profiles.iter_mut().zip(new) {
+            let mut extended = Vec::with_capacity(profile.len() + curves.len());
+            let rows = profile.chunks(self.moduli.len()).zip(curves.chunks(count));
             for (old, new) in rows {
                 extended.extend_from_slice(&old[..place]);
                 extended.extend_from_slice(new);
                 extended.extend_from_slice(&old[place..]);
             }
-            *line = extended;
+            *profile = extended;
         }
         self.moduli.splice(place..place, added);
         Ok(())
     }
 
-    /// Returns the nodes in the order in which [`Self::lines`] has the summaries of a profile.
+    /// Returns the nodes in the order in which [`Self::profiles`] has the summaries of a profile.
     pub fn places(&self) -> Vec<Place> {
         places(&self.ranges, &self.moduli)
     }
@@ -238,7 +238,7 @@ mod tests {
             (&grown.ranges, &grown.moduli),
             (&whole.ranges, &whole.moduli)
         );
-        assert_eq!(grown.lines, whole.lines);
+        assert_eq!(grown.profiles, whole.profiles);
         let stopped = Workers {
             specimen: Specimen {
                 stop: &|| true,

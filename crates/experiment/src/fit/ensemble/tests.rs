@@ -10,7 +10,7 @@ use asperity_data::Warning;
 use asperity_scene::{Adhesion, Scene};
 
 const OPTIONS: EnsembleOptions = EnsembleOptions {
-    lines: 16,
+    profiles: 16,
     is_modulus_free: false,
     height_error: None,
     hurst_error: None,
@@ -61,7 +61,7 @@ fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
         &all,
         &scene,
         EnsembleOptions {
-            lines: 64,
+            profiles: 64,
             ..OPTIONS
         },
     )
@@ -135,7 +135,7 @@ fn curves_without_adhesion_have_an_upper_bound_of_it() {
         &all,
         &scene,
         EnsembleOptions {
-            lines: 64,
+            profiles: 64,
             ..OPTIONS
         },
     )
@@ -215,7 +215,7 @@ fn curves_that_cannot_be_compared_are_refused() {
         vec![("cut".to_owned(), curve)]
     };
     let few = EnsembleOptions {
-        lines: 8,
+        profiles: 8,
         ..OPTIONS
     };
     let twice = vec![all[0].clone(), ("again".to_owned(), all[0].1.clone())];
