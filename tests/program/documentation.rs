@@ -479,7 +479,7 @@ fn intervals_hold_the_means_of_skewed_values_as_often_as_stated() {
     assert_says(
         "docs/studies.md",
         &format!(
-            "in {low}, {middle} and {high} % of the cases if the logarithm has the standard deviation 0.5, 1 and 2"
+            "in {low} % of the cases if the logarithm has the standard deviation 0.5, in {middle} % for 1 and in {high} % for 2"
         ),
     );
 }
