@@ -473,10 +473,10 @@ impl Body {
     /// Finds the indentation in m at which a loading from separation reaches a target.
     fn turning_point(&mut self, loading: &Stage, target: Move) -> Result<f64, ContactError> {
         let stiffness = loading.contact().loading_stiffness;
-        let goal = match Goal::from(target) {
+        let goal = match target {
             // A tensile force is also a valid target: on the approach, adhesion pulls before the
             // body is pressed.
-            goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => goal,
+            Move::ToForce(force) if force < 0.0 && force.is_finite() => Goal::Force(force),
             _ => match plan(target, CurvePoint::default(), stiffness)? {
                 Some((Direction::Loading, goal)) => goal,
                 _ => return Err(ContactError::NoContact),

@@ -9,6 +9,7 @@ use super::foundation::Foundation;
 use super::history::{CurvePoint, Patch};
 use super::modulus::Modulus;
 use super::profile::Profile;
+use super::relaxation::Relaxation;
 use std::sync::{Arc, OnceLock};
 
 /// A rigid profile on an elastic half-space, with or without adhesion.
@@ -35,11 +36,23 @@ pub struct Contact {
     pub(super) profile: Profile,
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
+    /// Works of adhesion on closing and on opening, J/m².
+    works: [f64; 2],
     /// Rules of attachment and detachment; `None` without adhesion.
     rules: Option<Rules<ContactRule>>,
     /// Stiffness k in N/m of the instrument that moves the body; infinite for a rigid instrument.
     pub(super) loading_stiffness: f64,
+    /// Relaxation of the foundation; `None` for an elastic foundation.
+    relaxing: Option<Relaxing>,
     closing: Arc<OnceLock<Closing>>,
+}
+
+/// Relaxation of the foundation, and the speed at which time passes while the body moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Relaxing {
+    pub relaxation: Relaxation,
+    /// Speed in m/s of the drive of the instrument.
+    pub speed: f64,
 }
 
 /// Builder that sets the properties of a [`Contact`].
@@ -73,6 +86,8 @@ pub struct ContactBuilder {
     works: [f64; 2],
     loading_stiffness: f64,
     edges: Edges,
+    relaxation: Option<Relaxation>,
+    loading_speed: Option<f64>,
 }
 
 impl ContactBuilder {
@@ -107,6 +122,27 @@ impl ContactBuilder {
         ContactBuilder { edges, ..self }
     }
 
+    /// Sets the relaxation of the foundation. The modulus of the contact is then the modulus at
+    /// once. A share of zero is an elastic foundation.
+    #[must_use]
+    pub fn relaxation(self, relaxation: Relaxation) -> Self {
+        ContactBuilder {
+            relaxation: Some(relaxation),
+            ..self
+        }
+    }
+
+    /// Sets the speed in m/s at which the drive of the instrument moves, or the body if the
+    /// instrument is rigid. A foundation with relaxation needs it; an elastic foundation does not
+    /// depend on it.
+    #[must_use]
+    pub fn loading_speed(self, speed: f64) -> Self {
+        ContactBuilder {
+            loading_speed: Some(speed),
+            ..self
+        }
+    }
+
     /// Builds the contact. Each property that the caller has not set has its default value.
     ///
     /// # Errors
@@ -118,6 +154,8 @@ impl ContactBuilder {
             works: [closing, work],
             loading_stiffness,
             edges,
+            relaxation,
+            loading_speed,
         } = self;
         let is_allowed = (0.0..=LARGEST).contains(&work);
         let allowed = "from 0 to 1e50 J/m²";
@@ -128,6 +166,7 @@ impl ContactBuilder {
         let is_allowed = loading_stiffness == f64::INFINITY || is_positive(loading_stiffness);
         let allowed = "from 1e-50 to 1e50 N/m, or infinite: rigid";
         check("loading stiffness", loading_stiffness, is_allowed, allowed)?;
+        let relaxing = relaxing(relaxation, loading_speed, edges)?;
         let foundation = Foundation {
             spacing: profile.spacing,
             modulus: modulus.pascals(),
@@ -139,8 +178,10 @@ impl ContactBuilder {
             profile,
             foundation,
             edges,
+            works: [closing, work],
             rules,
             loading_stiffness,
+            relaxing,
             closing: Arc::default(),
         })
     }
@@ -156,6 +197,8 @@ impl Contact {
             works: [0.0; 2],
             loading_stiffness: f64::INFINITY,
             edges: Edges::SubCell,
+            relaxation: None,
+            loading_speed: None,
         }
     }
 
@@ -165,6 +208,27 @@ impl Contact {
         Contact {
             edges: Edges::Grid,
             loading_stiffness: f64::INFINITY,
+            relaxing: None,
+            closing: Arc::default(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns this contact with another profile.
+    pub(super) fn with_profile(&self, profile: Profile) -> Self {
+        let foundation = Foundation {
+            spacing: profile.spacing,
+            length: profile.length,
+            ..self.foundation
+        };
+        let [closing, work] = self.works;
+        let rules = self
+            .rules
+            .map(|_| Rules::<ContactRule>::from_works(foundation, closing, work));
+        Contact {
+            profile,
+            foundation,
+            rules,
             closing: Arc::default(),
             ..self.clone()
         }
@@ -257,6 +321,15 @@ impl Contact {
         self.foundation.contact_radius(patches, point)
     }
 
+    /// Returns the relaxation of the foundation; `None` for an elastic foundation.
+    pub fn relaxation(&self) -> Option<Relaxation> {
+        self.relaxing.map(|relaxing| relaxing.relaxation)
+    }
+
+    pub(super) fn relaxing(&self) -> Option<Relaxing> {
+        self.relaxing
+    }
+
     /// Returns true if the contact has adhesion: its work of adhesion on opening is above zero.
     pub fn has_adhesion(&self) -> bool {
         self.rules.is_some()
@@ -281,4 +354,25 @@ impl Contact {
         let closing = close()?;
         Ok(self.closing.get_or_init(|| closing))
     }
+}
+
+/// Checks the relaxation of the foundation and the loading speed. Returns `None` if the foundation
+/// is elastic.
+fn relaxing(
+    relaxation: Option<Relaxation>,
+    speed: Option<f64>,
+    edges: Edges,
+) -> Result<Option<Relaxing>, ContactError> {
+    if let Some(speed) = speed {
+        check("loading speed", speed, is_positive(speed), "from 1e-50 to 1e50 m/s")?;
+    }
+    let Some(relaxation) = relaxation.filter(|relaxation| relaxation.share() > 0.0) else {
+        return Ok(None);
+    };
+    let allowed = "0 with Edges::Grid; relaxation needs Edges::SubCell";
+    check("relaxation share", relaxation.share(), edges == Edges::SubCell, allowed)?;
+    let allowed = "above 0 m/s; relaxation needs a loading speed";
+    let speed = speed.unwrap_or(0.0);
+    check("loading speed", speed, speed > 0.0, allowed)?;
+    Ok(Some(Relaxing { relaxation, speed }))
 }

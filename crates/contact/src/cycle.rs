@@ -9,6 +9,7 @@ use super::figures::Figures;
 use super::history::{CurvePoint, History, StageRecord};
 use super::moving_body::{MovingBody, load_body};
 use super::profile::Profile;
+use super::relaxation::RelaxingBody;
 use super::stage::{PatchState, Stage};
 use super::target::Move;
 use asperity_data::Warning;
@@ -126,8 +127,12 @@ pub struct Cycle {
     figures: Figures,
     /// Points of the force curve of each stage at the additional indentations of [`LoadOptions`].
     points: Vec<Vec<CurvePoint>>,
-    /// Stage of the last stage. If there are no stages, the stage of the separated body.
+    /// Stage of the last stage. If there are no stages, the stage of the separated body. With
+    /// relaxation it is the elastic approach.
     stage: Stage,
+    /// Patches at the end of a loading with relaxation. `None` without relaxation: the patches then
+    /// follow from the stage.
+    relaxed_patches: Option<Vec<PatchState>>,
 }
 
 /// Force curve of all loading stages. Each field is a column with one value for each point of the
@@ -228,6 +233,9 @@ impl Contact {
         if !stages.is_empty() && !may_begin(0) {
             return Err(ContactError::Interrupted);
         }
+        if self.relaxing().is_some() {
+            return self.load_relaxing(stages, indentations, &mut may_begin);
+        }
         let mut body = Body::new(self, samples as usize);
         let mut points = Vec::with_capacity(stages.len());
         let history = load_body(&mut body, stages, |record, motion| {
@@ -245,6 +253,33 @@ impl Contact {
             history,
             points,
             stage: body.stage(),
+            relaxed_patches: None,
+        })
+    }
+
+    /// Loads a body over a foundation with relaxation. `may_begin` returns false to end the loading
+    /// before a stage.
+    fn load_relaxing(
+        &self,
+        stages: &[Move],
+        indentations: &[f64],
+        may_begin: &mut dyn FnMut(usize) -> bool,
+    ) -> Result<Cycle, ContactError> {
+        let mut body = RelaxingBody::new(self)?;
+        let mut points = Vec::with_capacity(stages.len());
+        let history = load_body(&mut body, stages, |record, _| {
+            points.push(record.points_at(indentations));
+            if points.len() < stages.len() && !may_begin(points.len()) {
+                return Err(ContactError::Interrupted);
+            }
+            Ok(())
+        })?;
+        Ok(Cycle {
+            figures: Figures::of(&history),
+            history,
+            points,
+            stage: body.stage(),
+            relaxed_patches: Some(body.patch_states()?),
         })
     }
 
@@ -281,6 +316,9 @@ impl Contact {
         ends: &[Move],
         indentations: &[f64],
     ) -> Result<Vec<Reversal>, ContactError> {
+        if self.relaxing().is_some() {
+            return Err(ContactError::NotElastic);
+        }
         check_targets(ends)?;
         check_ascending(indentations)?;
         let mut reversals: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
@@ -497,6 +535,9 @@ impl Cycle {
     /// from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
+        if let Some(patches) = &self.relaxed_patches {
+            return patches.clone();
+        }
         let last_stage = self.history.stages.last();
         match last_stage.and_then(StageRecord::end_in_contact) {
             Some(end) => self.stage.patch_states(end.indentation),

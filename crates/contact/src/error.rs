@@ -79,6 +79,16 @@ pub enum ContactError {
         /// Smallest force in N that the contact reaches on this unloading.
         smallest: f64,
     },
+    /// A body over a foundation with [relaxation](crate::Relaxation) cannot load again after
+    /// springs have detached, because the free surface has not recovered.
+    #[error(
+        "with relaxation the surface that has detached has not recovered; allowed: one approach and one unloading, or no relaxation"
+    )]
+    NotRecovered,
+    /// Many turning points of one loading are computed together for an elastic foundation only. With
+    /// [relaxation](crate::Relaxation) each of them needs a loading of its own.
+    #[error("reversals need an elastic foundation; allowed: no relaxation, or one loading for each")]
+    NotElastic,
     /// No finite indentation on this foundation has the target force.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,

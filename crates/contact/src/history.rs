@@ -1,7 +1,7 @@
 //! Loading histories: the records of motions with their force curves, the contact patches, the
 //! counts of computing work, and the plan of a motion to a target.
 
-use super::error::ContactError;
+use super::error::{ContactError, LARGEST, check};
 use super::target::Move;
 #[cfg(feature = "serde")]
 use serde::Serialize;
@@ -54,6 +54,12 @@ pub struct StageRecord {
     /// history. If a jump begins in one stage and continues in the next stage of the same
     /// direction, each of the two stages has its own part of the energy.
     pub jump_energy: f64,
+    /// Energy in J that the foundation dissipates because it relaxes. Zero without
+    /// [relaxation](crate::Relaxation).
+    pub dashpot_energy: f64,
+    /// Time in s since first touch at each point of `curve`. Empty without
+    /// [relaxation](crate::Relaxation), because time then has no effect.
+    pub seconds: Vec<f64>,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
     /// Point of the smallest force that a further unloading to separation would reach. It is
@@ -94,6 +100,8 @@ impl StageRecord {
             detached: 0,
             released_energy: 0.0,
             jump_energy: 0.0,
+            dashpot_energy: 0.0,
+            seconds: Vec::new(),
             reaches_ends: false,
             smallest_of_rest: None,
         }
@@ -189,6 +197,29 @@ impl StageRecord {
         // number is at a point of the curve.
         let springs = self.curve.iter().map(|point| point.springs);
         springs.max().unwrap_or(0)
+    }
+
+    /// Returns points of the force curve at ascending indentations in m, by interpolation between
+    /// the points of the curve. Indentations that the stage does not pass are left out.
+    pub(super) fn points_at(&self, indentations: &[f64]) -> Vec<CurvePoint> {
+        let mut found = Vec::new();
+        for &indentation in indentations {
+            let passes = |pair: &&[CurvePoint]| {
+                let low = pair[0].indentation.min(pair[1].indentation);
+                let high = pair[0].indentation.max(pair[1].indentation);
+                low <= indentation && indentation <= high
+            };
+            if let Some(pair) = self.curve.windows(2).find(passes) {
+                found.push(pair[0].between(&pair[1], indentation));
+            }
+        }
+        found
+    }
+
+    /// Returns the energy in J that the contact dissipates in this stage: the released energy, and
+    /// the energy that relaxation dissipates.
+    pub fn dissipated_energy(&self) -> f64 {
+        self.released_energy + self.dashpot_energy
     }
 
     /// Returns the indentation in m at the beginning of the motion.
@@ -367,6 +398,24 @@ impl CurvePoint {
         }
     }
 
+    /// Returns the point at an indentation in m between this point and `other`, by interpolation.
+    pub(crate) fn between(&self, other: &CurvePoint, indentation: f64) -> Self {
+        let way = other.indentation - self.indentation;
+        if way == 0.0 {
+            return *other;
+        }
+        let share = (indentation - self.indentation) / way;
+        let between = |from: f64, to: f64| from + share * (to - from);
+        let nearest = if share < 0.5 { self } else { other };
+        CurvePoint {
+            indentation,
+            force: between(self.force, other.force),
+            contact_length: between(self.contact_length, other.contact_length),
+            stored_energy: between(self.stored_energy, other.stored_energy),
+            ..*nearest
+        }
+    }
+
     /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
     /// at this point of the force curve. k = `stiffness` is the stiffness of the instrument in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
@@ -403,6 +452,16 @@ impl Patch {
     /// middle, returns the left one.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
+    }
+
+    /// Returns one value for each of `springs` springs: true if the spring belongs to one of the
+    /// patches.
+    pub(super) fn of_ranges(patches: &[Patch], springs: usize) -> Vec<bool> {
+        let mut contact = vec![false; springs];
+        for patch in patches {
+            contact[patch.springs()].fill(true);
+        }
+        contact
     }
 
     /// Returns the contact patches from left to right. `contact` has one value for each spring,
@@ -445,16 +504,21 @@ pub(super) enum Goal {
     Separation(Option<f64>),
 }
 
-impl From<Move> for Goal {
-    fn from(target: Move) -> Self {
-        match target {
+impl Goal {
+    /// Returns the goal of a motion to a target; `None` if the target keeps the body in place.
+    fn of(target: Move) -> Result<Option<Self>, ContactError> {
+        Ok(Some(match target {
             Move::ToIndentation(indentation) => Goal::Indentation(indentation),
             Move::ToDisplacement(displacement) => Goal::Displacement(displacement),
             Move::ToTouch => Goal::Indentation(0.0),
             Move::ToForce(force) => Goal::Force(force),
             Move::ToZeroForce => Goal::Force(0.0),
             Move::ToSeparation => Goal::Separation(None),
-        }
+            Move::Hold(seconds) => {
+                check_hold(seconds)?;
+                return Ok(None);
+            }
+        }))
     }
 }
 
@@ -466,7 +530,10 @@ pub(super) fn plan(
     stiffness: f64,
 ) -> Result<Option<(Direction, Goal)>, ContactError> {
     let separated = here.springs == 0;
-    let goal = match Goal::from(target) {
+    let Some(goal) = Goal::of(target)? else {
+        return Ok(None);
+    };
+    let goal = match goal {
         // The displacement equals the indentation if the instrument is rigid, or if no force
         // deflects it because the body has not touched yet.
         Goal::Displacement(end) if stiffness.is_infinite() || separated && end < 0.0 => {
@@ -500,4 +567,10 @@ pub(super) fn plan(
 
 fn order(end: f64, here: f64) -> Ordering {
     end.partial_cmp(&here).unwrap_or(Ordering::Equal)
+}
+
+/// Returns an error unless a body can keep its place for this time in s.
+pub(super) fn check_hold(seconds: f64) -> Result<(), ContactError> {
+    let is_allowed = (0.0..=LARGEST).contains(&seconds);
+    check("time of a hold", seconds, is_allowed, "from 0 to 1e50 s")
 }

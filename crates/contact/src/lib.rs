@@ -60,6 +60,7 @@ mod modulus;
 mod moving_body;
 mod nominal_form;
 mod profile;
+mod relaxation;
 mod stage;
 mod stepwise;
 mod target;
@@ -79,6 +80,7 @@ pub use history::{CurvePoint, Direction, History, Patch, StageRecord, Work};
 pub use modulus::Modulus;
 pub use nominal_form::NominalForm;
 pub use profile::Profile;
+pub use relaxation::Relaxation;
 pub use target::Move;
 
 pub use asperity_data::Warning;
@@ -91,6 +93,7 @@ pub mod motion {
     pub use crate::body::{Body, Motion};
     pub use crate::events::JumpCollector;
     pub use crate::moving_body::{MovingBody, load_body};
+    pub use crate::relaxation::RelaxingBody;
     pub use crate::stage::jumps::{Jump, JumpKind};
     pub use crate::stage::{PatchState, Stage};
     pub use crate::stepwise::Stepwise;

@@ -159,6 +159,18 @@ impl Profile {
         })
     }
 
+    /// Returns this profile with other springs: each cell is divided into `parts` parts, and `gaps`
+    /// are the gaps in m of the springs after the division.
+    pub(super) fn divided(&self, gaps: Vec<f64>, parts: usize) -> Result<Self, ContactError> {
+        let divided = Profile::from_gaps(gaps, self.spacing / parts as f64)?;
+        Ok(Profile {
+            springs: divided.springs,
+            spacing: divided.spacing,
+            first: self.first * parts,
+            ..self.clone()
+        })
+    }
+
     /// Shifts the heights of the profile so that the height of its highest point is `summit` in m.
     ///
     /// # Errors

@@ -40,4 +40,7 @@ pub enum Move {
     ToZeroForce,
     /// Moves until the bodies separate.
     ToSeparation,
+    /// Keeps the drive of the instrument in place for this time in s. Without
+    /// [relaxation](crate::Relaxation) nothing changes in this time.
+    Hold(f64),
 }

@@ -43,7 +43,9 @@ pub use scene::document::Document;
 pub use scene::errors::{Origin, SceneError, SceneErrors};
 pub use scene::library::{Preset, presets};
 pub use scene::measured::Measured;
-pub use scene::model::{Material, Numerics, Observer, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+pub use scene::model::{
+    Material, MaterialRelaxation, Numerics, Observer, Roughness, SPRINGS_PER_WAVE, Scene, Solver,
+};
 pub use scene::open::open;
 pub use simulation::outcome::{Outcome, RunError};
 pub use simulation::stages::Simulation;

@@ -6,7 +6,7 @@ use super::coordinates::{Allowed, Coordinates};
 use super::error::StudyError;
 use super::plan::{PRELOAD, Plan};
 use super::quantity::Quantity;
-use asperity_contact::Move;
+use asperity_contact::{ContactError, Move};
 use asperity_data::{AxisScale, Remedy, format_quantity, format_range, parse_quantity};
 use asperity_scene::fields::Field;
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
@@ -287,6 +287,7 @@ impl Question {
             _ => false,
         };
         let is_rigid = scene.loading_stiffness.is_none() && scene.numerics.solver == Solver::Exact;
+        let is_rigid = is_rigid && !scene.relaxes();
         (is_work || self.axis.target.parameter().is_some()) && is_loop_force && is_rigid
     }
 
@@ -402,6 +403,9 @@ impl Sought {
     fn preload(scene: &CheckedScene, simulation: &mut Simulation) -> Result<Sought, StudyError> {
         if scene.numerics.solver != Solver::Exact {
             return Err(RunError::NeedsExactSolver.into());
+        }
+        if scene.relaxes() {
+            return Err(RunError::from(ContactError::NotElastic).into());
         }
         let reach = simulation.reach(scene)?;
         let mut largest: f64 = 0.0;

@@ -1,6 +1,7 @@
 //! The values that a study has recorded. They are read from the files that the processes of the
 //! study wrote, from the table that [`merge`](crate::merge) wrote, or are computed in memory.
 
+use asperity_contact::ContactError;
 use super::axis::Axis;
 use super::error::StudyError;
 use super::grid::{Grid, GridCell, GridLayer};
@@ -153,6 +154,9 @@ impl Results {
         StudyError::check_profiles(scene, lines)?;
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
             return Err(RunError::NeedsExactSolver.into());
+        }
+        if preloads.is_some() && scene.relaxes() {
+            return Err(RunError::from(ContactError::NotElastic).into());
         }
         let axes = preloads.into_iter().cloned().collect();
         Results::empty(Plan {

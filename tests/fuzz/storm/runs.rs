@@ -185,6 +185,7 @@ fn assert_stage(
         },
         Move::ToTouch => end.indentation == 0.0,
         Move::ToSeparation => (end.springs, end.patches) == (0, 0),
+        Move::Hold(_) => true,
     };
     prop_assert!(is_reached, "{:?} ends at {:?}", stage.target, end);
     Ok(())

@@ -1,6 +1,6 @@
 //! Edges between springs against relaxation of the rule level by level, after any history.
 
-mod relaxed;
+pub mod relaxed;
 
 use super::*;
 use relaxed::Relaxed;

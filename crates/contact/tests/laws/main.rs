@@ -19,6 +19,7 @@ mod patches;
 mod premises;
 mod refinement;
 mod refusals;
+mod relaxation;
 mod reversals;
 mod search;
 mod stepwise;

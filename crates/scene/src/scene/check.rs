@@ -220,6 +220,7 @@ impl Found<'_> {
             youngs_modulus,
             poisson_ratio,
             modulus,
+            relaxation: _,
         } = self.scene.material;
         let wrong = match (modulus, youngs_modulus, poisson_ratio) {
             (Some(_), None, None) | (None, Some(_), Some(_)) => "",
@@ -554,6 +555,49 @@ impl Found<'_> {
             "",
             "the stepwise solver moves whole springs: edges: Grid",
         );
+        self.check_relaxation();
+    }
+
+    /// Checks that a scene with relaxation states its speed, and asks nothing that needs an elastic
+    /// half-space.
+    fn check_relaxation(&mut self) {
+        let scene = self.scene;
+        if !scene.relaxes() {
+            return;
+        }
+        self.require(
+            scene.loading_speed.is_some(),
+            &[],
+            "loading_speed",
+            "",
+            "relaxation needs the speed of the loading: loading_speed: 1.0e-6",
+        );
+        self.require(
+            scene.numerics.solver == Solver::Exact,
+            &[],
+            "numerics.solver",
+            "",
+            "the stepwise solver has no time: numerics.solver: Exact, or no material.relaxation",
+        );
+        self.require(
+            scene.numerics.edges == Edges::SubCell,
+            &[],
+            "numerics.edges",
+            "",
+            "relaxation needs edges between springs: edges: SubCell, or no material.relaxation",
+        );
+        let mut has_separated = false;
+        for (index, stage) in scene.loading.iter().enumerate() {
+            let approaches = !matches!(stage, Move::ToSeparation | Move::Hold(_));
+            if has_separated && approaches {
+                let path = format!("loading.{index}");
+                let reason = "the surface has not recovered after the separation: one approach \
+                              with relaxation, or no material.relaxation";
+                self.refuse(&path, stage_in_ron(stage), "", reason);
+                return;
+            }
+            has_separated |= *stage == Move::ToSeparation;
+        }
     }
 }
 

@@ -128,6 +128,7 @@ fn may_pull(loading: &[Move]) -> bool {
             // unknown, so it may be smaller or larger than any other.
             Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
             Move::ToSeparation => (f64::NEG_INFINITY, true),
+            Move::Hold(_) => (deepest, false),
         };
         if index > 0 && pulls {
             return true;

@@ -269,7 +269,7 @@ pub const STAGE_INDENTATION: Field = row(
 /// Description of one loading stage. The allowed choices are the kinds of stages, such as a force
 /// or separation.
 pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
-    "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
+    "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force, separation, or a time at rest (hold 10 s)",
 );
 /// Description of the target value of a loading stage
 /// [`ToDisplacement`](asperity_contact::Move::ToDisplacement): the displacement of the instrument
@@ -282,8 +282,25 @@ pub const STAGE_DISPLACEMENT: Field = row(
 .quantity("displacement of stage", "D", "m")
 .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// Descriptions of the target values of loading stages: force, indentation and displacement.
-pub const STAGE_FIELDS: [&Field; 3] = [&STAGE_FORCE, &STAGE_INDENTATION, &STAGE_DISPLACEMENT];
+/// Description of the value of a loading stage [`Hold`](asperity_contact::Move::Hold): the time in s
+/// for which the drive of the instrument stays in place.
+pub const STAGE_HOLD: Field = row(
+    "loading",
+    Place::NOWHERE.of("Hold"),
+    Range::closed(0.0, 1e12),
+)
+.quantity("time of hold", "t", "s")
+.meaning(
+    "the instrument keeps its place for this time; without relaxation the contact does not change",
+);
+
+/// Descriptions of the values of loading stages: force, indentation, displacement and time.
+pub const STAGE_FIELDS: [&Field; 4] = [
+    &STAGE_FORCE,
+    &STAGE_INDENTATION,
+    &STAGE_DISPLACEMENT,
+    &STAGE_HOLD,
+];
 
 /// Returns the target value of a loading stage, and its description. Returns `None` for a stage
 /// without a target value, such as separation.
@@ -292,6 +309,7 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
         Move::ToForce(force) => Some((&STAGE_FORCE, force)),
         Move::ToIndentation(indentation) => Some((&STAGE_INDENTATION, indentation)),
         Move::ToDisplacement(displacement) => Some((&STAGE_DISPLACEMENT, displacement)),
+        Move::Hold(seconds) => Some((&STAGE_HOLD, seconds)),
         Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
     }
 }

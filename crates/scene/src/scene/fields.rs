@@ -7,7 +7,7 @@ use super::defaults;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, read_adhesion, read_form, read_roughness, read_stages, row};
 use super::measured::Measured;
-use super::model::{Roughness, SCENE_VERSION, Solver};
+use super::model::{MaterialRelaxation, Roughness, SCENE_VERSION, Solver};
 use super::range::Range;
 use super::range::Range::{Band, Choice, List, Text, Wavelengths, Whole};
 use super::slot::{Place, place};
@@ -50,6 +50,7 @@ const MATERIALS: Range = Choice(&[
     "(youngs_modulus: 2.0e6, poisson_ratio: 0.5)",
     "(modulus: 2.7e6)",
 ]);
+const RELAXATIONS: Range = Choice(&["(share: 0.2, time: 10.0)"]);
 const FORMS: Range = Choice(&[
     "Paraboloid(radius: 1.0e-3)",
     "Cone(angle: 0.1)",
@@ -116,6 +117,10 @@ const CLOSING_WORK: Place = place!(
     adhesion,
     Some(Adhesion { strength: Strength::Work { closing, .. }, .. }) => closing
 );
+const RELAXATION_SHARE: Place =
+    place!(material.relaxation, Some(MaterialRelaxation { share, .. }) => share);
+const RELAXATION_TIME: Place =
+    place!(material.relaxation, Some(MaterialRelaxation { time, .. }) => time);
 const KAPPA: Place = place!(
     adhesion,
     Some(Adhesion { strength: Strength::Parameter(RoughnessParameter::Kappa, value), .. }) => value
@@ -161,6 +166,16 @@ pub const FIELDS: &[Field] = &[
         .quantity("effective modulus", "E*", "Pa").default("None")
         .words("reduced modulus stiffness")
         .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
+    row("material.relaxation", place!(material.relaxation), RELAXATIONS)
+        .default("None")
+        .words("viscoelastic viscoelasticity creep time dependent standard linear solid Maxwell dashpot rate")
+        .meaning("fall of the modulus with time; elastic if left out"),
+    row("material.relaxation.share", RELAXATION_SHARE, Range::closed(0.0, 0.99))
+        .quantity("share that relaxes", "s", "1").step(Linear(0.01, 0.1))
+        .meaning("share of the modulus that relaxes: E* falls to E* (1 − s) after a long time"),
+    row("material.relaxation.time", RELAXATION_TIME, Range::closed(1e-12, 1e12))
+        .quantity("relaxation time", "τ", "s")
+        .meaning("time in which the relaxing part of the modulus falls to 1/e"),
     row("length", place!(length), Range::closed(1e-9, 10.0))
         .quantity("apparent diameter", "L", "m")
         .words("size width patch diameter domain system scan sample")
@@ -343,6 +358,10 @@ pub const FIELDS: &[Field] = &[
         .quantity("loading stiffness", "k", "N/m").default("None")
         .words("cantilever spring constant compliance instrument machine AFM load cell")
         .meaning("stiffness of the instrument that moves the body; rigid if left out"),
+    row("loading_speed", place!(loading_speed), Range::closed(1e-15, 1e6))
+        .quantity("loading speed", "v", "m/s").default("None")
+        .words("velocity rate piezo drive")
+        .meaning("speed of the instrument, or of the body if it is rigid; matters with relaxation"),
     row("loading", place!(loading), List { of: &STAGES, least: 1, most: MOST_STAGES })
         .default(defaults::LOADING).read(read_stages)
         .words("preload load force cycle history protocol dwell hold pause waiting contact time")

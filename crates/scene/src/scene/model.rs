@@ -5,7 +5,7 @@
 use super::adhesion::Adhesion;
 use super::defaults::{EDGES, LOADING, POINTS, SAMPLES, SOLVER, read_default};
 use super::measured::Measured;
-use asperity_contact::{ContactError, Edges, Modulus, Move};
+use asperity_contact::{ContactError, Edges, Modulus, Move, Relaxation};
 use asperity_data::Warning;
 use asperity_surface::lines::MeasuredOptions;
 use asperity_surface::{Form, SelfAffine};
@@ -47,6 +47,10 @@ pub struct Scene {
     /// Stiffness k of the instrument that moves the body in N/m; `None` for a rigid instrument.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loading_stiffness: Option<f64>,
+    /// Speed in m/s of the drive of the instrument, or of the body under a rigid instrument; `None`
+    /// if it is not stated. Without relaxation it has no effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loading_speed: Option<f64>,
     /// Loading stages in their order. The bodies are separated before the first stage.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,
@@ -82,6 +86,30 @@ pub struct Material {
     /// instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modulus: Option<f64>,
+    /// Relaxation of the half-space; `None` for an elastic half-space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relaxation: Option<MaterialRelaxation>,
+}
+
+/// Relaxation of a half-space as a scene states it. The modulus of the material is the modulus at
+/// once, and falls with time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialRelaxation {
+    /// Share of the modulus that relaxes.
+    pub share: f64,
+    /// Relaxation time τ in s.
+    pub time: f64,
+}
+
+impl MaterialRelaxation {
+    /// Returns the relaxation of the half-space.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::Value`] for a value out of its range.
+    pub fn relaxation(&self) -> Result<Relaxation, ContactError> {
+        Relaxation::new(self.share, self.time)
+    }
 }
 
 impl Material {
@@ -99,7 +127,7 @@ impl Material {
         Material {
             youngs_modulus: Some(youngs_modulus),
             poisson_ratio: Some(poisson_ratio),
-            modulus: None,
+            ..Material::default()
         }
     }
 
@@ -162,6 +190,13 @@ pub enum Roughness {
 }
 
 impl Scene {
+    /// Returns true if the half-space relaxes, so that forces depend on time.
+    pub fn relaxes(&self) -> bool {
+        self.material
+            .relaxation
+            .is_some_and(|relaxation| relaxation.share > 0.0)
+    }
+
     /// Returns a scene with this material and this apparent diameter in m. The body is nominally
     /// flat and smooth, and there is no adhesion. All other fields have their defaults.
     ///
@@ -186,6 +221,7 @@ impl Scene {
             roughness: None,
             adhesion: None,
             loading_stiffness: None,
+            loading_speed: None,
             loading: default_loading(),
             numerics: Numerics::default(),
             observe: Vec::new(),

@@ -2,7 +2,7 @@
 //! rows of the table of fields refer to slots.
 
 use super::adhesion::Adhesion;
-use super::model::{Material, Numerics, Observer, Roughness, Scene, Solver};
+use super::model::{Material, MaterialRelaxation, Numerics, Observer, Roughness, Scene, Solver};
 use super::stages::StageKind;
 use asperity_contact::{Edges, Move};
 use asperity_surface::{Detrend, Form};
@@ -253,6 +253,12 @@ impl Slot for Edges {
 }
 
 impl Slot for Material {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Group)
+    }
+}
+
+impl Slot for MaterialRelaxation {
     fn value(&self) -> Option<Value<'_>> {
         Some(Value::Group)
     }

@@ -25,7 +25,7 @@ pub struct StageKind {
 
 impl StageKind {
     /// All kinds of loading stages, in the order in which a key of the explorer selects them.
-    pub const ALL: [StageKind; 6] = [
+    pub const ALL: [StageKind; 7] = [
         StageKind {
             example: "ToForce(1.0e-5)",
             word: "force",
@@ -62,6 +62,12 @@ impl StageKind {
             unit: "",
             stage: |_| Move::ToSeparation,
         },
+        StageKind {
+            example: "Hold(10.0)",
+            word: "hold",
+            unit: "s",
+            stage: Move::Hold,
+        },
     ];
 
     /// Returns the index in [`StageKind::ALL`] of the kind of a stage, and the target value of the
@@ -71,9 +77,10 @@ impl StageKind {
             .iter()
             .position(|kind| discriminant(&(kind.stage)(0.0)) == discriminant(stage));
         let number = match *stage {
-            Move::ToForce(number) | Move::ToIndentation(number) | Move::ToDisplacement(number) => {
-                Some(number)
-            }
+            Move::ToForce(number)
+            | Move::ToIndentation(number)
+            | Move::ToDisplacement(number)
+            | Move::Hold(number) => Some(number),
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         };
         (kind.unwrap_or_default(), number)

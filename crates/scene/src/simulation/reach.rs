@@ -119,7 +119,7 @@ fn is_near(contact: &Contact, stage: Move) -> bool {
     match stage {
         Move::ToForce(force) => force <= force_of_a_length(contact),
         Move::ToIndentation(end) | Move::ToDisplacement(end) => end <= contact.profile().length(),
-        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => true,
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation | Move::Hold(_) => true,
     }
 }
 

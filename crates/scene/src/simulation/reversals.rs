@@ -149,8 +149,11 @@ impl Simulation {
     }
 }
 
-/// Returns an error if the scene has the stepwise solver.
+/// Returns an error if the scene has the stepwise solver, or if the half-space relaxes.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
+    if scene.relaxes() {
+        return Err(ContactError::NotElastic.into());
+    }
     if scene.numerics.solver == SolverChoice::Exact {
         Ok(())
     } else {

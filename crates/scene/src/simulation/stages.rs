@@ -10,7 +10,9 @@ use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::motion::{Body, ContactTree, MovingBody, Stage, Stepwise, load_body};
+use asperity_contact::motion::{
+    Body, ContactTree, MovingBody, RelaxingBody, Stage, Stepwise, load_body,
+};
 use asperity_contact::{
     ClosedForm, Contact, ContactError, Edges, Figures, History, Move, NominalForm, Patch, Profile,
     StageRecord,
@@ -385,11 +387,17 @@ impl Simulation {
         check_interruption(stop)?;
 
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-        let contact = governing
+        let mut contact = governing
             .contact(self.made()?)?
             .edges(edges)
-            .loading_stiffness(stiffness)
-            .build()?;
+            .loading_stiffness(stiffness);
+        if let Some(relaxation) = scene.material.relaxation {
+            contact = contact.relaxation(relaxation.relaxation()?);
+        }
+        if let Some(speed) = scene.loading_speed {
+            contact = contact.loading_speed(speed);
+        }
+        let contact = contact.build()?;
         let warnings = self.warnings_before_loading(scene, &governing)?;
         Ok(Prepared {
             contact,
@@ -490,7 +498,12 @@ impl Simulation {
         let ideal = governing
             .adhesive_work()
             .map(|work| ClosedForm::ideal_pull_off_force(work, governing.modulus, scene.length));
-        let smooth = self.smooth_pull_off_force(scene, &governing, &figures)?;
+        // The smooth body is computed as an elastic one.
+        let smooth = if scene.relaxes() {
+            None
+        } else {
+            self.smooth_pull_off_force(scene, &governing, &figures)?
+        };
         let [first_touch, zero_force] = without_preload;
         let histogram = if plan.runs(WorkPart::HeightHistogram) {
             self.histogram.clone()
@@ -638,6 +651,10 @@ fn load(
     match scene.numerics.solver {
         SolverChoice::Stepwise { step } => {
             load_stepwise(scene, contact, step, without_preload, timings, stop, see)
+        }
+        SolverChoice::Exact if contact.relaxation().is_some() => {
+            let mut body = RelaxingBody::new(contact)?;
+            Ok((load_body(&mut body, &scene.loading, see)?, [None; 2]))
         }
         SolverChoice::Exact => load_exactly(scene, contact, without_preload, timings, see),
     }

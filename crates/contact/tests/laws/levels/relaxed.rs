@@ -280,6 +280,13 @@ impl<'a> Relaxed<'a> {
         contacts
     }
 
+    /// Level of each fragment, and the positions of its edges in cells from the first spring.
+    pub fn edges(&self) -> Vec<(f64, f64, f64)> {
+        self.parts()
+            .map(|(level, part)| (level, part.from, part.to))
+            .collect()
+    }
+
     fn parts(&self) -> impl Iterator<Item = (f64, Part)> {
         self.patches
             .iter()

@@ -1,0 +1,85 @@
+//! The approach. Free springs have no memory, so that a relaxing contact attaches springs exactly
+//! as an elastic contact does: the contact is that of the elastic loading at the largest
+//! indentation so far.
+
+use crate::contact::Contact;
+use crate::contact_state::{ContactState, Grid};
+use crate::error::ContactError;
+use crate::stage::Stage;
+
+/// Number of springs up to which the contact is computed at each indentation anew. Longer profiles
+/// are tabulated.
+const TABULATED_FROM: usize = 1024;
+/// Number of intervals of the table.
+const INTERVALS: usize = 1024;
+/// Difference of the growths of the compression in neighbouring intervals of the table, as a share
+/// of the largest compression. Above it, an interval has a jump and is not interpolated.
+const JUMP: f64 = 1e-5;
+
+/// The elastic loading from separation, with the instantaneous modulus.
+pub struct Approach {
+    pub stage: Stage,
+    /// Contacts at evenly spaced indentations from zero on.
+    table: Vec<ContactState>,
+    /// Largest indentation of the table in m.
+    high: f64,
+    /// Largest magnitude of the compression in the table in m.
+    largest: f64,
+}
+
+impl Approach {
+    pub fn new(contact: &Contact) -> Result<Self, ContactError> {
+        Ok(Approach {
+            stage: Stage::approach(contact)?,
+            table: Vec::new(),
+            high: 0.0,
+            largest: 0.0,
+        })
+    }
+
+    /// Prepares the contact for indentations up to `indentation` in m.
+    pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
+        let is_short = self.stage.contact().gaps().len() < TABULATED_FROM;
+        if is_short || indentation <= self.high {
+            return Ok(());
+        }
+        self.table = self
+            .stage
+            .sample(Grid::new(0.0, indentation, INTERVALS))?;
+        self.high = indentation;
+        self.largest = 0.0;
+        for state in &self.table {
+            self.largest = self.largest.max(state.compression.abs());
+        }
+        Ok(())
+    }
+
+    /// Returns the contact at an indentation in m.
+    pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
+        let place = indentation / self.high * INTERVALS as f64;
+        let is_inside = place > 1.0 && place < (INTERVALS - 2) as f64;
+        if self.table.len() <= INTERVALS || !is_inside {
+            return self.stage.state(indentation);
+        }
+        let below = place as usize;
+        let growth = |index: usize| {
+            self.table[index + 1].compression - self.table[index].compression
+        };
+        let expected = 0.5 * (growth(below - 1) + growth(below + 1));
+        if (growth(below) - expected).abs() > JUMP * self.largest {
+            return self.stage.state(indentation);
+        }
+        let low = self.table[below];
+        let high = self.table[below + 1];
+        let share = (indentation - low.indentation) / (high.indentation - low.indentation);
+        let between = |low: f64, high: f64| low + share * (high - low);
+        let nearest = if share < 0.5 { low } else { high };
+        Ok(ContactState {
+            indentation,
+            totals: nearest.totals,
+            length: between(low.length, high.length),
+            compression: between(low.compression, high.compression),
+            squares: between(low.squares, high.squares),
+        })
+    }
+}

@@ -1,0 +1,147 @@
+//! A motion of the drive in steps that are divided until the force is accurate.
+
+use super::drive::Drive;
+use super::state::State;
+use crate::error::ContactError;
+
+/// Largest number of times that a step is halved. Where the contact jumps, the jump is located to
+/// this share of a step.
+const MOST_HALVINGS: u32 = 20;
+/// Largest number of guesses of the moment at which a motion reaches its goal.
+const GUESSES: usize = 60;
+/// Share of the largest force up to which the force of a goal is met.
+const SAME: f64 = 1e-13;
+
+/// A step of the drive, from a state to a displacement of the drive.
+#[derive(Clone, Copy)]
+pub struct Step {
+    /// Displacement D of the drive at the end of the step in m.
+    pub drive: f64,
+    /// Duration of the step in s.
+    pub seconds: f64,
+}
+
+impl Step {
+    /// Returns the first part of a step that begins at the displacement `from` in m.
+    fn part(self, from: f64, share: f64) -> Step {
+        Step {
+            drive: from + share * (self.drive - from),
+            seconds: share * self.seconds,
+        }
+    }
+}
+
+/// Condition that ends a motion, as a function of the state: the motion ends where it is at least
+/// zero.
+pub type Goal<'a> = &'a dyn Fn(&State) -> f64;
+
+impl Drive {
+    /// Moves the drive by a step, and adds the states on the way to `states`, which must begin with
+    /// the state before the step. The step is halved until two halves lead to the same force as one
+    /// step, and the force in the middle lies between, up to `tolerance` in m.
+    pub fn step(
+        &mut self,
+        states: &mut Vec<State>,
+        step: Step,
+        tolerance: f64,
+    ) -> Result<(), ContactError> {
+        let Some(from) = states.last().cloned() else {
+            return Ok(());
+        };
+        let whole = self.driven(&from, step.drive, step.seconds)?;
+        self.divide(states, &from, step, whole, tolerance, MOST_HALVINGS)
+    }
+
+    /// Divides a step, which leads to the state `whole` in one piece.
+    fn divide(
+        &mut self,
+        states: &mut Vec<State>,
+        from: &State,
+        step: Step,
+        whole: State,
+        tolerance: f64,
+        halvings: u32,
+    ) -> Result<(), ContactError> {
+        let moments = self.history.len();
+        let half = step.part(from.drive, 0.5);
+        let middle = self.driven(from, half.drive, half.seconds)?;
+        self.remember(from, &middle);
+        let end = self.driven(&middle, step.drive, step.seconds - half.seconds)?;
+        let force = self.force(&end);
+        let difference = (force - self.force(&whole)).abs();
+        let mean = 0.5 * (self.force(from) + force);
+        let bend = (self.force(&middle) - mean).abs();
+        let dips = !from.is_separated() && end.is_separated() && {
+            // The force may have fallen by this much before the contact was lost.
+            let way = (end.indentation - from.indentation).abs();
+            from.load.length * way > tolerance
+        };
+        let is_accurate = difference.max(bend) <= tolerance.max(self.rounding()) && !dips;
+        if is_accurate || halvings == 0 {
+            self.remember(&middle, &end);
+            self.largest_force = self.largest_force.max(force.abs());
+            states.push(middle);
+            states.push(end);
+            return Ok(());
+        }
+        self.forget(moments);
+        self.divide(states, from, half, middle, tolerance, halvings - 1)?;
+        let Some(middle) = states.last().cloned() else {
+            return Ok(());
+        };
+        let rest = Step {
+            drive: step.drive,
+            seconds: step.seconds - half.seconds,
+        };
+        let whole = self.driven(&middle, rest.drive, rest.seconds)?;
+        self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
+    }
+
+    fn rounding(&self) -> f64 {
+        SAME * self.largest_force
+    }
+
+    /// Finds the state at which a motion reaches its goal, on the step from `from` to `to`. The
+    /// goal is not reached at `from`, and is reached at `to`.
+    pub fn reach(
+        &mut self,
+        from: &State,
+        to: State,
+        goal: Goal<'_>,
+    ) -> Result<State, ContactError> {
+        let step = Step {
+            drive: to.drive,
+            seconds: to.seconds - from.seconds,
+        };
+        let mut reached = to;
+        let mut low = 0.0;
+        let mut high = 1.0;
+        let mut value_at_low = goal(from);
+        let mut value_at_high = goal(&reached);
+        for guess in 0..GUESSES {
+            let between = high - value_at_high * ((high - low) / (value_at_high - value_at_low));
+            let mut share = 0.5 * (low + high);
+            if guess % 3 != 2 && low < between && between < high {
+                share = between;
+            }
+            if share <= low || share >= high {
+                break;
+            }
+            let part = step.part(from.drive, share);
+            let state = self.driven(from, part.drive, part.seconds)?;
+            let value = goal(&state);
+            if value >= 0.0 {
+                high = share;
+                value_at_high = value;
+                reached = state;
+            } else {
+                low = share;
+                value_at_low = value;
+            }
+            if value_at_high == 0.0 {
+                break;
+            }
+        }
+        Ok(reached)
+    }
+}

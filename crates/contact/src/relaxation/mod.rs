@@ -1,0 +1,119 @@
+//! Relaxation in the contact: the springs of the foundation are standard linear solids, so that
+//! forces depend on time.
+//!
+//! # The law
+//!
+//! The modulus of the foundation falls from E₀ at once to E₀ (1 − s) after a long time: E(t) = E₀
+//! (1 − s + s e^(−t/τ)). s is the share and τ the time of the [`Relaxation`]. All springs in
+//! contact move with the same speed ḋ. A spring with the gap c that attached at the time t₁ with
+//! the compression u₁ = d(t₁) − c therefore bears, for each length of the foundation,
+//!
+//! f = E₀ ((1 − s) (d − c) + s (J + m e^(−t/τ))), with dJ/dt = ḋ − J/τ and m = (u₁ − J(t₁))
+//! e^(t₁/τ).
+//!
+//! J is one number for all springs. m is the *memory* of a spring: one number that is written when
+//! the spring attaches and read when it detaches.
+//!
+//! # The edges
+//!
+//! The edge of a patch moves faster than the foundation relaxes, so it obeys the instantaneous
+//! modulus E₀ (Popov 2025, separation of time scales):
+//!
+//! * a patch attaches surface that was never in contact as an elastic one does, because free
+//!   springs have no memory;
+//! * a patch of the length ℓ detaches wherever its tension −f exceeds E₀ Δl(ℓ). Δl is the largest
+//!   stretch by the rule of Hess. The quantity e = −f/E₀ is called the *tension* of a spring, in m.
+//!   Without relaxation it is the stretch c − d, and the rule is that of an elastic contact. As
+//!   there, the place of the largest tension detaches first, be it an edge or inside.
+//!
+//! # What is not exact
+//!
+//! * Free springs recover, so that surface which was in contact no longer lies at its gap. Such
+//!   surface does not attach again. A loading after springs have detached is refused.
+//! * The memory is straight between neighbouring springs. Its kinks deviate by the square of the
+//!   spacing.
+//! * A remainder of a patch without any spring, between two neighbouring springs, detaches.
+//! * The drive moves in steps. The steps are divided until the force deviates by less than a stated
+//!   share of the largest force.
+
+mod approach;
+mod body;
+mod core;
+mod division;
+mod drive;
+mod end_patches;
+mod field;
+mod line;
+mod loading;
+mod memory;
+mod patch;
+mod peaks;
+mod recorder;
+mod state;
+
+pub use body::RelaxingBody;
+
+use crate::error::{ContactError, check, is_positive};
+
+/// Relaxation of the foundation: a standard linear solid with one relaxation time.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile, Relaxation};
+///
+/// let gaps: Vec<f64> = (-512..=512)
+///     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+///     .collect();
+/// let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .relaxation(Relaxation::new(0.5, 1.0)?)
+///     .loading_speed(1.0e-6)
+///     .build()?;
+/// // The force falls while the sphere rests, and the sphere then adheres twice as strongly.
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::Hold(100.0), Move::ToSeparation])?;
+/// let held = &cycle.stages()[1];
+/// assert!(held.curve[held.curve.len() - 1].force < 0.7e-4);
+/// assert!(cycle.pull_off_force().unwrap() > 1.5 * 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relaxation {
+    share: f64,
+    time: f64,
+}
+
+impl Relaxation {
+    /// Largest share of the modulus that may relax. A foundation that relaxes completely has no
+    /// force at rest and no equilibrium.
+    pub const LARGEST_SHARE: f64 = 0.99;
+
+    /// Creates the relaxation of a foundation whose modulus falls by the share `share` of its
+    /// instantaneous value, with the relaxation time `time` in s. A share of zero is an elastic
+    /// foundation.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::Value`] for a share that is not from 0 to 0.99, and for a time that
+    /// is not from 1e-50 to 1e50 s.
+    pub fn new(share: f64, time: f64) -> Result<Self, ContactError> {
+        let is_allowed = (0.0..=Self::LARGEST_SHARE).contains(&share);
+        check("relaxation share", share, is_allowed, "from 0 to 0.99")?;
+        let allowed = "from 1e-50 to 1e50 s";
+        check("relaxation time", time, is_positive(time), allowed)?;
+        Ok(Relaxation { share, time })
+    }
+
+    /// Returns the share s of the instantaneous modulus that relaxes.
+    pub fn share(self) -> f64 {
+        self.share
+    }
+
+    /// Returns the relaxation time τ in s.
+    pub fn time(self) -> f64 {
+        self.time
+    }
+
+    /// Returns the share of the instantaneous modulus that remains after a long time.
+    pub fn remaining_share(self) -> f64 {
+        1.0 - self.share
+    }
+}

@@ -1,0 +1,145 @@
+//! The record of a stage, made from the states of the body one after the other.
+
+use super::Relaxation;
+use super::state::State;
+use crate::contact::Contact;
+use crate::history::{CurvePoint, Direction, Patch, StageRecord};
+use crate::target::Move;
+
+/// Points of a stage, and the springs that detach on it.
+pub struct Recorder {
+    curve: Vec<CurvePoint>,
+    seconds: Vec<f64>,
+    /// Displacement of the drive in m at each point.
+    drives: Vec<f64>,
+    /// ∫ v² dx in m² at each point, where v is that part of a compression which has not relaxed.
+    fresh_squares: Vec<f64>,
+    /// Patches at the last point that the body has been above its largest indentation.
+    patches: Option<Vec<Patch>>,
+    /// Indentation in m at which each spring detached on this stage. Infinite otherwise.
+    detached_at: Vec<f64>,
+}
+
+impl Recorder {
+    pub fn new(springs: usize) -> Self {
+        Recorder {
+            curve: Vec::new(),
+            seconds: Vec::new(),
+            drives: Vec::new(),
+            fresh_squares: Vec::new(),
+            patches: None,
+            detached_at: vec![f64::INFINITY; springs],
+        }
+    }
+
+    /// Adds a state and its point. `patches` are the patches of a body above its largest
+    /// indentation.
+    pub fn add(&mut self, state: &State, point: CurvePoint, patches: Option<Vec<Patch>>) {
+        if let (Some(before), Some(after)) = (&self.patches, &patches) {
+            for spring in lost(before, after) {
+                if let Some(detached_at) = self.detached_at.get_mut(spring) {
+                    *detached_at = self.curve.last().map_or(0.0, |point| point.indentation);
+                }
+            }
+        }
+        if patches.is_some() {
+            self.patches = patches;
+        }
+        self.curve.push(point);
+        self.seconds.push(state.seconds);
+        self.drives.push(state.drive);
+        self.fresh_squares.push(state.load.fresh_squares);
+    }
+
+    /// Returns the smallest force so far in N.
+    pub fn smallest_force(&self) -> f64 {
+        let forces = self.curve.iter().map(|point| point.force);
+        forces.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the indentation in m at which each spring detached; infinite for a spring that did
+    /// not detach.
+    pub fn detached_at(&self) -> &[f64] {
+        &self.detached_at
+    }
+
+    /// Returns the record of the stage.
+    pub fn record(
+        self,
+        contact: &Contact,
+        relaxation: Relaxation,
+        target: Move,
+        direction: Direction,
+    ) -> StageRecord {
+        let first = self.curve[0];
+        let last = self.curve[self.curve.len() - 1];
+        let mut record = StageRecord {
+            direction,
+            ..StageRecord::still(target, first)
+        };
+        for &point in &self.curve {
+            if point.force > record.largest.force {
+                record.largest = point;
+            }
+            if point.force < record.smallest.force {
+                record.smallest = point;
+            }
+        }
+        let rate = relaxation.share() * contact.foundation.spring_stiffness() / relaxation.time();
+        let mut work = 0.0;
+        for after in 1..self.curve.len() {
+            let before = after - 1;
+            let [from, to] = [self.curve[before], self.curve[after]];
+            work += 0.5 * (from.force + to.force) * (self.drives[after] - self.drives[before]);
+            let mean = 0.5 * (self.fresh_squares[before] + self.fresh_squares[after]);
+            record.dashpot_energy += rate * mean * (self.seconds[after] - self.seconds[before]);
+            record.attached += to.springs.saturating_sub(from.springs);
+            record.detached += from.springs.saturating_sub(to.springs);
+        }
+        let energy = |point: CurvePoint| {
+            let bent = point.force / contact.loading_stiffness;
+            point.stored_energy + 0.5 * point.force * bent
+        };
+        record.released_energy = work - (energy(last) - energy(first)) - record.dashpot_energy;
+        record.curve = self.curve;
+        record.seconds = self.seconds;
+        record
+    }
+}
+
+/// Returns the springs of the patches `before` that are not in the patches `after`. Both are from
+/// left to right.
+fn lost(before: &[Patch], after: &[Patch]) -> Vec<usize> {
+    let mut lost = Vec::new();
+    let mut rest = after.iter().peekable();
+    for patch in before {
+        let mut spring = patch.first;
+        while let Some(kept) = rest.peek()
+            && kept.first <= patch.last
+        {
+            lost.extend(spring..kept.first.max(spring));
+            spring = kept.last + 1;
+            rest.next();
+        }
+        lost.extend(spring..(patch.last + 1).max(spring));
+    }
+    lost
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn springs_that_are_no_longer_in_a_patch_are_lost() {
+        let patches = |ends: &[(usize, usize)]| -> Vec<Patch> {
+            let patches = ends.iter().map(|&(first, last)| Patch { first, last });
+            patches.collect()
+        };
+        let before = patches(&[(0, 3), (5, 9), (12, 12)]);
+        assert_eq!(lost(&before, &before), Vec::<usize>::new());
+        let after = patches(&[(1, 2), (5, 6), (8, 9)]);
+        assert_eq!(lost(&before, &after), [0, 3, 7, 12]);
+        assert_eq!(lost(&before, &[]).len(), 10);
+    }
+}
