@@ -364,13 +364,23 @@ fn relaxing(
     edges: Edges,
 ) -> Result<Option<Relaxing>, ContactError> {
     if let Some(speed) = speed {
-        check("loading speed", speed, is_positive(speed), "from 1e-50 to 1e50 m/s")?;
+        check(
+            "loading speed",
+            speed,
+            is_positive(speed),
+            "from 1e-50 to 1e50 m/s",
+        )?;
     }
     let Some(relaxation) = relaxation.filter(|relaxation| relaxation.share() > 0.0) else {
         return Ok(None);
     };
     let allowed = "0 with Edges::Grid; relaxation needs Edges::SubCell";
-    check("relaxation share", relaxation.share(), edges == Edges::SubCell, allowed)?;
+    check(
+        "relaxation share",
+        relaxation.share(),
+        edges == Edges::SubCell,
+        allowed,
+    )?;
     let allowed = "above 0 m/s; relaxation needs a loading speed";
     let speed = speed.unwrap_or(0.0);
     check("loading speed", speed, speed > 0.0, allowed)?;

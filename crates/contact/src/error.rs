@@ -87,7 +87,9 @@ pub enum ContactError {
     NotRecovered,
     /// Many turning points of one loading are computed together for an elastic foundation only. With
     /// [relaxation](crate::Relaxation) each of them needs a loading of its own.
-    #[error("reversals need an elastic foundation; allowed: no relaxation, or one loading for each")]
+    #[error(
+        "reversals need an elastic foundation; allowed: no relaxation, or one loading for each"
+    )]
     NotElastic,
     /// No finite indentation on this foundation has the target force.
     #[error("no finite indentation reaches that force on this foundation")]

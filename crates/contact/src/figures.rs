@@ -57,7 +57,8 @@ impl Figures {
         let pull_off = Branch::pull_off(records).map(|(_, point)| point);
         let end = records.last().and_then(|record| record.curve.last());
         let ends_separated = end.is_some_and(|point| point.springs == 0);
-        let energy = ends_separated.then(|| records.iter().map(StageRecord::dissipated_energy).sum());
+        let energy =
+            ends_separated.then(|| records.iter().map(StageRecord::dissipated_energy).sum());
         Figures::of_points(preload, pull_off, energy)
     }
 

@@ -1,7 +1,6 @@
 //! The values that a study has recorded. They are read from the files that the processes of the
 //! study wrote, from the table that [`merge`](crate::merge) wrote, or are computed in memory.
 
-use asperity_contact::ContactError;
 use super::axis::Axis;
 use super::error::StudyError;
 use super::grid::{Grid, GridCell, GridLayer};
@@ -11,6 +10,7 @@ use super::quantity::{Quantity, regime_of};
 use super::recorder::Recorded;
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, ShardFile};
+use asperity_contact::ContactError;
 use asperity_data::{AxisScale, Control, CountedWarning, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};

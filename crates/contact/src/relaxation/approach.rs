@@ -43,9 +43,7 @@ impl Approach {
         if is_short || indentation <= self.high {
             return Ok(());
         }
-        self.table = self
-            .stage
-            .sample(Grid::new(0.0, indentation, INTERVALS))?;
+        self.table = self.stage.sample(Grid::new(0.0, indentation, INTERVALS))?;
         self.high = indentation;
         self.largest = 0.0;
         for state in &self.table {
@@ -62,9 +60,8 @@ impl Approach {
             return self.stage.state(indentation);
         }
         let below = place as usize;
-        let growth = |index: usize| {
-            self.table[index + 1].compression - self.table[index].compression
-        };
+        let growth =
+            |index: usize| self.table[index + 1].compression - self.table[index].compression;
         let expected = 0.5 * (growth(below - 1) + growth(below + 1));
         if (growth(below) - expected).abs() > JUMP * self.largest {
             return self.stage.state(indentation);

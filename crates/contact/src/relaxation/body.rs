@@ -10,9 +10,7 @@ use super::state::{Phase, State};
 use crate::contact::Contact;
 use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
-use crate::history::{
-    CurvePoint, Direction, Goal, StageRecord, Patch, Work, check_hold, plan,
-};
+use crate::history::{CurvePoint, Direction, Goal, Patch, StageRecord, Work, check_hold, plan};
 use crate::moving_body::MovingBody;
 use crate::stage::{PatchState, Stage};
 use crate::target::Move;
@@ -98,7 +96,6 @@ impl RelaxingBody {
     pub fn seconds(&self) -> f64 {
         self.state.seconds
     }
-
 
     fn point_of(&self, state: &State) -> CurvePoint {
         let foundation = self.drive.contact.foundation;
@@ -279,7 +276,8 @@ impl RelaxingBody {
             let first_new = states.len();
             let tolerance = self.tolerance * self.drive.largest_force;
             let moments = self.drive.history.len();
-            self.drive.step(states, Step { drive, seconds }, tolerance)?;
+            self.drive
+                .step(states, Step { drive, seconds }, tolerance)?;
             let reached = (first_new..states.len()).find(|&index| {
                 let state = &states[index];
                 goal_value(state) >= 0.0 || (state.is_separated() && !separates)
@@ -419,8 +417,8 @@ impl RelaxingBody {
         self.stage = self.stage_of(direction, &last, &recorder)?;
         let relaxation = self.drive.relaxation;
         let mut record = recorder.record(&self.drive.contact, relaxation, target, direction);
-        record.reaches_ends = record.most_springs() > 0
-            && self.drive.approach.stage.reaches_ends(last.deepest);
+        record.reaches_ends =
+            record.most_springs() > 0 && self.drive.approach.stage.reaches_ends(last.deepest);
         self.work.count(&record);
         self.state = last;
         if self.state.is_separated() {
@@ -460,7 +458,12 @@ impl RelaxingBody {
             };
         }
         let end = last.indentation;
-        Ok(Stage::of_thresholds(&self.contact, direction, end, thresholds))
+        Ok(Stage::of_thresholds(
+            &self.contact,
+            direction,
+            end,
+            thresholds,
+        ))
     }
 
     /// Returns the patches in contact, from left to right.

@@ -42,7 +42,9 @@ impl Core {
     /// Returns true if the core lies inside a patch with the springs from `first` to `last`.
     fn is_inside(&self, first: usize, last: usize) -> bool {
         match self.springs {
-            Some([from, to]) => first < from && to < last && from - first <= FLANK && last - to <= FLANK,
+            Some([from, to]) => {
+                first < from && to < last && from - first <= FLANK && last - to <= FLANK
+            }
             None => last - first < 4 * FLANK,
         }
     }

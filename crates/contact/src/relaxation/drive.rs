@@ -123,12 +123,7 @@ impl Drive {
     /// Finds the state in which the instrument, with its drive at `drive` in m, and the contact are
     /// in equilibrium. The search begins at the present indentation and does not pass the first
     /// equilibrium, because the force grows at most with the length in contact.
-    fn balanced(
-        &mut self,
-        from: &State,
-        drive: f64,
-        seconds: f64,
-    ) -> Result<State, ContactError> {
+    fn balanced(&mut self, from: &State, drive: f64, seconds: f64) -> Result<State, ContactError> {
         let ramp = Ramp::new(self.relaxation, seconds);
         let remaining = self.remaining();
         let stiffness_of_cell = remaining + (1.0 - remaining) * ramp.mean_decay;
@@ -243,12 +238,7 @@ impl Drive {
     }
 
     /// Computes the load of a body that is at its largest indentation so far.
-    fn approach(
-        &self,
-        from: &State,
-        ramp: &Ramp,
-        state: &mut State,
-    ) -> Result<(), ContactError> {
+    fn approach(&self, from: &State, ramp: &Ramp, state: &mut State) -> Result<(), ContactError> {
         let contact = self.approach.at(state.deepest)?;
         let before = &from.load;
         let mut load = Load::of_approach(&contact);

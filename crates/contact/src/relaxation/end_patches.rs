@@ -29,12 +29,7 @@ impl Drive {
         }
     }
 
-    fn states_of(
-        &self,
-        line: &Line,
-        patches: &[StretchedPatch],
-        state: &State,
-    ) -> Vec<PatchState> {
+    fn states_of(&self, line: &Line, patches: &[StretchedPatch], state: &State) -> Vec<PatchState> {
         let field = self.field(line, state);
         patches
             .iter()

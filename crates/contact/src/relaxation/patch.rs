@@ -179,10 +179,7 @@ impl<'a> Receding<'a> {
 
     /// Returns the tensions of both edges in m.
     fn tensions(&self) -> [f64; 2] {
-        [
-            self.tension_at(&self.left),
-            self.tension_at(&self.right),
-        ]
+        [self.tension_at(&self.left), self.tension_at(&self.right)]
     }
 
     #[inline]

@@ -71,10 +71,7 @@ pub struct PeakTree {
 }
 
 impl PeakTree {
-    pub fn new(
-        springs: usize,
-        bound_of: impl Fn(usize) -> Bound,
-    ) -> Result<Self, ContactError> {
+    pub fn new(springs: usize, bound_of: impl Fn(usize) -> Bound) -> Result<Self, ContactError> {
         let leaves = springs.div_ceil(LEAF).next_power_of_two();
         let mut bounds = resized(Vec::new(), 2 * leaves, Bound::NONE)?;
         for spring in 0..springs {

@@ -36,8 +36,22 @@ pub fn case(number: u64) -> (Body, Body, Motion) {
     let speed = 1.0;
     let share = 0.05 + 0.75 * random(&mut seed);
     let time = deepest * 10.0_f64.powf(-2.0 + 4.0 * random(&mut seed));
-    let dwell = if random(&mut seed) < 0.5 { 0.0 } else { deepest * random(&mut seed) };
-    (body, fine, Motion { deepest, dwell, speed, share, time })
+    let dwell = if random(&mut seed) < 0.5 {
+        0.0
+    } else {
+        deepest * random(&mut seed)
+    };
+    (
+        body,
+        fine,
+        Motion {
+            deepest,
+            dwell,
+            speed,
+            share,
+            time,
+        },
+    )
 }
 
 fn subdivided(gaps: &[f64], parts: usize) -> Vec<f64> {
@@ -47,7 +61,9 @@ fn subdivided(gaps: &[f64], parts: usize) -> Vec<f64> {
         let cell = (x as usize).min(gaps.len().saturating_sub(2));
         gaps[cell] + (x - cell as f64) * (gaps[cell + 1] - gaps[cell])
     };
-    (0..parts * gaps.len()).map(|point| at(place(point)).max(0.0)).collect()
+    (0..parts * gaps.len())
+        .map(|point| at(place(point)).max(0.0))
+        .collect()
 }
 
 pub fn relaxing(body: &Body, motion: &Motion) -> Contact {
@@ -89,7 +105,11 @@ fn compared(number: u64, pulls: u32, tolerance: f64) -> Compared {
     indentations.sort_by(f64::total_cmp);
     indentations.dedup();
     let mut found = springs.press(&indentations);
-    let after = records[1].seconds.iter().chain(&records[2].seconds).copied();
+    let after = records[1]
+        .seconds
+        .iter()
+        .chain(&records[2].seconds)
+        .copied();
     let mut times: Vec<f64> = after.collect();
     let end = times[times.len() - 1];
     let turn = motion.turn();
@@ -104,12 +124,17 @@ fn compared(number: u64, pulls: u32, tolerance: f64) -> Compared {
     }
     // Whatever is left of the last patch.
     found.push(springs.pull(end + 1e-3 * (end - turn)));
-    let scale = found.iter().map(|found| found.force.abs()).fold(0.0, f64::max);
+    let scale = found
+        .iter()
+        .map(|found| found.force.abs())
+        .fold(0.0, f64::max);
     Compared {
         records,
         springs_released: springs.released,
         springs_dissipated: springs.dissipated,
-        gained: Stage::approach(&contact).unwrap().released_energy(-1.0, motion.deepest),
+        gained: Stage::approach(&contact)
+            .unwrap()
+            .released_energy(-1.0, motion.deepest),
         scale,
         found,
     }
@@ -129,12 +154,19 @@ fn deviation(compared: &Compared) -> f64 {
             let near = |found: &&Found| (found.seconds - seconds).abs() <= ALLOWED * end;
             let place = found.partition_point(|found| found.seconds < seconds);
             let close = found[place.saturating_sub(1)..(place + 1).min(found.len())].iter();
-            let forces = found.iter().filter(near).chain(close).map(|found| found.force);
+            let forces = found
+                .iter()
+                .filter(near)
+                .chain(close)
+                .map(|found| found.force);
             let low = forces.clone().fold(f64::INFINITY, f64::min);
             let high = forces.fold(f64::NEG_INFINITY, f64::max);
             let beyond = (low - point.force).max(point.force - high) / scale;
             if beyond > 1e-3 && beyond > worst && std::env::var("SHOW").is_ok() {
-                println!("    {:?} t {seconds} d {} F {} not in {low} {high} of {scale}", record.target, point.indentation, point.force);
+                println!(
+                    "    {:?} t {seconds} d {} F {} not in {low} {high} of {scale}",
+                    record.target, point.indentation, point.force
+                );
             }
             worst = worst.max(beyond);
         }
@@ -160,13 +192,18 @@ fn judge(numbers: impl Iterator<Item = u64>) {
         let deviation = deviation(&compared);
         let energies = energy_deviations(&compared);
         if std::env::var("SHOW").is_ok() {
-            println!("{number} {deviation:.1e} {energies:.1?}", energies = energies.map(|e| 1e3 * e));
+            println!(
+                "{number} {deviation:.1e} {energies:.1?}",
+                energies = energies.map(|e| 1e3 * e)
+            );
         }
         if std::env::var("SHOW").is_ok() {
             continue;
         }
         assert!(deviation <= ALLOWED, "case {number}: {deviation}");
-        let is_balanced = energies.iter().all(|energy| energy.abs() <= ALLOWED_OF_ENERGY);
+        let is_balanced = energies
+            .iter()
+            .all(|energy| energy.abs() <= ALLOWED_OF_ENERGY);
         assert!(is_balanced, "case {number}: {energies:?}");
     }
 }

@@ -7,7 +7,12 @@ use std::time::Instant;
 
 fn rough(points: usize) -> Body {
     let gaps = from_lowest(&self_affine(0.7, 5, points));
-    Body::new(gaps, Edges::SubCell, Foundation::new(1.0 / points as f64, 1.0), 1e-3)
+    Body::new(
+        gaps,
+        Edges::SubCell,
+        Foundation::new(1.0 / points as f64, 1.0),
+        1e-3,
+    )
 }
 
 #[test]
@@ -16,39 +21,87 @@ fn times() {
     for power in [9, 11, 12, 13, 14, 15, 16] {
         let points = 1 << power;
         let body = rough(points);
-        let stages = [Move::ToIndentation(0.3 * body.deepest()), Move::ToSeparation];
+        let stages = [
+            Move::ToIndentation(0.3 * body.deepest()),
+            Move::ToSeparation,
+        ];
         let best = |run: &mut dyn FnMut()| {
-            (0..5).map(|_| { let clock = Instant::now(); run(); clock.elapsed().as_secs_f64() }).fold(f64::INFINITY, f64::min) * 1e3
+            (0..5)
+                .map(|_| {
+                    let clock = Instant::now();
+                    run();
+                    clock.elapsed().as_secs_f64()
+                })
+                .fold(f64::INFINITY, f64::min)
+                * 1e3
         };
-        let elastic = best(&mut || { body.contact().load_with(&stages, LoadOptions::default().samples(400)).unwrap(); });
+        let elastic = best(&mut || {
+            body.contact()
+                .load_with(&stages, LoadOptions::default().samples(400))
+                .unwrap();
+        });
         let mut shown = String::new();
         let relaxing = best(&mut || {
-            let contact = body.foundation.builder(&body.gaps, Edges::SubCell, [body.work; 2]).relaxation(Relaxation::new(0.3, 0.1).unwrap()).loading_speed(1.0).build().unwrap();
+            let contact = body
+                .foundation
+                .builder(&body.gaps, Edges::SubCell, [body.work; 2])
+                .relaxation(Relaxation::new(0.3, 0.1).unwrap())
+                .loading_speed(1.0)
+                .build()
+                .unwrap();
             let mut solver = RelaxingBody::new(&contact).unwrap();
             let a = solver.advance(stages[0]).unwrap();
             let patches = solver.patches().len();
             let steps_a = solver.work().steps;
             let b = solver.advance(stages[1]).unwrap();
-            shown = format!("patches {patches} steps {steps_a} {} points {} {}", solver.work().steps, a.curve.len(), b.curve.len());
+            shown = format!(
+                "patches {patches} steps {steps_a} {} points {} {}",
+                solver.work().steps,
+                a.curve.len(),
+                b.curve.len()
+            );
         });
         println!("rough 2^{power}: elastic {elastic:.2} ms relaxing {relaxing:.2} ms {shown}");
     }
     for points in [400, 1001, 4001, 16385] {
-        let sphere = Sphere { points, work: 1.0, share: 0.3, time: 1.0, speed: 1.0, stiffness: f64::INFINITY };
+        let sphere = Sphere {
+            points,
+            work: 1.0,
+            share: 0.3,
+            time: 1.0,
+            speed: 1.0,
+            stiffness: f64::INFINITY,
+        };
         let (gaps, spacing) = sphere.gaps();
         let body = Body::new(gaps, Edges::SubCell, Foundation::new(spacing, 1.0), 1.0);
         let stages = [Move::ToForce(5.0), Move::ToSeparation];
         let best = |run: &mut dyn FnMut()| {
-            (0..9).map(|_| { let clock = Instant::now(); run(); clock.elapsed().as_secs_f64() }).fold(f64::INFINITY, f64::min) * 1e3
+            (0..9)
+                .map(|_| {
+                    let clock = Instant::now();
+                    run();
+                    clock.elapsed().as_secs_f64()
+                })
+                .fold(f64::INFINITY, f64::min)
+                * 1e3
         };
-        let elastic = best(&mut || { body.contact().load_with(&stages, LoadOptions::default().samples(400)).unwrap(); });
+        let elastic = best(&mut || {
+            body.contact()
+                .load_with(&stages, LoadOptions::default().samples(400))
+                .unwrap();
+        });
         let mut shown = String::new();
         let relaxing = best(&mut || {
             let contact = sphere.contact();
             let mut solver = RelaxingBody::new(&contact).unwrap();
             let a = solver.advance(stages[0]).unwrap();
             let b = solver.advance(stages[1]).unwrap();
-            shown = format!("steps {} points {} {}", solver.work().steps, a.curve.len(), b.curve.len());
+            shown = format!(
+                "steps {} points {} {}",
+                solver.work().steps,
+                a.curve.len(),
+                b.curve.len()
+            );
         });
         println!("sphere {points}: elastic {elastic:.2} ms relaxing {relaxing:.2} ms {shown}");
     }

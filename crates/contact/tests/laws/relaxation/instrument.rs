@@ -41,7 +41,10 @@ fn the_drive_moves_evenly_and_stays_in_equilibrium() {
                     };
                     let found = point.displacement(stiffness);
                     let allowed = 1e-4 * (bend + deepest);
-                    assert!((found - expected).abs() < allowed, "{number} {factor} {stage} {seconds}: {found} {expected}");
+                    assert!(
+                        (found - expected).abs() < allowed,
+                        "{number} {factor} {stage} {seconds}: {found} {expected}"
+                    );
                 }
             }
         }
@@ -51,7 +54,14 @@ fn the_drive_moves_evenly_and_stays_in_equilibrium() {
 #[test]
 fn a_soft_instrument_pulls_off_at_the_force_of_a_rigid_one() {
     for stiffness in [0.5, 5.0, 50.0] {
-        let sphere = Sphere { points: 1001, work: 1.0, share: 0.5, time: 1.0, speed: 1e-2, stiffness };
+        let sphere = Sphere {
+            points: 1001,
+            work: 1.0,
+            share: 0.5,
+            time: 1.0,
+            speed: 1e-2,
+            stiffness,
+        };
         let stages = [Move::ToForce(20.0), Move::Hold(50.0), Move::ToSeparation];
         let cycle = sphere.contact().load(&stages).unwrap();
         let found = cycle.pull_off_force().unwrap() / (1.5 * PI) * 0.5;
@@ -64,7 +74,9 @@ fn a_fast_loop_under_an_instrument_is_the_elastic_loop() {
     for number in 0..12 {
         let (body, _, motion) = case(number);
         let stiffness = body.stiffness();
-        let builder = body.foundation.builder(&body.gaps, Edges::SubCell, [body.work; 2]);
+        let builder = body
+            .foundation
+            .builder(&body.gaps, Edges::SubCell, [body.work; 2]);
         let builder = builder.loading_stiffness(stiffness);
         let elastic = builder.clone().build().unwrap();
         let relaxing = builder
@@ -77,8 +89,14 @@ fn a_fast_loop_under_an_instrument_is_the_elastic_loop() {
         let [found, expected] = [&relaxing, &elastic].map(|contact| contact.load(&stages).unwrap());
         let [of_found, of_expected] = [&found, &expected].map(|cycle| cycle.pull_off_force());
         let difference = of_found.unwrap_or(0.0) - of_expected.unwrap_or(0.0);
-        assert!(difference.abs() < 1e-3 * force, "{number}: {of_found:?} {of_expected:?}");
+        assert!(
+            difference.abs() < 1e-3 * force,
+            "{number}: {of_found:?} {of_expected:?}"
+        );
         let [found, expected] = [&found, &expected].map(|cycle| cycle.stages()[0].end());
-        assert!((found - expected).abs() < 1e-4 * body.deepest(), "{number}: {found} {expected}");
+        assert!(
+            (found - expected).abs() < 1e-4 * body.deepest(),
+            "{number}: {found} {expected}"
+        );
     }
 }

@@ -26,7 +26,11 @@ fn deviation(relaxing: &Cycle, elastic: &Contact, stages: &[Move], shift: f64) -
             let mut forces: Vec<f64> = cycle.at(stage).iter().map(|point| point.force).collect();
             // Beyond the end of the stage the contact is lost.
             if forces.len() < places.len() {
-                forces.push(if stage + 1 == stages.len() { 0.0 } else { point.force });
+                forces.push(if stage + 1 == stages.len() {
+                    0.0
+                } else {
+                    point.force
+                });
             }
             let low = forces.iter().copied().fold(f64::INFINITY, f64::min);
             let high = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -94,7 +98,11 @@ fn a_slow_loop_is_the_elastic_loop_of_the_relaxed_modulus_and_of_two_works() {
 fn without_a_share_the_contact_is_elastic_bit_by_bit() {
     for number in 0..12 {
         let (body, _, motion) = case(number);
-        let stages = [Move::ToIndentation(motion.deepest), Move::Hold(3.0), Move::ToSeparation];
+        let stages = [
+            Move::ToIndentation(motion.deepest),
+            Move::Hold(3.0),
+            Move::ToSeparation,
+        ];
         let without = relaxing(&body, 0.0, 1.0);
         let found = without.load(&stages).unwrap();
         let expected = elastic(&body, 1.0, [body.work; 2]).load(&stages).unwrap();
@@ -106,7 +114,12 @@ fn without_a_share_the_contact_is_elastic_bit_by_bit() {
         };
         let fresh = relaxing(&body, 0.0, 1.0);
         assert_eq!(work(&fresh), work(&elastic(&body, 1.0, [body.work; 2])));
-        assert!(found.stages().iter().all(|record| record.seconds.is_empty()));
+        assert!(
+            found
+                .stages()
+                .iter()
+                .all(|record| record.seconds.is_empty())
+        );
         assert_eq!(found.stages()[1].curve.len(), 1);
     }
 }

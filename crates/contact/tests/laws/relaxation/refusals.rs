@@ -3,19 +3,37 @@
 use super::*;
 
 fn sphere(share: f64) -> Sphere {
-    Sphere { points: 201, work: 1.0, share, time: 1.0, speed: 1.0, stiffness: f64::INFINITY }
+    Sphere {
+        points: 201,
+        work: 1.0,
+        share,
+        time: 1.0,
+        speed: 1.0,
+        stiffness: f64::INFINITY,
+    }
 }
 
 #[test]
 fn wrong_values_are_named_with_what_is_allowed() {
     let refused = |share, time| Relaxation::new(share, time).unwrap_err().to_string();
-    assert_eq!(refused(1.0, 1.0), "relaxation share = 1; allowed: from 0 to 0.99");
-    assert_eq!(refused(f64::NAN, 1.0), "relaxation share = NaN; allowed: from 0 to 0.99");
-    assert_eq!(refused(0.5, 0.0), "relaxation time = 0; allowed: from 1e-50 to 1e50 s");
+    assert_eq!(
+        refused(1.0, 1.0),
+        "relaxation share = 1; allowed: from 0 to 0.99"
+    );
+    assert_eq!(
+        refused(f64::NAN, 1.0),
+        "relaxation share = NaN; allowed: from 0 to 0.99"
+    );
+    assert_eq!(
+        refused(0.5, 0.0),
+        "relaxation time = 0; allowed: from 1e-50 to 1e50 s"
+    );
     let (gaps, spacing) = sphere(0.5).gaps();
     let profile = Profile::from_gaps(gaps, spacing).unwrap();
     let builder = Contact::builder(&profile, Modulus::effective(1.0).unwrap());
-    let relaxing = builder.clone().relaxation(Relaxation::new(0.5, 1.0).unwrap());
+    let relaxing = builder
+        .clone()
+        .relaxation(Relaxation::new(0.5, 1.0).unwrap());
     let refused = |builder: ContactBuilder| builder.build().unwrap_err().to_string();
     assert_eq!(
         refused(relaxing.clone()),
@@ -40,9 +58,16 @@ fn wrong_loadings_are_named() {
     let again = [Move::ToForce(1.0), Move::ToSeparation, Move::ToForce(1.0)];
     assert_eq!(refused(&again).stage(), Some(2));
     let words = "stage 3: with relaxation the surface that has detached has not recovered";
-    assert!(refused(&again).to_string().starts_with(words), "{}", refused(&again));
+    assert!(
+        refused(&again).to_string().starts_with(words),
+        "{}",
+        refused(&again)
+    );
     let smallest = refused(&[Move::ToForce(1.0), Move::ToForce(-100.0)]);
-    assert!(smallest.smallest_force().is_some_and(|force| force < -4.0), "{smallest}");
+    assert!(
+        smallest.smallest_force().is_some_and(|force| force < -4.0),
+        "{smallest}"
+    );
     assert!(contact.load(&[Move::Hold(f64::NAN)]).is_err());
     assert!(contact.load(&[Move::Hold(-1.0)]).is_err());
     assert!(contact.load(&[Move::ToForce(-1.0)]).is_err());
@@ -72,11 +97,19 @@ fn stages_of_any_kind_reach_their_targets() {
     assert_eq!(end(0).springs, 0);
     assert_eq!(end(1).indentation, 0.0);
     for (stage, force) in [(2, 0.0), (3, 1.0), (5, 2.0), (8, 0.5), (10, 0.0)] {
-        assert!((end(stage).force - force).abs() < 1e-9, "{stage}: {:?}", end(stage));
+        assert!(
+            (end(stage).force - force).abs() < 1e-9,
+            "{stage}: {:?}",
+            end(stage)
+        );
     }
     assert_eq!(end(6).indentation, 1.5);
     assert_eq!(end(12).springs, 0);
-    let times: Vec<f64> = cycle.stages().iter().flat_map(|stage| stage.seconds.clone()).collect();
+    let times: Vec<f64> = cycle
+        .stages()
+        .iter()
+        .flat_map(|stage| stage.seconds.clone())
+        .collect();
     assert!(times.windows(2).all(|pair| pair[0] <= pair[1]));
     let attached: u64 = cycle.stages().iter().map(|stage| stage.attached).sum();
     let detached: u64 = cycle.stages().iter().map(|stage| stage.detached).sum();

@@ -137,9 +137,17 @@ impl<'a> Springs<'a> {
             let at = |x: f64, spring: usize| {
                 if x == spring as f64 || spring == 0 && x < 0.0 || x > (gaps.len() - 1) as f64 {
                     let memory = memory_of(gaps[spring], self.thresholds[spring]);
-                    return Vertex { x, gap: gaps[spring], memory };
+                    return Vertex {
+                        x,
+                        gap: gaps[spring],
+                        memory,
+                    };
                 }
-                Vertex { x, gap: level, memory: memory_of(level, d) }
+                Vertex {
+                    x,
+                    gap: level,
+                    memory: memory_of(level, d),
+                }
             };
             let mut polygon = vec![at(from, first)];
             polygon.extend((first..=last).map(|spring| at(spring as f64, spring)));
@@ -172,9 +180,8 @@ impl<'a> Springs<'a> {
                 let u = [0, 1].map(|end| d - pair[end].gap);
                 let v = [0, 1].map(|end| common + decay * pair[end].memory);
                 let mean = |of: [f64; 2]| length * 0.5 * (of[0] + of[1]);
-                let square = |of: [f64; 2]| {
-                    length * (of[0] * of[0] + of[0] * of[1] + of[1] * of[1]) / 3.0
-                };
+                let square =
+                    |of: [f64; 2]| length * (of[0] * of[0] + of[0] * of[1] + of[1] * of[1]) / 3.0;
                 force += (1.0 - share) * mean(u) + share * mean(v);
                 energy += 0.5 * ((1.0 - share) * square(u) + share * square(v));
                 fresh_squares += square(v);
@@ -226,7 +233,12 @@ impl<'a> Springs<'a> {
         one: f64,
     ) -> Vec<Vec<Vertex>> {
         let length = |polygon: &[Vertex]| polygon[polygon.len() - 1].x - polygon[0].x;
-        let of = |polygon: &[Vertex]| polygon.iter().map(tension).fold(f64::NEG_INFINITY, f64::max);
+        let of = |polygon: &[Vertex]| {
+            polygon
+                .iter()
+                .map(tension)
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
         for round in 0.. {
             assert!(round < 100_000, "{top} {polygon:?}", top = of(&polygon));
             if polygon.len() < 2 || length(&polygon) <= 0.0 {
@@ -240,7 +252,9 @@ impl<'a> Springs<'a> {
             let last = polygon.len() - 1;
             let ends = tension(&polygon[0]).max(tension(&polygon[last]));
             // A vertex inside is as much in tension as an end.
-            if let Some(inner) = (1..last).find(|&at| tension(&polygon[at]) >= top - ROUNDING && ends < top - ROUNDING) {
+            if let Some(inner) = (1..last)
+                .find(|&at| tension(&polygon[at]) >= top - ROUNDING && ends < top - ROUNDING)
+            {
                 return vec![polygon[..=inner].to_vec(), polygon[inner..].to_vec()];
             }
             // The highest level below, at which a further point counts.
@@ -258,21 +272,35 @@ impl<'a> Springs<'a> {
             // Tension minus what the patch bears is convex in the level, down to the next vertex.
             let excess = |level: f64| {
                 let cut = cut_ends(&polygon, tension, level);
-                if cut.len() > 1 { level - one * length(&cut).sqrt() } else { f64::INFINITY }
+                if cut.len() > 1 {
+                    level - one * length(&cut).sqrt()
+                } else {
+                    f64::INFINITY
+                }
             };
             let [mut low, mut high] = [below, top];
             for _ in 0..40 {
                 let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
-                if excess(a) < excess(b) { high = b } else { low = a }
+                if excess(a) < excess(b) {
+                    high = b
+                } else {
+                    low = a
+                }
             }
             let candidates = [below, low, high];
-            let least = candidates.into_iter().min_by(|&a, &b| excess(a).total_cmp(&excess(b)));
+            let least = candidates
+                .into_iter()
+                .min_by(|&a, &b| excess(a).total_cmp(&excess(b)));
             let least = least.unwrap_or(below);
             let level = if holds(least) {
                 let [mut low, mut high] = [least, top];
                 for _ in 0..45 {
                     let middle = 0.5 * (low + high);
-                    if holds(middle) { low = middle } else { high = middle }
+                    if holds(middle) {
+                        low = middle
+                    } else {
+                        high = middle
+                    }
                 }
                 low
             } else {
@@ -284,7 +312,11 @@ impl<'a> Springs<'a> {
                 if polygon.len() <= 2 {
                     return Vec::new();
                 }
-                if tension(&polygon[0]) >= level - ROUNDING { polygon.remove(0); } else { polygon.pop(); }
+                if tension(&polygon[0]) >= level - ROUNDING {
+                    polygon.remove(0);
+                } else {
+                    polygon.pop();
+                }
                 continue;
             }
             polygon = cut;
@@ -296,7 +328,10 @@ impl<'a> Springs<'a> {
 /// A polygon without its ends of a larger tension than `level`.
 fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -> Vec<Vertex> {
     let cut_left = |polygon: &[Vertex]| {
-        let Some(first) = polygon.iter().position(|vertex| tension(vertex) <= level + ROUNDING) else {
+        let Some(first) = polygon
+            .iter()
+            .position(|vertex| tension(vertex) <= level + ROUNDING)
+        else {
             return Vec::new();
         };
         let mut rest = polygon[first..].to_vec();
@@ -304,11 +339,14 @@ fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -
             let [outer, inner] = [polygon[first - 1], polygon[first]];
             let share = (level - tension(&inner)) / (tension(&outer) - tension(&inner));
             let between = |from: f64, to: f64| from + share * (to - from);
-            rest.insert(0, Vertex {
-                x: between(inner.x, outer.x),
-                gap: between(inner.gap, outer.gap),
-                memory: between(inner.memory, outer.memory),
-            });
+            rest.insert(
+                0,
+                Vertex {
+                    x: between(inner.x, outer.x),
+                    gap: between(inner.gap, outer.gap),
+                    memory: between(inner.memory, outer.memory),
+                },
+            );
         }
         rest
     };
@@ -325,7 +363,11 @@ fn attaches(before: &Relaxed<'_>, spring: usize, mut low: f64, mut high: f64) ->
         let middle = 0.5 * (low + high);
         let mut body = before.clone();
         body.move_to(middle);
-        if indices(&body.contacts()).contains(&spring) { high = middle } else { low = middle }
+        if indices(&body.contacts()).contains(&spring) {
+            high = middle
+        } else {
+            low = middle
+        }
     }
     high
 }
