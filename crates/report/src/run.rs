@@ -122,6 +122,9 @@ pub(crate) struct RunJson<'a> {
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
     dissipated_energy: Option<f64>,
+    /// Energy in J that relaxation dissipates; left out without relaxation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relaxation_energy: Option<f64>,
     /// Loop area ∮F dD in J. The outer `None` leaves out the entry in the JSON object, for a scene
     /// without an instrument. The inner `None` is an unknown area.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -198,6 +201,7 @@ impl<'a> RunJson<'a> {
             adhesion_coefficient: figures.adhesion_coefficient,
             pull_off_indentation: figures.pull_off_indentation,
             dissipated_energy: figures.dissipated_energy,
+            relaxation_energy: relaxation_energy(report.scene, outcome),
             loop_area: instrument.map(|instrument| instrument.loop_area),
             pull_off_displacement: instrument.map(|instrument| instrument.pull_off_displacement),
             tabor_number: outcome.tabor_number,
@@ -213,6 +217,16 @@ impl<'a> RunJson<'a> {
             timings: outcome.timings,
         }
     }
+}
+
+/// Returns the energy in J that relaxation dissipates; `None` without relaxation.
+fn relaxation_energy(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+    let energies = outcome
+        .history
+        .stages
+        .iter()
+        .map(|stage| stage.dashpot_energy);
+    scene.relaxes().then(|| energies.sum())
 }
 
 impl ProfileJson {
@@ -283,11 +297,14 @@ struct CurveRow<'a> {
     point: &'a CurvePoint,
     /// Displacement of the instrument in m.
     displacement: f64,
+    /// Time in s since first touch; zero if time has no effect.
+    seconds: f64,
 }
 
 /// Returns the table of a force curve in SI units. Each row has a point of the curve and the index
 /// of its loading stage. `stiffness` is the stiffness of the instrument in N/m. If it is not
-/// `None`, the table also has the displacement of the instrument.
+/// `None`, the table also has the displacement of the instrument. With relaxation the table also
+/// has the time since first touch.
 fn table_of_curve(stages: &[StageRecord], stiffness: Option<f64>) -> Table<'_> {
     let table = Table::of(move || curve_rows(stages, stiffness.unwrap_or(f64::INFINITY)))
         .whole("stage", |row| row.stage)
@@ -296,19 +313,37 @@ fn table_of_curve(stages: &[StageRecord], stiffness: Option<f64>) -> Table<'_> {
         .real("contact_length", |row| row.point.contact_length)
         .whole("patches", |row| row.point.patches)
         .real("stored_energy", |row| row.point.stored_energy);
+    let has_time = stages.iter().any(|record| !record.seconds.is_empty());
+    let table = if has_time {
+        table.real("time", |row| row.seconds)
+    } else {
+        table
+    };
     if stiffness.is_none() {
         return table.done();
     }
     table.real("displacement", |row| row.displacement).done()
 }
 
+/// Returns the time in s at each point of a stage. A stage in which the body keeps its place has
+/// the time at the end of the stage before, `before`.
+fn seconds_of(record: &StageRecord, before: f64) -> impl Iterator<Item = f64> {
+    let rest = std::iter::repeat(before);
+    record.seconds.iter().copied().chain(rest)
+}
+
 fn curve_rows(stages: &[StageRecord], stiffness: f64) -> impl Iterator<Item = CurveRow<'_>> {
+    let mut reached = 0.0;
     stages.iter().zip(0_u64..).flat_map(move |(record, stage)| {
+        let before = reached;
+        reached = record.seconds.last().copied().unwrap_or(before);
         let points = record.curve.iter().zip(displacements(record, stiffness));
-        points.map(move |(point, displacement)| CurveRow {
+        let points = points.zip(seconds_of(record, before));
+        points.map(move |((point, displacement), seconds)| CurveRow {
             stage,
             point,
             displacement,
+            seconds,
         })
     })
 }

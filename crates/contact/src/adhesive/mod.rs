@@ -68,11 +68,22 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// a spring that is never in contact.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
-        // Larger patches come first in the list. The smaller patches inside them have smaller
-        // thresholds and overwrite the values.
-        for run in self.runs {
+        // First and last spring of the patches whose thresholds are known, from left to right. In
+        // the list larger patches come before the smaller patches inside them, and patches on the
+        // right before patches on the left; the loop goes the other way. Each spring is thus
+        // visited once.
+        let mut known: Vec<[usize; 2]> = Vec::new();
+        for run in self.runs.iter().rev() {
             let bottom = self.ground.bottom(run);
-            thresholds[bottom.first..=bottom.last].fill(run.from);
+            let mut end = bottom.last + 1;
+            while let Some(&[first, last]) = known.last()
+                && first >= bottom.first
+            {
+                thresholds[last + 1..end].fill(run.from);
+                end = first;
+                known.pop();
+            }
+            thresholds[bottom.first..end].fill(run.from);
             let mut below = bottom;
             let ground = &self.ground;
             ground.each_span(run, f64::NEG_INFINITY, |span, from, _| {
@@ -81,6 +92,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
                 below = *span;
                 false
             });
+            known.push([below.first, below.last]);
         }
         thresholds
     }

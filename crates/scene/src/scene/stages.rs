@@ -136,7 +136,7 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     };
     let number = format(number, unit);
     let first_of_unit = StageKind::ALL.iter().position(|kind| kind.unit == unit);
-    if first_of_unit == Some(place) {
+    if first_of_unit == Some(place) && !matches!(stage, Move::Hold(_)) {
         number
     } else {
         format!("{word} {number}")

@@ -183,7 +183,10 @@ mod tests {
     /// Creates scenes that together contain each choice of each group.
     fn scenes_of_all_choices() -> Vec<Scene> {
         let base = Document::from_scene(&sound(), "base").unwrap();
-        let mut scenes = Vec::new();
+        let moving = base.set("loading_speed", "1.0e-6").unwrap();
+        let moving = moving.set("numerics.edges", "SubCell").unwrap();
+        let relaxing = moving.set("material.relaxation", "(share: 0.2, time: 10.0)");
+        let mut scenes = vec![Scene::clone(relaxing.unwrap().scene())];
         for path in ["form", "roughness", "adhesion", "numerics.solver"] {
             let Some(Range::Choice(choices)) = field(path, None).map(|field| field.range) else {
                 panic!("{path} is a choice")

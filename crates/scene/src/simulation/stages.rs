@@ -510,6 +510,13 @@ impl Simulation {
         } else {
             None
         };
+        // The regimes compare loops with and without a preload, which take different times.
+        let regime_after = |without_preload| {
+            if scene.relaxes() {
+                return None;
+            }
+            Regime::of_loading(&figures, without_preload, smooth)
+        };
         Ok(Outcome {
             line: facts,
             governing,
@@ -519,8 +526,8 @@ impl Simulation {
             zero_force_pull_off_force: zero_force,
             tabor_number: governing.tabor_number(scene),
             steep_waves: SteepWaves::of(scene, &governing),
-            regime: Regime::of_loading(&figures, first_touch, smooth),
-            regime_after_zero_force: Regime::of_loading(&figures, zero_force, smooth),
+            regime: regime_after(first_touch),
+            regime_after_zero_force: regime_after(zero_force),
             instrument: scene
                 .loading_stiffness
                 .map(|stiffness| InstrumentFigures::of(&history, &figures, stiffness)),

@@ -11,6 +11,7 @@ mod instrument;
 mod numerics;
 mod premises;
 mod profiles;
+mod relaxation;
 mod scene;
 mod simulation;
 mod smooth;

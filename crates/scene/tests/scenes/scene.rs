@@ -195,6 +195,11 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             );
         }
     }
+    let relaxing = "(version: 1, material: (modulus: 1.0e6, relaxation: (share: 0.2, time: 10.0)), \
+                    length: 1.0e-4, loading_speed: 1.0e-6)";
+    let document = Document::parse(relaxing, "x").unwrap_or_else(|errors| panic!("{errors}"));
+    let relaxing = serde_json::to_value(document.scene()).unwrap();
+    paths_of(&relaxing, String::new(), &mut found);
     found.extend(["adhesion.kappa", "adhesion.elastic_energy_ratio"].map(String::from));
     let table: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
     for path in &found {
@@ -242,6 +247,9 @@ fn the_choices_of_the_table_can_be_set() {
                         }
                         "false" | "true" | "Nothing" | "Mean" | "Tilt" | "Curvature" => {
                             document.set("roughness", "Measured(file: \"x\")").unwrap()
+                        }
+                        "(share: 0.2, time: 10.0)" => {
+                            document.set("loading_speed", "1.0e-6").unwrap()
                         }
                         _ => document.clone(),
                     };
