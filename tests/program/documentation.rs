@@ -33,7 +33,7 @@ pub const PAGES: [(&str, &str, &str); 18] = [
     (
         "Start",
         "gallery.md",
-        "ten questions, each with a picture, a command, a line of Python and an answer",
+        "eleven questions, each with a picture, a command, a line of Python and an answer",
     ),
     (
         "Start",
