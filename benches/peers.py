@@ -3,7 +3,7 @@
     python3 benches/peers.py [WHEEL]
 
 makes a virtual environment in target/peers with the wheel (or the package that pip builds of the sources) and the peers, and prints
-the rows of docs/performance.md. All times are CPU times of one thread, the smallest of three runs.
+the rows of docs/accuracy.md. All times are CPU times of one thread, the smallest of three runs.
 """
 
 import os

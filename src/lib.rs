@@ -10,7 +10,7 @@
 //! A contact patch of length l holds springs that are stretched by up to √(π l γ/E\*), with the
 //! work of adhesion γ and the effective modulus E\*.
 //!
-//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand. It explains
+//! Begin with `docs/learn.md` of the repository, which derives the model by hand. It explains
 //! why the springs may be independent, and where the rule of Hess comes from. It also computes the
 //! force loop of a sphere, and a profile of five springs whose pull-off force rises in steps with
 //! the preload. The examples on this page follow it.

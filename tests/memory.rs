@@ -242,7 +242,7 @@ const OF_OTHERS: usize = 1 << 17;
 #[test]
 fn memory_of_512_reversals_is_that_of_a_few() {
     let _alone = ALONE.lock();
-    let springs = 1 << 15;
+    let springs = 1 << 14;
     let spectrum = SelfAffine {
         hurst: 0.7,
         first: 1,
@@ -299,7 +299,7 @@ const PRELOADS_PER_SPRING: usize = 192;
 #[test]
 fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let _alone = ALONE.lock();
-    let springs = 1 << 16;
+    let springs = 1 << 15;
     let spectrum = SelfAffine {
         hurst: 0.1,
         first: 1,
@@ -407,6 +407,10 @@ fn a_run_holds_at_most_the_memory_that_is_stated() {
                 // The curves of many stages need the same memory on few springs, in less time.
                 let curve_points = stages as u64 * samples;
                 if points.len() > 4 && curve_points > 4_000 && stages > 2 {
+                    continue;
+                }
+                // So does the instrument.
+                if points.len() > 4 && instrument != "None" {
                     continue;
                 }
                 let stated = Workload::of(document.scene()).peak_bytes as usize;

@@ -6,11 +6,11 @@ use crate::failure::Failure;
 use crate::results::{Report, bytes, named};
 use crate::words::command;
 use asperity::cli::arguments::Command;
-use asperity::data::{Control, Remedied, on_threads, path_name};
+use asperity::data::{Control, Remedied, counted, on_threads, path_name};
 use asperity::experiment::{
     CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
 };
-use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport, counted};
+use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;

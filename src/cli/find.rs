@@ -5,6 +5,7 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{ProfileArguments, SceneArguments, warn_beside};
+use asperity_data::counted;
 use asperity_report::{FindReport, Format};
 use asperity_scene::{Document, Simulation};
 use asperity_study::{Axis, Found, Quantity, Question};
@@ -78,12 +79,12 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let task = Task {
         name: Some(document.name()),
         threads: arguments.profiles.threads(),
-        begins: format!("0 of {profiles} profiles"),
+        begins: format!("0 of {}", counted(profiles, "profile")),
     };
     let found = watched(
         task,
         |done: &u64, line: &mut ProgressLine| {
-            line.show(&format!("{done} of {profiles} profiles"), None)
+            line.show(&format!("{done} of {}", counted(profiles, "profile")), None)
         },
         |control| Found::of(question, &mut simulation, control),
     )?;

@@ -8,10 +8,9 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
 use super::scene::{Overrides, threads, warn_beside};
-use asperity_data::Remedied;
 use asperity_data::{
-    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
-    write_new,
+    Control, Remedied, check_writable, counted, grouped, on_threads, path_name, printable,
+    read_regular_text, write_new,
 };
 use asperity_experiment::{CurveOptions, Fit, Free, Parameter};
 use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
@@ -41,7 +40,7 @@ const LARGEST_TABLE: usize = 1 << 28;
 
 /// Shows the number of computed curves.
 pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
-    line.show(&format!("{} curves computed", grouped(*computed)), None);
+    line.show(&format!("{} computed", counted(*computed, "curve")), None);
 }
 
 /// Reason why a curve has no row in the table.
@@ -230,14 +229,11 @@ impl Batch<'_> {
             .collect();
         let table_path = table;
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
-        let count = grouped(sources.len() as u64);
+        let all = counted(sources.len() as u64, "curve");
         let watch = SignalWatch::begin()?;
         let stop = || watch.is_signalled();
         let mut line = ProgressLine::default();
-        line.show(
-            &format!("{} of {count} curves", grouped(rows.len() as u64)),
-            None,
-        );
+        line.show(&format!("{} of {all}", grouped(rows.len() as u64)), None);
         let progress = Mutex::new(Progress { rows, table, line });
         let worker = || {
             |number: u64| {
@@ -262,9 +258,7 @@ impl Batch<'_> {
                 });
                 progress.rows.insert(names[index].clone(), row);
                 let done = grouped(progress.rows.len() as u64);
-                progress
-                    .line
-                    .show(&format!("{done} of {count} curves"), None);
+                progress.line.show(&format!("{done} of {all}"), None);
                 written
             }
         };
@@ -282,7 +276,7 @@ impl Batch<'_> {
                     Some(_) => "the same command goes on",
                     None => "the same command begins anew, and with -o FILE.csv it would go on",
                 };
-                watch.interrupted(format!("stopped: {done} of {count} curves done; {next}"))
+                watch.interrupted(format!("stopped: {done} of {all} done; {next}"))
             }
         })?;
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())

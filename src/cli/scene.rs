@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::progress::{ProgressLine, Task, watched};
 use crate::explorer::recognition::no_scene;
-use asperity_data::{Control, parallel, printable};
+use asperity_data::{Control, counted, parallel, printable};
 use asperity_report::{Format, Report};
 use asperity_scene::library::open_argument;
 use asperity_scene::{CheckedScene, Document, Outcome, RunError, Scene, Simulation};
@@ -150,12 +150,15 @@ pub(super) fn compute_stages(
     let task = Task {
         name: Some(document.name()),
         threads: 1,
-        begins: format!("0 of {stages} stages"),
+        begins: format!("0 of {}", counted(stages as u64, "stage")),
     };
     watched(
         task,
         |done: &usize, line: &mut ProgressLine| {
-            line.show(&format!("{done} of {stages} stages"), None)
+            line.show(
+                &format!("{done} of {}", counted(stages as u64, "stage")),
+                None,
+            )
         },
         |mut control: Control<'_, usize>| {
             let stop = control.stop();

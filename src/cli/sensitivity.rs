@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, only_formats};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{SceneArguments, threads, warn_beside};
+use asperity_data::counted;
 use asperity_report::{Format, SensitivityReport};
 use asperity_scene::Simulation;
 use asperity_study::Sensitivity;
@@ -46,7 +47,7 @@ pub(super) fn sensitivity(
     let found = watched(
         task,
         |found: &Sensitivity, line: &mut ProgressLine| {
-            line.show(&format!("{} profiles", found.profiles), None)
+            line.show(&counted(found.profiles, "profile"), None)
         },
         |control| Sensitivity::of(scene, &mut simulation, control),
     )?;

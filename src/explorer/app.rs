@@ -7,25 +7,23 @@ use super::events::ListedEvents;
 use super::ghost::Ghost;
 use super::keys::bindings::{Context, KeyCommand};
 use super::manual_path::ManualPath;
-use super::map_state::Live;
 use super::map_state::MapState;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
-use super::player::{At, Player, indentations};
+use super::player::{Player, indentations};
 use super::prompt::{Prompt, Purpose};
-use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, FollowedPath, Preview, SolvedScene};
+use super::request::{CloseUpTarget, LineView, SnapshotRequest};
+use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
-use asperity_contact::{Events, Mark, StageRecord};
+use asperity_contact::{Mark, StageRecord};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::{Format, LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
-use asperity_study::maps::{Grid, GridPlace};
-use asperity_study::{Axis, Ensemble, Quantity};
+use asperity_study::{Ensemble, Quantity};
 use ratatui::style::Style;
 use ratatui::text::Span;
 use std::sync::Arc;
@@ -426,83 +424,19 @@ impl App {
             .is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Returns the position of the scene on the map, as numbers on the axes. `None` if the scene
-    /// lacks the quantity of an axis, or if the value of this quantity is not known yet.
-    pub fn place(&self) -> Option<GridPlace> {
-        let (across, up) = self.map_axes()?;
-        let scene = self.edit.document.scene();
-        let governing = self.governing();
-        let place_across = across.value_in(scene, governing.as_ref())?;
-        let Some(up) = up else {
-            return Some((place_across, None));
-        };
-        let place_up = up.value_in(scene, governing.as_ref())?;
-        Some((place_across, Some(place_up)))
-    }
-
-    pub fn grid(&self) -> Option<&Grid> {
-        match self.map.shown_study() {
-            Some(study) => Some(&study.grid),
-            None => Some(&self.studies.value::<Live>()?.grid),
-        }
-    }
-
-    /// Returns the horizontal and the vertical axis of the map that is shown. If no map is computed
-    /// yet, returns the axes of the live map, which the explorer will compute for the scene.
-    /// Returns `None` if the scene has no live map.
-    pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
-        if let Some(grid) = self.grid() {
-            return Some((grid.across.clone(), grid.up.clone()));
-        }
-        let mut axes = self
-            .map
-            .plan(self.edit.document.scene())
-            .ok()?
-            .axes
-            .into_iter()
-            .rev();
-        Some((axes.next()?, axes.next()))
-    }
-
-    /// Returns the quantity that the map shows. This is the quantity that the user has chosen or,
-    /// if the map does not contain it, the first quantity of the map.
-    pub fn mapped(&self) -> Quantity {
-        let chosen = self.map.quantity;
-        let quantities = self.mappable();
-        if quantities.contains(&chosen) {
-            return chosen;
-        }
-        quantities.first().copied().unwrap_or(chosen)
-    }
-
-    /// Returns the quantities that the map can show. The list is empty before a map is computed.
-    fn mappable(&self) -> Vec<Quantity> {
-        self.grid().map(Grid::quantities).unwrap_or_default()
-    }
-
-    /// Returns the quantity that the map shows next. After the last quantity of the map comes the
-    /// first one.
-    pub fn next_mapped(&self) -> Quantity {
-        let present = self.mapped();
-        let quantities = self.mappable();
-        let place = quantities.iter().position(|quantity| *quantity == present);
-        let next = place.map_or(0, |place| place + 1);
-        let next = quantities.get(next).or(quantities.first());
-        next.copied().unwrap_or(present)
-    }
-
-    /// Returns the panes that the user can select, the most important first.
+    /// Returns the panes that the user can select, in their order on the screen: from top to bottom
+    /// on the left, and then on the right.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
             Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
-            Some(large) => vec![Pane::Force, large, Pane::Parameters],
+            Some(large) => vec![large, Pane::Force, Pane::Parameters],
             None => {
                 let mut panes = vec![
                     Pane::Force,
-                    Pane::Profile,
-                    Pane::Parameters,
-                    Pane::CloseUp,
                     Pane::Timeline,
+                    Pane::Profile,
+                    Pane::CloseUp,
+                    Pane::Parameters,
                 ];
                 if self.view.lists_events {
                     panes.push(Pane::Events);
@@ -584,88 +518,6 @@ impl App {
             Pane::Profile => Some(&snapshot.profile),
             _ => None,
         }
-    }
-
-    pub fn drive(&self) -> Drive {
-        match (&self.edit.path, self.play_of_path) {
-            (None, _) => Drive::Stage(self.play.stage),
-            (Some(_), None) => Drive::Manual,
-            (Some(_), Some(player)) => Drive::Path(player.stage),
-        }
-    }
-
-    /// Returns the path of manual loading as the body has followed it before; `None` without manual
-    /// loading. It may lack the newest moves, and may belong to an earlier version of the scene.
-    pub fn former_path(&self) -> Option<&FollowedPath> {
-        self.edit.path.as_ref()?;
-        self.snapshot.as_ref()?.followed.as_deref()
-    }
-
-    /// Returns the path of manual loading as the body has followed it in the present scene, with
-    /// all moves; `None` until it is computed.
-    pub fn followed(&self) -> Option<&Arc<FollowedPath>> {
-        let snapshot = self.snapshot.as_ref()?;
-        let followed = snapshot.followed.as_ref()?;
-        let is_present = snapshot.generation == self.edit.generation
-            && Some(&followed.path) == self.edit.path.as_ref();
-        if is_present { Some(followed) } else { None }
-    }
-
-    /// Returns the events of the loading over which the animation moves, or the reason why there
-    /// are none; `None` until the solver has listed the events.
-    pub fn listed_events(&self) -> Option<Result<&Events, &str>> {
-        let listed = self.events.as_deref()?;
-        let is_present = listed.generation == self.edit.generation && listed.path == self.edit.path;
-        if !is_present {
-            return None;
-        }
-        Some(listed.events.as_ref().map_err(String::as_str))
-    }
-
-    /// Returns the loading stages over which the animation moves: those of the path of manual
-    /// loading, otherwise those of the scene.
-    pub fn played_stages(&self) -> &[StageRecord] {
-        match self.former_path() {
-            Some(followed) => &followed.stages,
-            None => self.stages(),
-        }
-    }
-
-    /// Returns the position of the animation over [`Self::played_stages`].
-    pub fn playhead(&self) -> Player {
-        match (&self.edit.path, self.play_of_path) {
-            (None, _) => self.play,
-            (Some(_), Some(player)) => player,
-            (Some(_), None) => Player {
-                stage: self.played_stages().len().saturating_sub(1),
-                at: At::End,
-                playing: false,
-            },
-        }
-    }
-
-    pub fn set_playhead(&mut self, player: Player) {
-        if self.edit.path.is_none() {
-            self.play = player;
-            return;
-        }
-        let last = self.played_stages().len().saturating_sub(1);
-        let is_at_end = player.stage == last && player.at == At::End;
-        self.play_of_path = if is_at_end { None } else { Some(player) };
-    }
-
-    /// Returns true while the animation moves.
-    pub fn is_playing(&self) -> bool {
-        self.playhead().playing && self.is_current()
-    }
-
-    /// Returns the newest snapshot, if it shows the present scene and the present kind of loading
-    /// (animation or manual); otherwise `None`.
-    pub fn present(&self) -> Option<&ContactSnapshot> {
-        let snapshot = self.snapshot.as_deref()?;
-        let is_present =
-            snapshot.generation == self.edit.generation && snapshot.drive == self.drive();
-        if is_present { Some(snapshot) } else { None }
     }
 
     /// Returns the outcome of the computed scene, which may be older than the present scene; `None`

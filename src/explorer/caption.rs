@@ -4,6 +4,7 @@
 use super::app::App;
 use super::request::Drive;
 use asperity_contact::Branch;
+use asperity_data::counted;
 use asperity_report::event;
 
 /// Returns the event at the shown state, in words that fit into the title of a pane 34 columns
@@ -31,8 +32,8 @@ pub fn caption(app: &App) -> Option<String> {
 fn caption_of_path(app: &App) -> String {
     match app.followed() {
         Some(followed) if followed.stopped.is_some() => {
-            let moves = followed.path.moves.len();
-            format!("manual loading, {} of {moves} moves", followed.count())
+            let moves = counted(followed.path.moves.len() as u64, "move");
+            format!("manual loading, {} of {moves}", followed.count())
         }
         _ => "manual loading".to_owned(),
     }

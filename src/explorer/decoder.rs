@@ -1,7 +1,10 @@
-//! Decoder, which converts the bytes of a terminal to keys, pasted texts and gestures of the mouse.
+//! Decoder, which converts the bytes of a terminal to keys, pasted texts and gestures of the mouse,
+//! and to the colour of the background that the terminal states when it is asked.
 //! If the line to the terminal breaks, only the beginning of a key or of a paste may arrive. After
 //! a pause the decoder takes this beginning as complete, so that later keys are read correctly.
 
+use super::terminal_input::Input;
+use asperity_plot::Background;
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
@@ -10,11 +13,15 @@ use std::time::Duration;
 /// Longest pause between the bytes of a key. On a slow line, these bytes may arrive separately.
 const SEQUENCE_PAUSE: Duration = Duration::from_millis(80);
 
+/// Longest pause within the answer about the colour of the background. It is long, because the rest
+/// of an answer that is ended too early would be read as keys.
+const ANSWER_PAUSE: Duration = Duration::from_millis(400);
+
 /// Longest pause within a pasted text. It is long, because after a paste that is ended too early
 /// the rest of the text would be read as keys.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
-/// Largest number of parameter bytes that are stored for a sequence. All known sequences are
+/// Largest number of parameter bytes that are stored for a sequence or an answer. All known sequences are
 /// shorter.
 const LONGEST_SEQUENCE: usize = 64;
 
@@ -24,6 +31,9 @@ const SUSPEND: u8 = 0x1a;
 const BELL: u8 = 0x07;
 
 const PASTE_END: &[u8] = b"\x1b[201~";
+
+/// Beginning of the answer about the colour of the background, after `ESC ]`.
+const BACKGROUND_ANSWER: &[u8] = b"11;rgb";
 
 /// Input that has begun and is not complete yet.
 #[derive(Debug, Default)]
@@ -44,10 +54,11 @@ enum Pending {
     /// following bytes that have been read.
     Gesture(Vec<u8>),
     /// `ESC ]`, `ESC P` or `ESC _`, the beginning of an answer of the terminal. The answer ends
-    /// with `BEL` or `ESC \`.
-    Answer,
-    /// `ESC` inside an answer of the terminal, which may be the beginning of its end.
-    EscapeInAnswer,
+    /// with `BEL` or `ESC \`. The value contains the beginning of its text.
+    Answer(Vec<u8>),
+    /// `ESC` inside an answer of the terminal, which may be the beginning of its end. The value
+    /// contains the beginning of the text of the answer.
+    EscapeInAnswer(Vec<u8>),
     /// `ESC [ 200 ~`, the beginning of a pasted text. The value contains the text read so far.
     Paste(Vec<u8>),
 }
@@ -56,12 +67,12 @@ enum Pending {
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: Pending,
-    events: Vec<Event>,
+    decoded: Vec<Input>,
 }
 
 impl Decoder {
-    /// Reads bytes that arrived together, and returns the events that are now complete.
-    pub fn read(&mut self, bytes: &[u8]) -> Vec<Event> {
+    /// Reads bytes that arrived together, and returns the input that is now complete.
+    pub fn read(&mut self, bytes: &[u8]) -> Vec<Input> {
         if let Pending::Paste(_) = self.pending
             && bytes.iter().all(|byte| *byte == INTERRUPT)
         {
@@ -72,15 +83,16 @@ impl Decoder {
         for byte in bytes {
             self.read_byte(*byte);
         }
-        std::mem::take(&mut self.events)
+        std::mem::take(&mut self.decoded)
     }
 
     /// Returns how long the caller should wait for the rest of an incomplete key or paste. `None`
     /// if the input so far is complete.
     pub fn pause(&self) -> Option<Duration> {
-        match self.pending {
+        match &self.pending {
             Pending::Nothing => None,
             Pending::Paste(_) => Some(PASTE_PAUSE),
+            Pending::Answer(text) if text.starts_with(BACKGROUND_ANSWER) => Some(ANSWER_PAUSE),
             _ => Some(SEQUENCE_PAUSE),
         }
     }
@@ -88,9 +100,9 @@ impl Decoder {
     /// Takes the incomplete input as complete, because the rest does not arrive, and returns its
     /// events. A single ESC becomes the escape key, and an incomplete paste becomes the text read
     /// so far.
-    pub fn give_up(&mut self) -> Vec<Event> {
+    pub fn give_up(&mut self) -> Vec<Input> {
         self.end();
-        std::mem::take(&mut self.events)
+        std::mem::take(&mut self.decoded)
     }
 
     fn end(&mut self) {
@@ -124,12 +136,16 @@ impl Decoder {
     }
 
     fn paste(&mut self, text: &[u8]) {
-        self.events
-            .push(Event::Paste(String::from_utf8_lossy(text).into_owned()));
+        let text = String::from_utf8_lossy(text).into_owned();
+        self.push(Event::Paste(text));
     }
 
     fn press(&mut self, code: KeyCode, modifiers: KeyModifiers) {
-        self.events.push(Event::Key(KeyEvent::new(code, modifiers)));
+        self.push(Event::Key(KeyEvent::new(code, modifiers)));
+    }
+
+    fn push(&mut self, event: Event) {
+        self.decoded.push(Input::Event(event));
     }
 
     fn read_byte(&mut self, byte: u8) {
@@ -147,17 +163,11 @@ impl Decoder {
                 _ => self.begin_unless_text(byte),
             },
             Pending::Gesture(bytes) => self.continue_gesture(bytes, byte),
-            Pending::Answer => match byte {
-                BELL => {}
-                ESCAPE => self.pending = Pending::EscapeInAnswer,
-                INTERRUPT | SUSPEND => self.begin(byte, false),
-                _ => self.pending = Pending::Answer,
+            Pending::Answer(text) => self.continue_answer(text, byte),
+            Pending::EscapeInAnswer(text) => match byte {
+                b'\\' => self.end_answer(&text),
+                _ => self.continue_escape(byte),
             },
-            Pending::EscapeInAnswer => {
-                if byte != b'\\' {
-                    self.continue_escape(byte);
-                }
-            }
             Pending::Paste(mut text) => {
                 text.push(byte);
                 match text.strip_suffix(PASTE_END) {
@@ -165,6 +175,30 @@ impl Decoder {
                     None => self.pending = Pending::Paste(text),
                 }
             }
+        }
+    }
+
+    fn continue_answer(&mut self, mut text: Vec<u8>, byte: u8) {
+        match byte {
+            BELL => self.end_answer(&text),
+            ESCAPE => self.pending = Pending::EscapeInAnswer(text),
+            // This byte is no part of an answer, so the rest of the answer is missing.
+            ..b' ' => self.begin(byte, false),
+            _ if text.starts_with(BACKGROUND_ANSWER) && !is_of_colour(byte) => {
+                self.begin(byte, false);
+            }
+            _ => {
+                if text.len() < LONGEST_SEQUENCE {
+                    text.push(byte);
+                }
+                self.pending = Pending::Answer(text);
+            }
+        }
+    }
+
+    fn end_answer(&mut self, text: &[u8]) {
+        if let Some(background) = background(text) {
+            self.decoded.push(Input::Background(background));
         }
     }
 
@@ -234,7 +268,7 @@ impl Decoder {
         match byte {
             b'[' => self.pending = Pending::Control(Vec::new()),
             b'O' => self.pending = Pending::Application,
-            b']' | b'P' | b'_' => self.pending = Pending::Answer,
+            b']' | b'P' | b'_' => self.pending = Pending::Answer(Vec::new()),
             ESCAPE | INTERRUPT | SUSPEND => {
                 self.press(KeyCode::Esc, KeyModifiers::NONE);
                 self.begin(byte, false);
@@ -256,7 +290,8 @@ impl Decoder {
             }
             0x40..=0x7e => {
                 let parameters = String::from_utf8_lossy(&parameters);
-                self.events.extend(control_event(&parameters, byte));
+                let event = control_event(&parameters, byte);
+                self.decoded.extend(event.map(Input::Event));
             }
             _ => self.begin(byte, false),
         }
@@ -270,12 +305,35 @@ impl Decoder {
         bytes.push(number);
         match bytes[..] {
             [button, column, row] => {
-                self.events
-                    .extend(mouse_event(button, column.into(), row.into(), false));
+                let event = mouse_event(button, column.into(), row.into(), false);
+                self.decoded.extend(event.map(Input::Event));
             }
             _ => self.pending = Pending::Gesture(bytes),
         }
     }
+}
+
+/// Returns true for the bytes of a colour such as `rgba:1e1e/1e1e/1e1e/ffff`.
+fn is_of_colour(byte: u8) -> bool {
+    byte.is_ascii_hexdigit() || b"rgba:/".contains(&byte)
+}
+
+/// Returns the brightness of the background from the text of an answer such as
+/// `11;rgb:1e1e/1e1e/1e1e`. `None` if the answer is about something else.
+fn background(text: &[u8]) -> Option<Background> {
+    let text = std::str::from_utf8(text).ok()?;
+    let (_, colour) = text.strip_prefix("11;")?.split_once(':')?;
+    let mut shares = Vec::new();
+    for part in colour.split('/').take(3) {
+        // The number of digits is that of the terminal: from 1 to 4.
+        let largest = 16_u32.checked_pow(u32::try_from(part.len()).ok()?)? - 1;
+        let value = u32::from_str_radix(part, 16).ok()?;
+        shares.push(f64::from(value) / f64::from(largest.max(1)));
+    }
+    let [red, green, blue] = shares[..] else {
+        return None;
+    };
+    Some(Background::of_colour([red, green, blue]))
 }
 
 /// Returns the key for the byte after the bytes `ESC O`.
@@ -415,33 +473,33 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn key(code: KeyCode, modifiers: KeyModifiers) -> Event {
-        Event::Key(KeyEvent::new(code, modifiers))
+    fn key(code: KeyCode, modifiers: KeyModifiers) -> Input {
+        Input::Event(Event::Key(KeyEvent::new(code, modifiers)))
     }
 
-    fn plain(code: KeyCode) -> Event {
+    fn plain(code: KeyCode) -> Input {
         key(code, KeyModifiers::NONE)
     }
 
-    fn letter(character: char) -> Event {
+    fn letter(character: char) -> Input {
         plain(KeyCode::Char(character))
     }
 
-    fn interrupt() -> Event {
+    fn interrupt() -> Input {
         key(KeyCode::Char('c'), KeyModifiers::CONTROL)
     }
 
-    fn mouse(kind: MouseEventKind, column: u16, row: u16) -> Event {
-        Event::Mouse(MouseEvent {
+    fn mouse(kind: MouseEventKind, column: u16, row: u16) -> Input {
+        Input::Event(Event::Mouse(MouseEvent {
             kind,
             column,
             row,
             modifiers: KeyModifiers::NONE,
-        })
+        }))
     }
 
     /// Returns sequences that terminals send, each with the event that it means.
-    fn sequences() -> Vec<(&'static [u8], Event)> {
+    fn sequences() -> Vec<(&'static [u8], Input)> {
         let shift = KeyModifiers::SHIFT;
         let alt = KeyModifiers::ALT;
         let control = KeyModifiers::CONTROL;
@@ -498,7 +556,7 @@ mod tests {
             ),
             (
                 b"\x1b[200~1\r\n \x1b[A\x03 mN\x1b[201~",
-                Event::Paste("1\r\n \x1b[A\x03 mN".to_owned()),
+                Input::Event(Event::Paste("1\r\n \x1b[A\x03 mN".to_owned())),
             ),
         ]
     }
@@ -528,11 +586,11 @@ mod tests {
             .iter()
             .flat_map(|(bytes, _)| bytes.iter().copied())
             .collect();
-        let events: Vec<Event> = sequences.into_iter().map(|(_, event)| event).collect();
+        let events: Vec<Input> = sequences.into_iter().map(|(_, event)| event).collect();
         // A piece of one byte is left out, because inside a paste it could be a Ctrl+C.
         for size in 2..40 {
             let mut decoder = Decoder::default();
-            let read: Vec<Event> = bytes
+            let read: Vec<Input> = bytes
                 .chunks(size)
                 .flat_map(|piece| decoder.read(piece))
                 .collect();
@@ -548,8 +606,9 @@ mod tests {
             "\x1b[24;80R",
             "\x1b[?1u",
             "\x1b[?2026;2$y",
-            "\x1b]11;rgb:ffff/ffff/ffff\x07",
-            "\x1b]11;rgb:ffff/ffff/ffff\x1b\\",
+            "\x1b]10;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11;rgb:ffff\x07",
+            "\x1b]11;?\x1b\\",
             "\x1bP1+r636f=383\x1b\\",
             "\x1b_Gi=1;OK\x1b\\",
             "\x1b[I",
@@ -566,6 +625,46 @@ mod tests {
                 "{answer:?}"
             );
         }
+    }
+
+    #[test]
+    fn the_background_is_light_dark_or_between() {
+        for (colour, background) in [
+            ("rgb:ffff/ffff/ffff", Background::Light),
+            ("rgb:fdfd/f6f6/e3e3", Background::Light),
+            ("rgb:0/0/0", Background::Dark),
+            ("rgb:00/2b/36", Background::Dark),
+            ("rgba:1e1e/1e1e/1e1e/ffff", Background::Dark),
+            ("rgb:8080/8080/8080", Background::Unknown),
+        ] {
+            for end in ["\x07", "\x1b\\"] {
+                let answer = format!("\x1b]11;{colour}{end}");
+                for split in 0..answer.len() {
+                    let (first, second) = answer.split_at(split);
+                    let mut decoder = Decoder::default();
+                    let mut read = decoder.read(first.as_bytes());
+                    read.extend(decoder.read(second.as_bytes()));
+                    assert_eq!(read, [Input::Background(background)], "{answer:?}");
+                }
+            }
+        }
+    }
+
+    /// The rest of an answer that a slow line splits is still awaited, and a key that is no part of
+    /// a colour counts at once.
+    #[test]
+    fn an_answer_in_two_pieces_types_nothing() {
+        let mut decoder = Decoder::default();
+        assert_eq!(decoder.read(b"\x1b]11;rgb:ff"), []);
+        assert_eq!(decoder.pause(), Some(ANSWER_PAUSE));
+        assert_eq!(
+            decoder.read(b"\x0c"),
+            [key(KeyCode::Char('l'), KeyModifiers::CONTROL)]
+        );
+        assert_eq!(decoder.read(b"\x1b]11;rgb:ff?"), [letter('?')]);
+        assert_eq!(decoder.pause(), None);
+        assert_eq!(decoder.read(b"\x1b]52;c"), []);
+        assert_eq!(decoder.pause(), Some(SEQUENCE_PAUSE));
     }
 
     #[test]
@@ -587,7 +686,7 @@ mod tests {
 
     #[test]
     fn a_paste_without_its_end_is_its_text_and_a_ctrl_c_ends_it() {
-        let paste = |text: &str| Event::Paste(text.to_owned());
+        let paste = |text: &str| Input::Event(Event::Paste(text.to_owned()));
         let begun = |bytes: &[u8]| {
             let mut decoder = Decoder::default();
             assert_eq!(decoder.read(bytes), []);

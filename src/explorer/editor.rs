@@ -244,6 +244,11 @@ impl Editor {
         self.series = Some(direction);
     }
 
+    /// Makes the next move of the body an edit of its own.
+    pub fn end_series(&mut self) {
+        self.series = None;
+    }
+
     /// Adopts a path with a new move at its end, which the contact may be unable to follow. `typed`
     /// is the text that the user has typed for this move.
     pub fn try_move(&mut self, path: ManualPath, typed: &str) {

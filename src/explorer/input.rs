@@ -1,13 +1,14 @@
 //! Input of the explorer: reads keys and mouse on separate threads, and converts them to actions.
 
 use super::action::{Action, Gesture, Mouse};
+use super::terminal_input::Input;
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
 /// Reads keys and mouse on two new threads. The threads end when the terminal disappears or the
-/// explorer ends. Each event is passed to `send`; when the input ends, `None` is passed. `send`
-/// returns false if the receiver of the events has ended.
+/// explorer ends. Each input is passed to `send`; when the input ends, `None` is passed. `send`
+/// returns false if the receiver of the input has ended.
 #[cfg(unix)]
-pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
+pub fn read(send: impl Fn(Option<Input>) -> bool + Send + 'static) -> std::io::Result<()> {
     use super::decoder::Decoder;
     use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 
@@ -24,7 +25,7 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
                 Some(pause) => received.recv_timeout(pause),
                 None => received.recv().map_err(RecvTimeoutError::from),
             };
-            let events = match piece {
+            let decoded = match piece {
                 Ok(bytes) => decoder.read(&bytes),
                 Err(RecvTimeoutError::Timeout) => decoder.give_up(),
                 // The terminal has disappeared, for example because the connection dropped. Without
@@ -34,8 +35,8 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
                     return;
                 }
             };
-            for event in events {
-                if !send(Some(event)) {
+            for input in decoded {
+                if !send(Some(input)) {
                     return;
                 }
             }
@@ -92,17 +93,17 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
 }
 
 /// Reads keys and mouse on a new thread. The thread ends when the terminal disappears or the
-/// explorer ends. Each event is passed to `send`; when the input ends, `None` is passed. `send`
-/// returns false if the receiver of the events has ended.
+/// explorer ends. Each input is passed to `send`; when the input ends, `None` is passed. `send`
+/// returns false if the receiver of the input has ended.
 #[cfg(not(unix))]
-pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
+pub fn read(send: impl Fn(Option<Input>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
         .name("input".to_owned())
         .spawn(move || {
             loop {
-                let event = crossterm::event::read().ok();
-                let ended = event.is_none();
-                if !send(event) || ended {
+                let input = crossterm::event::read().ok().map(Input::Event);
+                let ended = input.is_none();
+                if !send(input) || ended {
                     return;
                 }
             }

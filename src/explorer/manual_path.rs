@@ -88,6 +88,38 @@ impl ManualPath {
         }
     }
 
+    /// Returns the part of this path that ends at a position of the animation. `stages` are the
+    /// records of the path, of which the first `before` lead to its start. Before the first move,
+    /// the part is a path without moves that starts at this position.
+    pub fn until(&self, player: Player, stages: &[StageRecord], before: usize) -> Self {
+        let indentation = player.indentation(stages);
+        let Some(moves) = player.stage.checked_sub(before) else {
+            // The stages before the start are those of the scene, the last one perhaps in part.
+            let is_whole_stage = player.stage < self.start.stage;
+            let at = match player.at {
+                At::End if !is_whole_stage => self.start.at,
+                At::PullOff => At::Indentation(indentation),
+                at => at,
+            };
+            return ManualPath::starting_at(Player { at, ..player });
+        };
+        let mut kept = moves;
+        let last = match player.at {
+            At::Start => None,
+            At::End => {
+                kept += 1;
+                None
+            }
+            At::Indentation(_) | At::PullOff => Some(Move::ToIndentation(indentation)),
+        };
+        let mut moves: Vec<Move> = self.moves.iter().take(kept).copied().collect();
+        moves.extend(last);
+        ManualPath {
+            start: self.start,
+            moves,
+        }
+    }
+
     /// Returns the end of the path in words.
     fn end_in_words(&self) -> String {
         match self.moves.last() {

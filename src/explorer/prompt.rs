@@ -198,9 +198,10 @@ impl Prompt {
                 | Purpose::Map
                 | Purpose::Save { .. }
                 | Purpose::SavePlan
-                | Purpose::Export
         );
-        let line = if is_replaced {
+        let line = if matches!(purpose, Purpose::Export) {
+            TextLine::offered(text)
+        } else if is_replaced {
             TextLine::selected(text)
         } else {
             TextLine::new(text)

@@ -103,9 +103,11 @@ impl Runtime {
         self.perform(tasks)
     }
 
-    /// Returns true while the solver has not answered the last request.
+    /// Returns true while the solver has not answered the last request, or has not listed the
+    /// events after its answer.
     pub fn awaits_answer(&self) -> bool {
-        self.engine.is_waiting
+        let awaits_events = self.app.is_current() && self.app.listed_events().is_none();
+        self.engine.is_waiting || awaits_events
     }
 
     /// Runs the command with this name if it is valid in the present context. If no prompt is open,

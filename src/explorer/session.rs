@@ -4,6 +4,7 @@
 use super::action::{Action, Task};
 use super::app::App;
 use super::autosave::{Autosave, Kept};
+use super::cell_writer::{CellWriter, remove_ink_of_blanks};
 use super::commands::opening::begin;
 use super::config::Config;
 use super::opening::Opening;
@@ -13,13 +14,13 @@ use super::snapshot::SolvedScene;
 use super::solver::{Solve, SolverThread};
 use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
+use super::terminal_input::Input;
 use super::theme::{Appearance, Marker, Theme};
-use super::{autosave, input, terminal};
+use super::{autosave, input, terminal, theme};
+use asperity_plot::{Background, Colours};
 use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
-use crossterm::event::Event;
 use crossterm::queue;
-use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
 use std::io;
@@ -34,13 +35,23 @@ use std::time::{Duration, Instant};
 /// Largest frame rate over SSH in 1/s. It is low because each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Longest time for which a frame over SSH is delayed to include an answer of the solver.
+/// Longest time for which a frame over SSH is delayed to include an answer of the solver and the
+/// events that the solver lists after it.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
+
+/// Shortest time between two frames that show only progress of the studies, and the same over SSH.
+/// The last results of the studies are shown without this delay.
+const STUDY_TIME: Duration = Duration::from_millis(100);
+const REMOTE_STUDY_TIME: Duration = Duration::from_secs(1);
 
 /// Time without input after which unsaved changes are written to a file. While the explorer writes,
 /// it waits for the disk, which takes longer than a frame if the home folder is on another
 /// computer.
 const KEEPING_PAUSE: Duration = Duration::from_secs(1);
+
+/// Longest time for which the first frame is delayed to have the colours for the background that
+/// the terminal states.
+const BACKGROUND_TIME: Duration = Duration::from_millis(100);
 
 /// Largest number of input events that wait for the main loop. Further input waits in the terminal.
 const MOST_WAITING: usize = 64;
@@ -90,7 +101,7 @@ pub type Draw = fn(&mut Frame<'_>, &App);
 /// What a thread can send to the main loop of the session.
 enum Incoming {
     /// Input of the user; `None` if the input has ended.
-    Input(Option<Event>),
+    Input(Option<Input>),
     Signal(SystemSignal),
     /// Action that carries a result of the solver or of a background computation.
     Act(Box<Action>),
@@ -114,8 +125,12 @@ pub fn open(
     // run: if the terminal is gone, it would write to standard error, and would panic if standard
     // error is gone too.
     let writer = FrameWriter::new(io::stdout());
-    let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
+    let mut terminal = ManuallyDrop::new(Terminal::new(CellWriter::new(writer))?);
     let appearance = chosen_appearance(&options);
+    let asks_background = asks_background(&options, appearance);
+    if asks_background {
+        terminal::ask_background()?;
+    }
     let mut app = begin(
         opening.into(),
         (size.width, size.height),
@@ -150,8 +165,14 @@ pub fn open(
         draw,
         remote,
         frame_time: Duration::from_secs(1) / frame_rate,
-        changed: true,
-        due: now,
+        change: Change::Other,
+        shown: now,
+        due: if asks_background {
+            now + BACKGROUND_TIME
+        } else {
+            now
+        },
+        asks_background,
         asked: None,
         moved: now,
         inbox,
@@ -232,6 +253,21 @@ fn chosen_appearance(options: &Options) -> Appearance {
     }
 }
 
+/// Returns true if nothing but the terminal itself can say which background it has. Terminals that
+/// print the question instead of answering it are not asked.
+fn asks_background(options: &Options, appearance: Appearance) -> bool {
+    let is_chosen = options.theme.is_some() || options.config.theme.is_some();
+    let term = theme::variable("TERM").unwrap_or_default();
+    let is_old = ["dumb", "linux", "ansi", "vt"]
+        .iter()
+        .any(|name| term.starts_with(name));
+    cfg!(unix)
+        && appearance.theme == Theme::Neutral
+        && appearance.colours != Colours::Plain
+        && !is_chosen
+        && !is_old
+}
+
 fn is_remote() -> bool {
     let variables = ["SSH_CONNECTION", "SSH_TTY"];
     variables
@@ -239,7 +275,7 @@ fn is_remote() -> bool {
         .any(|name| std::env::var_os(name).is_some())
 }
 
-type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
+type Screen = Terminal<CellWriter<FrameWriter<Stdout>>>;
 
 struct Session<'a> {
     runtime: Runtime,
@@ -251,11 +287,15 @@ struct Session<'a> {
     remote: bool,
     /// Shortest time between two frames.
     frame_time: Duration,
-    /// True if the state has changed since the last frame.
-    changed: bool,
+    /// What has changed since the last frame.
+    change: Change,
+    /// Time of the last frame.
+    shown: Instant,
     /// Earliest time of the next frame. Without this limit, a held key or a dragged mouse would
     /// fill a connection over SSH with frames that are outdated before they arrive.
     due: Instant,
+    /// True until the terminal has stated its background, if it was asked.
+    asks_background: bool,
     /// Time of the request that the solver has not answered yet; `None` if there is none.
     asked: Option<Instant>,
     /// Time of the last step of the animation.
@@ -269,6 +309,15 @@ struct Session<'a> {
     kept: (u64, u64),
     /// Time of the last input.
     touched: Instant,
+}
+
+/// What has changed since the last frame, from the least to the most urgent.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Change {
+    Nothing,
+    /// Only results of the studies.
+    Studies,
+    Other,
 }
 
 /// Reason why a session ends although the user has not ended it.
@@ -289,11 +338,12 @@ impl Session<'_> {
             if keeping.is_some_and(|deadline| Instant::now() >= deadline) {
                 self.keep_unsaved();
             }
-            if self.changed && Instant::now() >= self.next_frame() {
+            if self.change != Change::Nothing && Instant::now() >= self.next_frame() {
                 self.show()?;
-                self.changed = false;
+                self.change = Change::Nothing;
+                self.shown = Instant::now();
                 if self.remote {
-                    self.due = Instant::now() + self.frame_time;
+                    self.due = self.shown + self.frame_time;
                 }
             }
             let playing = self.runtime.app.is_playing();
@@ -337,8 +387,17 @@ impl Session<'_> {
 
     /// Returns the earliest time of the next frame. Over SSH, a frame after a key is delayed a
     /// little to include the answer of the solver. A frame without the answer would cost as many
-    /// bytes, and would delay the answer until the next frame is due.
+    /// bytes, and would delay the answer until the next frame is due. Frames that show only the
+    /// progress of the studies have more time between them.
     fn next_frame(&self) -> Instant {
+        if self.change == Change::Studies && !self.runtime.app.studies.are_all_done() {
+            let time = if self.remote {
+                REMOTE_STUDY_TIME
+            } else {
+                STUDY_TIME
+            };
+            return self.due.max(self.shown + time);
+        }
         match self.asked {
             Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
             _ => self.due,
@@ -352,7 +411,7 @@ impl Session<'_> {
         if playing {
             deadlines.push(self.moved + self.frame_time);
         }
-        if self.changed {
+        if self.change != Change::Nothing {
             deadlines.push(self.next_frame());
         }
         deadlines.extend(self.next_keeping());
@@ -398,14 +457,37 @@ impl Session<'_> {
                 Some(self.resize()?)
             }
             Incoming::Signal(SystemSignal::Resize) => Some(self.resize()?),
-            Incoming::Input(Some(event)) => input::action_of(event),
+            Incoming::Input(Some(Input::Event(event))) => input::action_of(event),
+            Incoming::Input(Some(Input::Background(background))) => {
+                self.adapt_to(background);
+                None
+            }
             Incoming::Act(action) => Some(*action),
         };
         if let Some(action) = action {
-            self.changed = true;
+            let change = match action {
+                Action::Found(_) => Change::Studies,
+                _ => Change::Other,
+            };
+            self.change = self.change.max(change);
             self.act(action)?;
         }
         Ok(None)
+    }
+
+    /// Chooses the colours for the background that the terminal has stated, unless the user has
+    /// chosen others meanwhile.
+    fn adapt_to(&mut self, background: Background) {
+        if !std::mem::take(&mut self.asks_background) {
+            return;
+        }
+        let look = &mut self.runtime.app.view.appearance;
+        if look.theme == Theme::Neutral {
+            look.theme = Theme::for_background(background);
+        }
+        // The first frame needs to wait no longer.
+        self.due = Instant::now();
+        self.change = Change::Other;
     }
 
     fn resize(&self) -> io::Result<Action> {
@@ -423,7 +505,10 @@ impl Session<'_> {
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
         let app = &self.runtime.app;
-        self.terminal.draw(|frame| (self.draw)(frame, app))?;
+        self.terminal.draw(|frame| {
+            (self.draw)(frame, app);
+            remove_ink_of_blanks(frame.buffer_mut());
+        })?;
         Ok(())
     }
 
@@ -496,7 +581,7 @@ impl Session<'_> {
         let app = &mut self.runtime.app;
         if let Err(error) = autosave.keep(&app.edit.unsaved()) {
             self.autosave = None;
-            self.changed = true;
+            self.change = Change::Other;
             app.set_error(format!(
                 "unsaved changes are not kept for another session: {error}"
             ));

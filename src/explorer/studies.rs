@@ -174,6 +174,11 @@ impl Findings {
             .map(String::as_str)
     }
 
+    /// Returns true if all studies that have begun have ended.
+    pub fn are_all_done(&self) -> bool {
+        self.0.values().all(|slot| slot.end.is_some())
+    }
+
     /// Sets the value of the type `T`. If `is_done` is true, the value is final. Otherwise the
     /// study with this key still has to compute the final value.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {

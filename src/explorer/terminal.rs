@@ -22,6 +22,9 @@ const MOST_CELLS: u32 = 4_000_000;
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
+/// Control sequence (OSC 11) that asks for the colour of the background.
+const BACKGROUND_QUESTION: &str = "\x1b]11;?\x1b\\";
+
 /// The terminal while the explorer uses it. The terminal is restored when this value is dropped,
 /// and also on a panic.
 pub struct TerminalGuard {
@@ -73,6 +76,12 @@ impl TerminalGuard {
         stop_until_continued();
         self.enter()
     }
+}
+
+/// Asks the terminal for the colour of its background. A terminal that knows the question answers
+/// soon; others ignore it.
+pub fn ask_background() -> io::Result<()> {
+    execute!(io::stdout(), Print(BACKGROUND_QUESTION))
 }
 
 impl Drop for TerminalGuard {

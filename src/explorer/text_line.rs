@@ -16,6 +16,8 @@ pub struct TextLine {
     input: Input,
     /// True if the text is selected, so that the next typed character replaces it.
     selected: bool,
+    /// True if a typed text that begins with a blank is appended although the line is selected.
+    appends_words: bool,
     /// Message that the last insertion was incomplete; `None` if it was complete.
     left_out: Option<&'static str>,
 }
@@ -38,6 +40,15 @@ impl TextLine {
         TextLine {
             selected: true,
             ..TextLine::new(text)
+        }
+    }
+
+    /// Creates a selected line to which the user can also append a word, such as the width of a
+    /// figure after its name. The blank before the word appends it.
+    pub fn offered(text: &str) -> Self {
+        TextLine {
+            appends_words: true,
+            ..TextLine::selected(text)
         }
     }
 
@@ -64,13 +75,15 @@ impl TextLine {
     }
 
     /// Inserts a text into the typed line, before the cursor. If the line is selected, the text
-    /// replaces the line. Control characters are left out. If the line would become too long, the
-    /// end of the text is left out too.
+    /// replaces the line, or is appended as a word. Control characters are left out. If the line
+    /// would become too long, the end of the text is left out too.
     pub fn insert(&mut self, text: &str) {
         let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
-        if self.selected && !inserted.is_empty() {
+        let is_appended = self.appends_words && inserted.starts_with(' ');
+        if self.selected && !inserted.is_empty() && !is_appended {
             *self = TextLine::default();
         }
+        self.selected &= inserted.is_empty();
         let room = LONGEST - self.text().chars().count();
         for character in inserted.chars().take(room) {
             self.input.handle(InputRequest::InsertChar(character));

@@ -119,6 +119,15 @@ impl Theme {
         }
     }
 
+    /// Returns the theme for a background.
+    pub fn for_background(background: Background) -> Self {
+        match background {
+            Background::Unknown => Theme::Neutral,
+            Background::Dark => Theme::Dark,
+            Background::Light => Theme::Light,
+        }
+    }
+
     /// Returns the theme that suits a value of `COLORFGBG`. The last number in this value is the
     /// colour of the background.
     fn on_background(colours: &str) -> Self {

@@ -3,6 +3,7 @@
 
 use super::player::{At, Player, start_of};
 use asperity_contact::{Direction, Event, StageRecord};
+use asperity_data::format_rounded;
 use std::ops::Range;
 
 /// Smallest number of columns of a loading stage that moves the body, if there is room.
@@ -228,6 +229,11 @@ pub fn previous(records: &[StageRecord], events: &[Event], player: Player) -> Op
     } else {
         Some(before)
     }
+}
+
+/// Returns the speed of the animation in words, such as `2×`.
+pub fn speed_in_words(speed: f64) -> String {
+    format!("{}×", format_rounded(speed, 2, "1"))
 }
 
 #[cfg(test)]

@@ -11,5 +11,6 @@ mod common {
 }
 mod path;
 mod random;
+mod random_bytes;
 mod screen;
 mod solver;

@@ -22,8 +22,8 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Sequences of events in a quick run.
-const CASES: u32 = 150;
+/// Sequences of events in a quick run. Random bytes of a terminal are in a test of their own.
+const CASES: u32 = 75;
 const LONGEST: usize = 60;
 
 /// Scenes with more springs or samples are not computed, but reported as failed.
@@ -111,7 +111,7 @@ fn event() -> impl Strategy<Value = Event> {
 }
 
 /// Small scenes of each kind, one that cannot be computed, and a study.
-fn scenes(study: &Path) -> Vec<Opening> {
+pub fn scenes(study: &Path) -> Vec<Opening> {
     let few = [("numerics.points", "64"), ("numerics.samples", "16")];
     let small = changed(&rough(), &[("roughness.modes", "(2, 16)"), few[0], few[1]]);
     let beyond = small
@@ -141,9 +141,9 @@ fn scenes(study: &Path) -> Vec<Opening> {
 }
 
 /// An explorer whose worker answers only on demand.
-struct Explorer {
-    driver: Driver,
-    waiting: VecDeque<Task>,
+pub struct Explorer {
+    pub driver: Driver,
+    pub waiting: VecDeque<Task>,
     /// All reports so far.
     reports: Vec<Action>,
     /// The last judged generation.
@@ -153,7 +153,7 @@ struct Explorer {
 }
 
 impl Explorer {
-    fn new(opening: Opening, study: &Path) -> Self {
+    pub fn new(opening: Opening, study: &Path) -> Self {
         let (driver, waiting) = (Driver::open(opening), VecDeque::from([Task::Ask]));
         Explorer {
             driver,
@@ -164,7 +164,7 @@ impl Explorer {
         }
     }
 
-    fn act(&mut self, action: Action) {
+    pub fn act(&mut self, action: Action) {
         for effect in update(&mut self.driver.app, action) {
             match effect {
                 // Of all waiting states, only the newest is computed.
@@ -242,7 +242,7 @@ impl Explorer {
         }
     }
 
-    fn answer(&mut self) {
+    pub fn answer(&mut self) {
         let Some(effect) = self.waiting.pop_front() else {
             return;
         };
@@ -334,7 +334,7 @@ impl Explorer {
     }
 
     /// Lets the worker catch up: the explorer then shows the outcome of the scene, or an error.
-    fn settle(&mut self) {
+    pub fn settle(&mut self) {
         while !self.waiting.is_empty() {
             self.answer();
         }

@@ -78,7 +78,9 @@ fn nothing_happens_while_nothing_happens() {
     // Played to its end the animation stops by itself: to the last stage, near its end, and on.
     terminal.send(">");
     terminal.settle();
-    terminal.send(&".".repeat(110));
+    // With the timeline selected, a large step is a twelfth of the stage.
+    terminal.send("\t");
+    terminal.send(&"L".repeat(11));
     terminal.settle();
     let before = terminal.text();
     terminal.send(" ");

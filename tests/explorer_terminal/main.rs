@@ -12,6 +12,7 @@ mod common {
     pub mod terminal;
 }
 mod appearance;
+mod bytes;
 mod devices;
 mod driving;
 mod files;

@@ -60,20 +60,32 @@ fn assert_answers(terminal: &mut Terminal, after: &str) {
 
 #[test]
 fn keys_count_after_each_sequence_that_never_ends() {
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program);
-    for cut in unfinished() {
-        terminal.send(&cut);
-        // The pause after which it is given up, for a paste a longer one.
-        let pause = if cut.starts_with("\x1b[200~") {
-            1300
-        } else {
-            300
-        };
-        sleep(Duration::from_millis(pause));
-        assert_answers(&mut terminal, &cut);
-    }
-    quit(&mut terminal);
+    let sequences = unfinished();
+    std::thread::scope(|scope| {
+        for cuts in sequences.chunks(5) {
+            scope.spawn(move || {
+                let (program, _folder) = explorer();
+                let mut terminal = paused(program);
+                for cut in cuts {
+                    assert_counts_after(&mut terminal, cut);
+                }
+                quit(&mut terminal);
+            });
+        }
+    });
+}
+
+/// Sends the beginning of a sequence, waits until it is given up, and presses a key.
+fn assert_counts_after(terminal: &mut Terminal, cut: &str) {
+    terminal.send(cut);
+    // A paste is given up after a longer pause.
+    let pause = if cut.starts_with("\x1b[200~") {
+        1300
+    } else {
+        300
+    };
+    sleep(Duration::from_millis(pause));
+    assert_answers(terminal, cut);
 }
 
 #[test]

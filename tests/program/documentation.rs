@@ -23,53 +23,87 @@ use std::path::{Path, PathBuf};
 /// Longest README, rows.
 const LONGEST_README: usize = 200;
 
-/// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 18] = [
+/// Pages of the documentation with their groups and contents, in the order of the README's table.
+pub const PAGES: [(&str, &str, &str); 18] = [
     (
+        "Start",
         "learn.md",
-        "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits",
+        "the model by hand, from the law of Hertz to five springs; from your tip to a scene",
     ),
-    ("scene-file.md", "fields of a scene, waves, loading, forms"),
-    ("results.md", "summary, JSON, tables, figures"),
     (
+        "Start",
+        "gallery.md",
+        "eleven questions, each with a picture, a command, a line of Python and an answer",
+    ),
+    (
+        "Start",
+        "coming-from.md",
+        "tamaas, SurfaceTopography, programs for force microscopes, spreadsheets",
+    ),
+    (
+        "Do",
+        "scene-file.md",
+        "fields of a scene, waves, loading, forms",
+    ),
+    (
+        "Do",
         "keys.md",
         "panes and keys of the explorer, typed values, configuration",
     ),
+    ("Do", "results.md", "summary, JSON, tables, figures, jumps"),
     (
+        "Do",
         "studies.md",
-        "the preload for a wanted result, parameter studies, statistics, clusters",
+        "the preload for a wanted result, adhesion against preload, force laws, parameter studies, clusters",
     ),
-    ("reversals.md", "adhesion against preload, Everett function"),
     (
-        "particles.md",
-        "force laws for particle solvers: loop with reversals, reference curves, JKR force without iteration",
+        "Do",
+        "surfaces.md",
+        "measured surfaces: use, formats, fields",
     ),
-    ("surfaces.md", "measured surfaces: use, formats, fields"),
     (
+        "Do",
         "surface-estimate.md",
         "how a measured spectrum is estimated, and its errors",
     ),
     (
+        "Do",
         "experiment.md",
         "measured force curves: reading, fit of the work of adhesion, errors",
     ),
-    ("model.md", "equations, regimes, other theories, validity"),
     (
+        "Do",
+        "python.md",
+        "functions and results of the Python package",
+    ),
+    (
+        "Do",
+        "messages.md",
+        "when the program says …, do …; exit codes",
+    ),
+    (
+        "Trust",
+        "model.md",
+        "equations, regimes, other theories, validity",
+    ),
+    (
+        "Trust",
+        "three-dimensions.md",
+        "the profile against the same contact in three dimensions",
+    ),
+    (
+        "Trust",
+        "accuracy.md",
+        "rounding, errors, scatter, times, memory, other packages",
+    ),
+    (
+        "Trust",
         "findings.md",
         "results to cite: claims of the paper, boundary of adhesion, stiffness",
     ),
+    ("Look up", "terms.md", "symbols, units, signs, names"),
     (
-        "accuracy.md",
-        "rounding, errors against closed forms, cost of accuracy, scatter of profiles",
-    ),
-    (
-        "line-and-three-dimensions.md",
-        "how far to trust the line: the same contact in three dimensions",
-    ),
-    ("performance.md", "times, latency of the explorer, memory"),
-    ("terms.md", "symbols, units, signs, words"),
-    ("errors.md", "messages, exit codes"),
-    (
+        "Look up",
         "design.md",
         "structure of the program, files of an extension, rules of the code",
     ),
@@ -144,7 +178,11 @@ fn tables_are_those_of_the_program() {
         &format!("{}\n", bindings().markdown()),
     );
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
-    let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
+    // The help has the signs too.
+    let panes = panes.map(|(name, content)| {
+        let first = content.split([';', '.']).next().unwrap();
+        [(*name).to_owned(), first.trim().replace('|', "\\|")]
+    });
     check(
         "docs/keys.md",
         "panes",
@@ -182,15 +220,20 @@ fn tables_are_those_of_the_program() {
             .map(row_of_field);
         check(page, part, &markdown(["field", "allowed", "means"], of));
     }
-    let pages = PAGES
-        .iter()
-        .map(|(page, content)| [format!("[docs/{page}](docs/{page})"), (*content).to_owned()]);
-    check("README.md", "pages", &markdown(["page", "content"], pages));
+    let pages = PAGES.iter().map(|(group, page, content)| {
+        let link = format!("[docs/{page}](docs/{page})");
+        [(*group).to_owned(), link, (*content).to_owned()]
+    });
+    check(
+        "README.md",
+        "pages",
+        &markdown(["group", "page", "content"], pages),
+    );
 }
 
 #[test]
 fn the_readme_is_short_and_lists_all_pages() {
-    let listed = PAGES.map(|(page, _)| format!("docs/{page}"));
+    let listed = PAGES.map(|(_, page, _)| format!("docs/{page}"));
     assert!(
         pages_in("docs").iter().all(|page| listed.contains(page)),
         "{:?}",
@@ -292,15 +335,15 @@ fn pictures_are_those_of_their_commands() {
             "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg",
         ),
         (
-            "docs/reversals.md",
+            "docs/studies.md",
             "asperity reversals pressure-sensitive -o docs/reversals.svg",
         ),
-        ("docs/particles.md", &of_particles("jkr-sphere", "sphere")),
+        ("docs/studies.md", &of_particles("jkr-sphere", "sphere")),
         (
-            "docs/particles.md",
+            "docs/studies.md",
             &of_particles("rough-sphere", "rough-sphere"),
         ),
-        ("docs/particles.md", &of_particles("two-works", "two-works")),
+        ("docs/studies.md", &of_particles("two-works", "two-works")),
     ] {
         assert!(read(page).contains(command), "{page} lacks: {command}");
         succeeded(folder.path(), command);
@@ -436,7 +479,7 @@ fn intervals_hold_the_means_of_skewed_values_as_often_as_stated() {
     assert_says(
         "docs/studies.md",
         &format!(
-            "in {low}, {middle} and {high} % of the cases if the logarithm has the standard deviation 0.5, 1 and 2"
+            "in {low} % of the cases if the logarithm has the standard deviation 0.5, in {middle} % for 1 and in {high} % for 2"
         ),
     );
 }

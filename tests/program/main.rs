@@ -12,6 +12,7 @@ mod console;
 mod cost;
 mod documentation;
 mod estimates;
+mod gallery;
 mod generated;
 mod length;
 mod maps_of_curves;
@@ -24,6 +25,7 @@ mod results;
 mod rounding;
 #[cfg(target_os = "linux")]
 mod signals;
+mod site;
 #[cfg(target_os = "linux")]
 mod slurm;
 mod source;

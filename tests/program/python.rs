@@ -57,7 +57,7 @@ fn can_import(folder: &Path, packages: &str) -> bool {
 fn the_force_without_iteration_is_that_of_the_theory() {
     let folder = tempfile::tempdir().unwrap();
     if can_import(folder.path(), "import math") {
-        let code = block("docs/particles.md", "python")
+        let code = block("docs/studies.md", "python")
             + r#"
 for exponent in range(-400, 401):
     smallest = (pi * 0.05 * 1e-4**2 / (8 * 1e6)) ** (1 / 3)

@@ -58,8 +58,8 @@ pub use remedy::{Note, Remedied, Remedy, Wording};
 #[cfg(feature = "files")]
 pub use table::{Kind, Table, TableOf};
 pub use text::{
-    belong_together, grouped, is_control, memory_size, path_name, per_cent, printable,
-    printable_lines, round_to, rounded_up, shown, si_prefix, wrap,
+    belong_together, counted, grouped, is_control, memory_size, path_name, per_cent, plural,
+    printable, printable_lines, round_to, rounded_up, shown, si_prefix, wrap,
 };
 pub use warning::{NamedHeight, Trend, TrendOfScan, Warning};
 #[cfg(feature = "files")]

@@ -31,6 +31,8 @@ type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
 /// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON.
 pub struct Table<'a> {
+    /// Sentence about the columns; `None` if they need none.
+    note: Option<&'static str>,
     columns: Vec<(Cow<'static, str>, Kind)>,
     /// Counts the rows without computing their values, because computing them may take time.
     count: Box<dyn Fn() -> usize + 'a>,
@@ -88,6 +90,7 @@ impl<'a, T: 'a> TableOf<'a, T> {
         let values = Rc::new(self.values);
         let counted_rows = Rc::clone(&rows);
         Table {
+            note: None,
             columns: self.columns,
             count: Box::new(move || counted_rows().count()),
             rows: Rc::new(move || {
@@ -109,11 +112,20 @@ impl Table<'_> {
         (self.rows)()
     }
 
+    /// Adds a sentence about the columns, which CSV has as a comment above their names.
+    pub fn with_note(mut self, note: &'static str) -> Self {
+        self.note = Some(note);
+        self
+    }
+
     /// Writes the table as CSV. First the lines of `provenance`, which say how the table was made,
-    /// are written as comments.
+    /// and the note on the columns are written as comments.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         for line in provenance.lines() {
             writeln!(out, "# {line}")?;
+        }
+        if let Some(note) = self.note {
+            writeln!(out, "# {note}")?;
         }
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         writeln!(out, "{}", names.join(","))?;

@@ -122,6 +122,32 @@ pub fn grouped(count: u64) -> String {
     grouped
 }
 
+/// Returns a number of things as text.
+///
+/// ```
+/// assert_eq!(asperity_data::counted(1, "spring"), "1 spring");
+/// assert_eq!(asperity_data::counted(1024, "spring"), "1 024 springs");
+/// assert_eq!(asperity_data::counted(0, "patch"), "0 patches");
+/// ```
+pub fn counted(count: u64, noun: &str) -> String {
+    format!("{} {}", grouped(count), plural(noun, count))
+}
+
+/// Returns the form of a noun for the number `count`.
+///
+/// ```
+/// assert_eq!(asperity_data::plural("profile", 1), "profile");
+/// assert_eq!(asperity_data::plural("profile", 16), "profiles");
+/// ```
+pub fn plural(noun: &str, count: u64) -> String {
+    let ending = match noun {
+        _ if count == 1 => "",
+        _ if noun.ends_with("ch") => "es",
+        _ => "s",
+    };
+    format!("{noun}{ending}")
+}
+
 /// Formats a number of bytes with a binary unit, such as `1.5 MiB`.
 pub fn memory_size(bytes: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];

@@ -621,7 +621,7 @@ mod tests {
             let square = Square {
                 heights: &scaled,
                 side,
-                modulus: modulus,
+                modulus,
             };
             let work = 1e-5 * modulus * side;
             let mut body = AdhesiveSquare::new(&square, work, 0.5 * work).unwrap();

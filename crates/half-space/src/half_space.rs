@@ -511,7 +511,7 @@ mod tests {
             let square = Square {
                 heights: &scaled,
                 side,
-                modulus: modulus,
+                modulus,
             };
             let force = 2e-3;
             let expected = press(&unit, Load::Force(force));

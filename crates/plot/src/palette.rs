@@ -56,6 +56,27 @@ pub enum Background {
     Unknown,
 }
 
+impl Background {
+    /// Luminances up to which a background is dark, and from which it is light. The colours of the
+    /// two themes are chosen for backgrounds outside of this range.
+    const DARK_AND_LIGHT: [f64; 2] = [0.06, 0.7];
+
+    /// Returns the kind of a background from its red, green and blue, each from 0 to 1. `Unknown`
+    /// for a background of medium brightness.
+    pub fn of_colour(colour: [f64; 3]) -> Self {
+        let [red, green, blue] = colour.map(|share| share.powf(2.2));
+        let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+        let [dark, light] = Background::DARK_AND_LIGHT;
+        if luminance <= dark {
+            Background::Dark
+        } else if luminance >= light {
+            Background::Light
+        } else {
+            Background::Unknown
+        }
+    }
+}
+
 /// What a colour is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColourRole {

@@ -4,7 +4,7 @@ use crate::reference::model_sentence;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::work_precision::work_precision;
-use asperity_data::{Kind, Table, format_quantity, format_rounded, grouped};
+use asperity_data::{Kind, Table, counted, format_quantity, format_rounded, grouped};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
 use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, Row};
@@ -164,8 +164,8 @@ fn heading(knob: Knob, springs: u64) -> String {
     if knob != Knob::Step {
         return format!("With {name}");
     }
-    let springs = grouped(springs);
-    format!("With {name}, compared with the exact solver on the same {springs} springs, edges Grid")
+    let springs = counted(springs, "spring");
+    format!("With {name}, compared with the exact solver on the same {springs}, edges Grid")
 }
 
 /// Adds a table of the errors for one kind of setting.
@@ -188,8 +188,8 @@ fn add_rows(sheet: &mut Sheet, knob: Knob, rows: &[&Row]) {
 /// errors of this solution.
 fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
-    let springs = grouped(reference.springs);
-    let mut solution = format!("the solution with {springs} springs and edges SubCell");
+    let springs = counted(reference.springs, "spring");
+    let mut solution = format!("the solution with {springs} and edges SubCell");
     if let Some(force) = reference.pull_off_force
         && reference.closed_form
     {

@@ -3,10 +3,10 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::{counted_texts, sentences_section};
-use crate::words::{plural, whole_percent};
+use crate::words::whole_percent;
 use asperity_data::{
     AxisScale, Kind, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
-    grouped, per_cent,
+    grouped, per_cent, plural,
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};

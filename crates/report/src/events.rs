@@ -5,10 +5,10 @@ use crate::report::{Json, Report};
 use crate::run::{RunJson, RunReport};
 use crate::sheet::Sheet;
 use crate::warnings::{sentences_section, warning_texts};
-use crate::words::{counted, percent, whole_percent};
+use crate::words::{percent, whole_percent};
 use asperity_contact::motion::{Jump, JumpKind};
 use asperity_contact::{Direction, Event, Events, Mark, Patch};
-use asperity_data::{Kind, Table, format_range, format_rounded, grouped};
+use asperity_data::{Kind, Table, counted, format_range, format_rounded, grouped};
 use serde::Serialize;
 
 /// Number of significant digits of the numbers in the list.
@@ -242,12 +242,14 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
         .real("last_after", move |event| {
             place(event.jump.and_then(|jump| jump.after), last)
         });
-    if !has_instrument {
-        return table.done();
-    }
+    let table = if has_instrument {
+        table.real("instrument_loss", |event| event.instrument_loss)
+    } else {
+        table
+    };
     table
-        .real("instrument_loss", |event| event.instrument_loss)
         .done()
+        .with_note("Stages, patches and springs are counted from 0; the text counts from 1.")
 }
 
 /// Returns the name of an event in tables; empty for a mark alone.
@@ -407,6 +409,9 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let table = report_of_rigid.table().unwrap();
+        let mut csv = Vec::new();
+        table.write_csv(&mut csv, "").unwrap();
+        assert!(csv.starts_with(b"# Stages, patches and springs are counted from 0;"));
         assert_eq!(names(&table).last().unwrap(), "last_after");
         let first = table.rows().next().unwrap();
         assert_eq!(

@@ -7,7 +7,7 @@ use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
 use crate::warnings::{counted_texts, sentences_section};
 use asperity_data::{
-    Kind, Table, format_quantity, format_range, format_rounded, grouped, one_unit,
+    Kind, Table, counted, format_quantity, format_range, format_rounded, grouped, one_unit,
 };
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found, Quantity};
@@ -109,6 +109,16 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         }
         Some(median) => parts.push(AnswerPart::new(median_briefly(found, median), searched)),
     }
+    if let [
+        Answer {
+            step: Some(step), ..
+        },
+    ] = found.answers[..]
+    {
+        let [below, at] = step.map(|value| rounded(found.question.quantity, value, 3));
+        let text = format!("there {} steps from {below} to {at}", words.quantity);
+        parts.push(AnswerPart::new(text, String::new()));
+    }
     if anywhere > 0 && with_value > 0 {
         let any = format!("any {name}{}", of_profiles(anywhere));
         parts.push(AnswerPart::new(any, String::new()));
@@ -164,6 +174,8 @@ fn reaches_nowhere(answer: &Answer) -> bool {
 
 /// Words from which the sentences of an answer are composed.
 struct SearchWords {
+    /// The quantity that is to have the target value.
+    of: Quantity,
     /// Name of the number that is sought, such as the preload.
     name: String,
     quantity: String,
@@ -185,6 +197,7 @@ impl SearchWords {
         let quantity = question.quantity.symbol_or_name();
         let target = rounded(question.quantity, question.target, 4);
         SearchWords {
+            of: question.quantity,
             name: question.axis.symbol_or_name().to_owned(),
             target: format!("{quantity} = {target}"),
             quantity: quantity.to_owned(),
@@ -222,6 +235,7 @@ impl SearchWords {
             searched,
             reachable,
             missed,
+            ..
         } = self;
         let is_certain = |answer: &Answer| answer.is_proven && !answer.may_miss;
         let never = if found.answers.iter().all(is_certain) {
@@ -258,13 +272,26 @@ impl SearchWords {
 
     /// Returns the answer for a single profile.
     fn on_one(&self, answer: &Answer, value: &str) -> String {
-        let SearchWords { name, target, .. } = self;
+        let SearchWords {
+            name,
+            quantity,
+            target,
+            ..
+        } = self;
         let at_least = match (answer.may_miss, answer.crossings.len()) {
             (false, _) => String::new(),
             (true, 1) => ", the first of at least 1 crossing".to_owned(),
             (true, crossings) => format!(", the first of at least {crossings} crossings"),
         };
-        format!("{name} = {value} for {target}{at_least}.")
+        let step = match answer.step {
+            Some([below, at]) => format!(
+                " There {quantity} steps from {} to {}.",
+                rounded(self.of, below, 3),
+                rounded(self.of, at, 3)
+            ),
+            None => String::new(),
+        };
+        format!("{name} = {value} for {target}{at_least}.{step}")
     }
 
     /// Returns the answer for several profiles, of which at least half reach the target.
@@ -407,6 +434,11 @@ impl FindReport<'_> {
                 "{on_profiles} {quantity} is larger at any {name} of the range."
             ));
         }
+        if let Some(on_profiles) = self.on_profiles(|answer| answer.step.is_some()) {
+            sentences.push(format!(
+                "{on_profiles} {quantity} steps over that value there."
+            ));
+        }
         let never = answers.iter().filter(|answer| reaches_nowhere(answer));
         let largest = never
             .filter_map(|answer| answer.reachable)
@@ -486,8 +518,8 @@ impl FindReport<'_> {
         let profiles = match found.answers.first().and_then(|answer| answer.seed) {
             Some(first) => {
                 let profiles = profiles_named(question.profiles(), first);
-                let springs = grouped(self.scene.numerics.points);
-                format!("{profiles}, {springs} springs.")
+                let springs = counted(self.scene.numerics.points, "spring");
+                format!("{profiles}, {springs}.")
             }
             None => Ensemble::FIXED.to_owned(),
         };

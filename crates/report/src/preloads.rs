@@ -3,7 +3,9 @@
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
 use crate::warnings::{counted_texts, sentences_section};
-use asperity_data::{AxisScale, Table, format_quantity, format_range, format_rounded, grouped};
+use asperity_data::{
+    AxisScale, Table, counted, format_quantity, format_range, format_rounded, grouped,
+};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_scene::discretisation::Choice;
@@ -144,9 +146,9 @@ impl Report for PreloadReport<'_> {
             1 => "one profile".to_owned(),
             count => format!("{} random profiles", grouped(count)),
         };
-        let springs = grouped(plan.scene.numerics.points);
+        let springs = counted(plan.scene.numerics.points, "spring");
         sheet.heading(&format!(
-            "Adhesion against preload, {profiles} of {springs} springs"
+            "Adhesion against preload, {profiles} of {springs}"
         ));
         if self.is_mean() {
             self.add_statistics(&mut sheet);

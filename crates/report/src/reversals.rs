@@ -5,7 +5,7 @@ use crate::preloads::{Unloading, preload_chart, preload_table, unloadings_table}
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
 use crate::warnings::{sentences_section, warning_texts};
-use asperity_data::{AxisScale, Table, Warning, grouped};
+use asperity_data::{AxisScale, Table, Warning, counted};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
 use asperity_scene::theory::ReversalMap;
@@ -49,11 +49,9 @@ impl Report for ReversalReport<'_> {
         let reversals = &self.map.reversals;
         let mut sheet = Sheet::default();
         sheet.paragraph(&self.scene.title);
-        let count = grouped(reversals.len() as u64);
-        let springs = grouped(self.scene.numerics.points);
-        sheet.heading(&format!(
-            "{count} reversals of one loading, {springs} springs"
-        ));
+        let count = counted(reversals.len() as u64, "reversal");
+        let springs = counted(self.scene.numerics.points, "spring");
+        sheet.heading(&format!("{count} of one loading, {springs}"));
         let mut unloadings = Vec::new();
         for reversal in thinned(reversals.iter(), MOST_ROWS) {
             unloadings.push(Unloading {

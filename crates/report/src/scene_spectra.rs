@@ -2,7 +2,7 @@
 //! profile should have, and the spectrum of the heights of its profile.
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
-use asperity_data::check_room;
+use asperity_data::{check_room, counted};
 use asperity_scene::{CheckedScene, Outcome, RunError, Scene, Simulation};
 use asperity_surface::lines::{Line, read_faces};
 use asperity_surface::spectra::line_spectrum;
@@ -139,10 +139,8 @@ fn power_of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, St
         return Ok(Vec::new());
     }
     if check_room(BYTES * line.points as u64).is_err() {
-        let springs = line.points;
-        return Err(format!(
-            "not enough memory for the spectrum of {springs} springs"
-        ));
+        let springs = counted(line.points as u64, "spring");
+        return Err(format!("not enough memory for the spectrum of {springs}"));
     }
     let mut heights = Vec::with_capacity(line.points);
     for (spring, height) in line.heights().enumerate() {

@@ -4,7 +4,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::{counted_texts, sentences_section};
 use crate::words::percent;
-use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, one_unit};
+use asperity_data::{AxisScale, Kind, Table, counted, format_quantity, format_rounded, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
@@ -366,14 +366,14 @@ impl Report for SensitivityReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         if sensitivity.missing().is_none() {
-            let springs = grouped(self.scene.numerics.points);
+            let springs = counted(self.scene.numerics.points, "spring");
             let results = if sensitivity.range.is_some() {
                 "medians"
             } else {
                 "results"
             };
             sheet.heading(&format!(
-                "Changes of the {results} where one number changes, {springs} springs"
+                "Changes of the {results} where one number changes, {springs}"
             ));
             sheet.table(&sensitivity_table(sensitivity, usize::MAX));
         }

@@ -188,7 +188,10 @@ fn add_bodies(sheet: &mut Sheet, outcome: &Outcome) {
 fn regime(outcome: &Outcome) -> String {
     let is_adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
-        let reason = if is_adhesive {
+        let reason = if is_adhesive && outcome.figures.pull_off_force.is_some() {
+            // Only a half-space that relaxes has a pull-off force and no regime.
+            "none: the regimes are those of an elastic half-space"
+        } else if is_adhesive {
             "not known: the loading does not pull the bodies off"
         } else {
             "none: no adhesion"

@@ -9,7 +9,7 @@ use crate::warnings::sentences_section;
 use crate::words::whole_percent;
 use asperity_contact::Move;
 use asperity_data::{
-    Kind, Remedy, Table, Warning, Wording, format_quantity, format_range, grouped, path_name,
+    Kind, Remedy, Table, Warning, Wording, counted, format_quantity, format_range, path_name,
     per_cent,
 };
 use asperity_plot::Figure;
@@ -419,8 +419,8 @@ fn add_adhesion(
     };
     sheet.row("loading", loading);
     let length = format_quantity(scene.length, "m");
-    let springs = grouped(scene.numerics.points);
-    sheet.row("length L", format!("{length} on {springs} springs"));
+    let springs = counted(scene.numerics.points, "spring");
+    sheet.row("length L", format!("{length} on {springs}"));
     let label = if preload.is_some() {
         "pull-off force F_a"
     } else {
@@ -428,7 +428,7 @@ fn add_adhesion(
     };
     let Some(computed) = computed else {
         let profiles = wording(&Remedy::Profiles(PROFILES));
-        let hint = format!("not computed on {springs} springs; {profiles} does");
+        let hint = format!("not computed on {springs}; {profiles} does");
         sheet.row(label, hint);
         return;
     };

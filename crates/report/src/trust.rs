@@ -7,7 +7,7 @@ use asperity_data::{Remedy, Warning, Wording, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
-use asperity_study::trust::{Budget, criteria};
+use asperity_study::trust::{Budget, Criterion, criteria};
 use asperity_surface::Form;
 
 /// Adds what criteria of other theories state about adhesion without a preload, and the error of
@@ -67,6 +67,39 @@ pub fn theory_rows(
         rows.push((name, criterion.words()));
     }
     rows
+}
+
+/// Returns the verdicts of theories on the adhesion of a computed scene without a preload, in few
+/// words: `yes Pastewka; no Persson, Fuller`. Theories without a verdict are left out; `None` if
+/// none has one.
+pub fn theories_briefly(scene: &Scene, outcome: &Outcome) -> Option<String> {
+    let mut yes = Vec::new();
+    let mut no = Vec::new();
+    for criterion in criteria(scene, outcome, None) {
+        if criterion.name == Criterion::THIS_PROGRAM {
+            continue;
+        }
+        // Of several authors the first one, without the year.
+        let words = criterion.name.split(' ');
+        let words = words.take_while(|word| *word != "&" && word.parse::<u32>().is_err());
+        let name = words.collect::<Vec<_>>().join(" ");
+        match criterion.sticks {
+            Some(true) => yes.push(name),
+            Some(false) => no.push(name),
+            None => {}
+        }
+    }
+    let mut parts = Vec::new();
+    for (verdict, names) in [("yes", yes), ("no", no)] {
+        if !names.is_empty() {
+            parts.push(format!("{verdict} {}", names.join(", ")));
+        }
+    }
+    if parts.is_empty() {
+        None
+    } else {
+        Some(parts.join("; "))
+    }
 }
 
 /// Returns the errors of the pull-off force from each source: number of springs, sample of
@@ -330,5 +363,7 @@ mod tests {
             "{theories:?}"
         );
         assert_eq!(theories.len(), 7);
+        let brief = theories_briefly(scene, &outcome);
+        assert_eq!(brief.as_deref(), Some("yes Pastewka; no Persson"));
     }
 }

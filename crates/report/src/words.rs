@@ -1,6 +1,6 @@
-//! Numbers in words: shares in per cent, counts with their nouns, and letters of scenes.
+//! Numbers in words: shares in per cent, and letters of scenes.
 
-use asperity_data::{format_rounded, grouped};
+use asperity_data::format_rounded;
 
 /// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`. For errors,
 /// use [`asperity_data::per_cent`], which chooses the number of digits.
@@ -11,17 +11,6 @@ pub fn percent(share: f64, digits: usize) -> String {
 /// Returns a share in whole per cent: `12 %`.
 pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
-}
-
-/// Returns a number of things as text: `1 spring`, `1 024 springs`.
-pub fn counted(count: u64, noun: &str) -> String {
-    format!("{} {}", grouped(count), plural(noun, count))
-}
-
-/// Returns the form of a noun for the number `count`: `spring` for 1, otherwise `springs`.
-pub(crate) fn plural(noun: &str, count: u64) -> String {
-    let ending = if count == 1 { "" } else { "s" };
-    format!("{noun}{ending}")
 }
 
 /// Returns the letter that names a scene in tables and legends, such as `A` for the number 0. From
@@ -42,10 +31,6 @@ mod tests {
         assert_eq!(percent(0.0034, 2), "0.34 %");
         assert_eq!(percent(0.8, 4), "80 %");
         assert_eq!(whole_percent(0.126), "13 %");
-        assert_eq!(
-            [0, 1, 1024].map(|count| counted(count, "spring")),
-            ["0 springs", "1 spring", "1 024 springs"]
-        );
         assert_eq!([0, 25, 26, 300].map(letter), ["A", "Z", "S26", "S300"]);
     }
 }

@@ -1,7 +1,7 @@
 //! Table of the parts of the computation of a scene.
 
 use crate::sheet::Sheet;
-use asperity_data::{grouped, memory_size};
+use asperity_data::{counted, grouped, memory_size};
 use asperity_scene::workload::{PlannedPart, Workload};
 
 /// Returns a table of the parts of the computation of a scene, such as the part that makes the
@@ -13,11 +13,11 @@ pub fn parts_text(plan: &Workload) -> String {
     rows.extend(plan.parts.iter().map(row));
     let mut sheet = Sheet::default();
     sheet.table(&rows);
-    let springs = grouped(plan.springs);
+    let springs = counted(plan.springs, "spring");
     let peak = memory_size(plan.resident_bytes);
     let program = memory_size(Workload::PROGRAM);
     sheet.heading(&format!(
-        "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
+        "{springs} under the body; about {peak} of memory at any one time, {program} of them the program"
     ));
     sheet.into_text()
 }

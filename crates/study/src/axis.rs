@@ -469,6 +469,10 @@ impl Target {
                 Some(Move::ToIndentation(_)) => {
                     (format!("indentation of stage {}", stage + 1), "", "m")
                 }
+                Some(Move::ToDisplacement(_)) => {
+                    (format!("displacement of stage {}", stage + 1), "", "m")
+                }
+                Some(Move::Hold(_)) => (format!("time of stage {}", stage + 1), "", "s"),
                 _ => (format!("force of stage {}", stage + 1), "", "N"),
             },
             Target::Number(Field {

@@ -18,7 +18,7 @@ const TABOR: Criterion = Criterion::new(
     Criterion::LEAST_TABOR_NUMBER,
 );
 const THIS_PROGRAM: Criterion = Criterion::new(
-    "this program",
+    Criterion::THIS_PROGRAM,
     "",
     "Popov, Filippov: Phys. Mesomech. 15 (2012)",
     Regime::VANISHING_SHARE,

@@ -33,6 +33,9 @@ impl Criterion {
     /// rule of Hess for the largest stretch of a spring applies.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::LEAST_TABOR_NUMBER;
 
+    /// Name of the criteria of this program, in place of the name of a theory.
+    pub const THIS_PROGRAM: &str = "this program";
+
     /// Makes a criterion whose number is not known yet.
     pub(super) const fn new(
         name: &'static str,

@@ -432,14 +432,21 @@ mod tests {
             asked(&rough, "preload", condition, 6, None, 1),
             Ok(found.clone())
         );
-        let mut inside = 0;
+        let (mut inside, mut steps) = (0, 0);
         for (answer, value) in found.answers.iter().zip(found.values()) {
             let (seed, value) = (answer.seed.unwrap(), value.unwrap());
             let force =
                 |preload| alone(&rough, seed, Move::ToForce(preload), Quantity::PullOffForce);
             assert!(force(value) >= target, "{seed}");
             if answer.crossings.is_empty() {
+                assert_eq!(answer.step, None);
                 continue;
+            }
+            // Most of the steps of the staircase pass over the target.
+            if let Some([below, at]) = answer.step {
+                assert!(below < target, "{seed}");
+                assert!((at / force(value) - 1.0).abs() < 1e-9, "{seed}");
+                steps += 1;
             }
             inside += 1;
             assert!(force(value * (1.0 - 4.0 * WITHIN)) < target, "{seed}");
@@ -448,7 +455,7 @@ mod tests {
                 "{seed}"
             );
         }
-        assert!(inside > 3, "{inside}");
+        assert!(inside > 3 && steps > 1, "{inside} {steps}");
         let mut values: Vec<f64> = found.values().into_iter().flatten().collect();
         values.sort_by(f64::total_cmp);
         assert_eq!(

@@ -144,7 +144,7 @@ quantities! {
         symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
-        name: "dissipated_energy", meaning: "energy lost in the contact over the whole loop",
+        name: "dissipated_energy", meaning: "energy dissipated in the contact over the whole loop",
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {

@@ -98,6 +98,10 @@ pub struct Answer {
     /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
     /// if the quantity has no value at any of these numbers.
     pub reachable: Option<(f64, f64)>,
+    /// Values of the quantity just below the first crossing and at it, if the quantity steps over
+    /// the target there. `None` if it reaches the target gradually, or if only some numbers are
+    /// allowed.
+    pub step: Option<[f64; 2]>,
 }
 
 impl Question {

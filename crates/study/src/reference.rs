@@ -513,10 +513,10 @@ mod tests {
     }
 
     /// A comparison with three squares agrees with a row of the table in
-    /// docs/line-and-three-dimensions.md within the confidence intervals of both.
+    /// docs/three-dimensions.md within the confidence intervals of both.
     #[test]
     fn the_table_of_the_page_is_that_of_the_squares() {
-        let page = std::fs::read_to_string(format!("{DOCS}line-and-three-dimensions.md")).unwrap();
+        let page = std::fs::read_to_string(format!("{DOCS}three-dimensions.md")).unwrap();
         let row = page
             .lines()
             .find(|line| line.starts_with("| 0.8 | 0.3 |"))

@@ -42,6 +42,13 @@ impl Question {
     }
 }
 
+/// Largest relative distance of two neighbouring numbers between which a quantity steps. It is
+/// larger than the error of a crossing.
+const NEIGHBOURS: f64 = 1e-8;
+
+/// Smallest change of a quantity that counts as a step, as a share of the target.
+const LEAST_STEP: f64 = 1e-2;
+
 /// State of the search on one random profile.
 struct Search<'s> {
     question: &'s Question,
@@ -95,7 +102,24 @@ impl Search<'_> {
         answer.reachable = least.zip(most);
         answer.tried = self.known.len() as u64;
         answer.crossings.dedup();
+        answer.step = answer
+            .crossings
+            .first()
+            .and_then(|first| self.step_at(*first));
         Ok((answer, self.refused))
+    }
+
+    /// Returns the values of the quantity just below a crossing and at it, if the quantity steps
+    /// over the target there. The computed numbers are in ascending order.
+    fn step_at(&self, crossing: f64) -> Option<[f64; 2]> {
+        let place = self.known.partition_point(|tried| tried.number < crossing);
+        let below = self.known.get(place.checked_sub(1)?)?;
+        let at = self.known.get(place)?;
+        let is_close = at.number - below.number <= NEIGHBOURS * crossing.abs();
+        let target = self.question.target;
+        let least = LEAST_STEP * target.abs();
+        let is_step = (at.value - target).abs() > least && (at.value - below.value).abs() > least;
+        (is_close && is_step).then_some([below.value, at.value])
     }
 
     /// Searches a quantity that is monotonic in the number. If the ends of the range are on

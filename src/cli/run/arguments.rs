@@ -4,7 +4,7 @@ use crate::cli::error::CliError;
 use crate::cli::output::{OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
 use crate::cli::progress::{ProgressLine, Task, watched};
 use crate::cli::scene::{ProfileArguments, SceneArguments, open_scene, threads};
-use asperity_data::{grouped, parse_quantity, wrap};
+use asperity_data::{counted, parse_quantity, wrap};
 use asperity_report::{Format, Report, check_measured_files};
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation};
@@ -241,7 +241,7 @@ impl RunArguments {
         let choice = watched(
             task,
             |springs: &u64, line: &mut ProgressLine| {
-                line.show(&format!("trying {} springs", grouped(*springs)), None)
+                line.show(&format!("trying {}", counted(*springs, "spring")), None)
             },
             |mut control| {
                 let folder = document.resolve("");

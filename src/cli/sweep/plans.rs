@@ -2,6 +2,7 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
+use asperity_data::counted;
 use asperity_report::Sheet;
 use asperity_study::{Changes, Plan};
 use clap::Args;
@@ -46,7 +47,8 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
 fn table(plans: &[PlanEntry]) -> String {
     let mut rows = Vec::with_capacity(plans.len());
     for plan in plans {
-        let size = format!("{} cells × {} profiles", plan.cells, plan.lines);
+        let profiles = counted(plan.lines, "profile");
+        let size = format!("{} × {profiles}", counted(plan.cells, "cell"));
         rows.push([plan.name.to_owned(), size, plan.title.clone()]);
     }
     Sheet::of_table(&rows)

@@ -5,7 +5,7 @@ use super::merge::write_merged;
 use crate::cli::error::CliError;
 use crate::cli::progress::{ProgressLine, SignalWatch};
 use crate::cli::scene::{Overrides, threads};
-use asperity_data::{Control, memory_size};
+use asperity_data::{Control, counted, memory_size};
 use asperity_report::{counted_record_texts, progress_text};
 use asperity_study::folders::Status;
 use asperity_study::{Changes, Folder, Plan, Shard, StudyProgress, StudyRun, merge, run_study};
@@ -83,17 +83,12 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
 
 /// Returns as text the number of records of a plan, and the memory that `jobs` threads need.
 fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
-    let profiles = if plan.lines == 1 {
-        "profile"
-    } else {
-        "profiles"
-    };
-    let threads = if jobs == 1 { "thread" } else { "threads" };
     Ok(format!(
-        "{} cells on {} {profiles}: {} records; {jobs} {threads}, at most {} of memory",
-        plan.cells(),
-        plan.lines,
-        plan.records_in_all(),
+        "{} on {}: {}; {}, at most {} of memory",
+        counted(plan.cells(), "cell"),
+        counted(plan.lines, "profile"),
+        counted(plan.records_in_all(), "record"),
+        counted(jobs, "thread"),
         memory_size(plan.memory(jobs)?)
     ))
 }

@@ -75,11 +75,19 @@ fn state_why_not(app: &mut App) {
     }
 }
 
-/// Returns the present path or, without manual loading, a path that starts at the present state.
+/// Returns the path that ends at the shown state, from which the next move continues: the present
+/// path, its part before the position of the animation, or without manual loading a path that
+/// starts at the present state. `None` while this state is being computed.
 fn present_path(app: &App) -> Option<ManualPath> {
-    match &app.edit.path {
-        Some(path) => Some(ManualPath::clone(path)),
-        None => new_path(app),
+    let Some(path) = &app.edit.path else {
+        return new_path(app);
+    };
+    match app.play_of_path {
+        Some(player) => {
+            let followed = app.followed()?;
+            Some(path.until(player, &followed.stages, followed.before))
+        }
+        None => Some(ManualPath::clone(path)),
     }
 }
 
@@ -101,6 +109,9 @@ fn select_force_curve(app: &mut App) {
 /// Returns the indentation in m of the body at the end of a path. `None` if the solver has not
 /// answered yet and the indentation does not follow from the last move.
 fn end_of(app: &App, path: &ManualPath) -> Option<f64> {
+    if let Some(player) = app.play_of_path {
+        return Some(player.indentation(app.played_stages()));
+    }
     if app.edit.path.is_some()
         && let Some(followed) = app.followed()
         && let Some(last) = followed.stages.last()
@@ -164,19 +175,23 @@ fn step_to(app: &mut App, path: &ManualPath, from: f64, to: f64) {
         return;
     };
     app.play.playing = false;
-    app.play_of_path = None;
+    if app.play_of_path.take().is_some() {
+        // The rest of the path is dropped, which is an edit of its own.
+        app.edit.end_series();
+    }
     app.edit.adopt_step(next, direction);
 }
 
 /// Returns a path with one more move. If the contact cannot follow some moves of the path, the new
 /// move takes their place.
 fn with_move(app: &mut App, path: &ManualPath, target: Move) -> Option<ManualPath> {
-    let count = path.moves.len();
-    let mut followed = count;
-    if app.edit.path.is_some()
+    let present = app.edit.path.as_ref();
+    let count = present.map_or(0, |present| present.moves.len());
+    let mut followed = path.moves.len();
+    if present.is_some()
         && let Some(path) = app.followed()
     {
-        followed = path.count();
+        followed = followed.min(path.count());
     }
     if followed >= MOST_MOVES {
         app.set_error(format!(
@@ -224,9 +239,12 @@ pub fn type_target(app: &mut App, key: &KeyEvent) {
 /// Moves the body to the typed target: a force, an indentation or another kind of loading stage.
 pub fn accept_target(app: &mut App, text: &str) -> Result<(), String> {
     let Some(target) = typed::target(app, text) else {
-        return Err(format!(
-            "{text:?} is no target; for example 10 µN, 430 nm, separation, or -2 µN to pull"
-        ));
+        let examples = "for example 10 µN, 430 nm, separation, or -2 µN to pull";
+        return Err(if text.trim().is_empty() {
+            format!("type a target, {examples}")
+        } else {
+            format!("{text:?} is no target; {examples}")
+        });
     };
     if let Some(why) = refusal(app, target) {
         return Err(why);
@@ -329,5 +347,5 @@ fn become_loading(app: &mut App) {
 
 /// Returns a number of things in words, such as `1 stage` or `2 stages`.
 fn counted(count: usize, name: &str) -> String {
-    asperity_report::counted(count as u64, name)
+    asperity_data::counted(count as u64, name)
 }

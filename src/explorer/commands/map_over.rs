@@ -10,7 +10,7 @@ use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::search::Search;
 use crate::explorer::text_line::TextLine;
-use asperity_data::{format_range, round_to};
+use asperity_data::{counted, format_range, round_to};
 use asperity_scene::fields::{Range, Step};
 use asperity_study::{Plan, Quantity};
 use std::ops::Bound;
@@ -274,10 +274,10 @@ pub fn answer(app: &App) -> Option<String> {
         Err(why) => return Some(why.to_string()),
     };
     let mut parts = vec![format!(
-        "{} × {} cells, {} profiles",
+        "{} × {} cells, {}",
         across.values.len(),
         up.values.len(),
-        plan.lines
+        counted(plan.lines, "profile")
     )];
     for axis in plan.axes.iter().rev() {
         let ends = (axis.values[0], axis.values[axis.values.len() - 1]);

@@ -230,7 +230,7 @@ static TABLE: &[Entry] = &[
     row("← → h l Shift+← Shift+→ H L", BY_HAND, "push", Key(manual::push), "pull/press", "pull or press by a small or a large step", MANUAL).rank(1).unlisted(),
     row("Enter 0–9 - .", BY_HAND, "type-target", Key(manual::type_target), "go to", "type a target: 12 µN, -2 µN to pull, 430 nm, touch, separation", MANUAL).rank(1).words("minor loop target force load").unlisted(),
     row("S", EXPLORE, "separate", Do(manual::separate), "separate", "pull by hand to separation", MANUAL).words("detach unload").shown_if(is_manual),
-    row("Esc", BESIDE_PATH, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1),
+    row("Esc", BESIDE_PATH, "drop-path", Do(manual::drop_path), "drop", "drop the path by hand; u brings it back", MANUAL).rank(1).shown_if(is_manual),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),

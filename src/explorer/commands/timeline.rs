@@ -6,7 +6,7 @@ use crate::explorer::keys::key::direction;
 use crate::explorer::pane::Pane;
 use crate::explorer::player::{At, Player};
 use crate::explorer::request::Focus;
-use crate::explorer::timeline::{Timeline, next, passed, position_of, previous};
+use crate::explorer::timeline::{Timeline, next, passed, position_of, previous, speed_in_words};
 use asperity_contact::Event;
 use crossterm::event::{KeyCode, KeyEvent};
 
@@ -161,6 +161,8 @@ pub fn change_speed(app: &mut App, key: &KeyEvent) {
     };
     let [slowest, fastest] = SPEEDS;
     app.config.speed = (app.config.speed * factor).clamp(slowest, fastest);
+    // In a low window, the timeline has no title with the speed.
+    app.set_done(format!("speed {}", speed_in_words(app.config.speed)));
 }
 
 /// Repeats the animation from its beginning when it has reached its end, or stops it there.

@@ -1,11 +1,12 @@
 //! The demo in a terminal, in real time.
 
 use super::Demo;
+use crate::explorer::cell_writer::CellWriter;
 use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
+use crate::explorer::terminal_input::Input;
 use crate::explorer::{input, view};
 use crossterm::event::{Event, KeyEventKind};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
 use std::io;
 use std::mem::ManuallyDrop;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -18,7 +19,7 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;
-    let backend = CrosstermBackend::new(FrameWriter::new(io::stdout()));
+    let backend = CellWriter::new(FrameWriter::new(io::stdout()));
     let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
     let frame = Duration::from_secs_f64(frames_per_second.recip());
     let begun = Instant::now();
@@ -34,7 +35,9 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
         let due = begun + frame * frames;
         loop {
             match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
-                Ok(Some(Event::Key(key))) if key.kind == KeyEventKind::Press => return Ok(()),
+                Ok(Some(Input::Event(Event::Key(key)))) if key.kind == KeyEventKind::Press => {
+                    return Ok(());
+                }
                 Ok(Some(_)) => {}
                 Err(RecvTimeoutError::Timeout) => break,
                 Ok(None) | Err(RecvTimeoutError::Disconnected) => return Ok(()),

@@ -5,9 +5,9 @@ use super::section;
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::{ContactSnapshot, PatchFacts};
-use asperity_data::format_rounded;
+use asperity_data::{counted, format_rounded};
 use asperity_plot::{Chart, Ink, Label, Layer, Shape, Sign, Span};
-use asperity_report::{Part as LinePart, Section, counted};
+use asperity_report::{Part as LinePart, Section};
 use ratatui::layout::Size;
 use ratatui::text::Span as Text;
 

@@ -11,7 +11,7 @@ use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use asperity_contact::{Event, Events};
-use asperity_data::{format_range, format_rounded, grouped};
+use asperity_data::{counted, format_range, format_rounded, grouped};
 use asperity_report::{EventsReport, event_words, signed_energy};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
@@ -76,11 +76,11 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Returns how many of all jumps are listed.
 fn count_in_words(listed: &Events) -> String {
-    let all = grouped(listed.jumps as u64);
+    let all = counted(listed.jumps as u64, "jump");
     if listed.listed_jumps == listed.jumps {
-        return format!("{all} jumps");
+        return all;
     }
-    format!("{} of {all} jumps", grouped(listed.listed_jumps as u64))
+    format!("{} of {all}", grouped(listed.listed_jumps as u64))
 }
 
 fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static> {

@@ -1,6 +1,8 @@
 //! The pane of the force curve: the loop of loading and unloading, manual loading, and other curves
 //! for comparison.
 
+use super::compared::compared;
+use super::force_loops::{chart, differences, shows_loss, stiffness, units};
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::advice;
 use crate::explorer::app::App;
@@ -13,16 +15,10 @@ use crate::explorer::snapshot::FollowedPath;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
-use asperity_data::{AxisScale, format_rounded, grouped, quantile};
-use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
-use asperity_report::{
-    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, counted, force_figure, letter,
-    loop_chart,
-};
-
+use asperity_data::{AxisScale, counted, format_rounded, quantile};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span};
+use asperity_report::{FitReport, LoopQuantities, Report, letter};
 use asperity_scene::text::quoted;
-use asperity_scene::{Document, Outcome};
-use asperity_study::half_space::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::f64::consts::PI;
@@ -54,92 +50,6 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
         fit: fitted(&app.studies).filter(|_| app.is_current())?,
         wording: advice::row,
     })
-}
-
-/// Returns the figure with the curves of the present scene and of the ghosts (scenes that the user
-/// keeps for comparison). The present scene comes first, so that its curve is the solid one. Curves
-/// of variants of one scene are named by the numbers that differ among them, other curves by their
-/// titles.
-fn compared(app: &App) -> Option<Figure> {
-    let present = &app.edit.document;
-    let variants: Vec<&Ghost> = app
-        .ghosts
-        .iter()
-        .filter(|ghost| is_variant(&ghost.document, present))
-        .collect();
-    let differing = DifferingValues::new(present, &variants);
-    let mut names = vec![
-        differing
-            .of_present()
-            .unwrap_or_else(|| present.title().to_owned()),
-    ];
-    let mut outcomes: Vec<&Outcome> = vec![&app.current()?.outcome];
-    for ghost in &app.ghosts {
-        names.push(if is_variant(&ghost.document, present) {
-            differing.of_ghost(ghost)
-        } else {
-            ghost.document.title().to_owned()
-        });
-        outcomes.push(&ghost.outcome);
-    }
-    let curves: Vec<(&str, &Outcome)> = names.iter().map(String::as_str).zip(outcomes).collect();
-    Some(force_figure(&curves, units(app)))
-}
-
-/// Returns true if two documents are variants of one scene, so that numbers and not titles
-/// distinguish them.
-fn is_variant(one: &Document, other: &Document) -> bool {
-    one.name() == other.name() || one.title() == other.title()
-}
-
-/// Values that differ among the present scene and its variants. Each has the name of its field and
-/// its text in the present scene.
-struct DifferingValues<'a> {
-    present: &'a Document,
-    values: Vec<(String, String)>,
-}
-
-impl DifferingValues<'_> {
-    fn new<'a>(present: &'a Document, ghosts: &[&Ghost]) -> DifferingValues<'a> {
-        let mut values: Vec<(String, String)> = Vec::new();
-        for ghost in ghosts {
-            for change in ghost.document.changes_to(present) {
-                let is_listed = values.iter().any(|(name, _)| *name == change.name);
-                if !is_listed {
-                    values.push((change.name, change.to));
-                }
-            }
-        }
-        DifferingValues { present, values }
-    }
-
-    /// Returns the values of the present scene; `None` if none differs.
-    fn of_present(&self) -> Option<String> {
-        if self.values.is_empty() {
-            return None;
-        }
-        let words = self
-            .values
-            .iter()
-            .map(|(name, value)| format!("{name} {value}"));
-        Some(words.collect::<Vec<_>>().join(", "))
-    }
-
-    /// Returns the same values of a ghost.
-    fn of_ghost(&self, ghost: &Ghost) -> String {
-        let changes = ghost.document.changes_to(self.present);
-        let mut words = Vec::new();
-        for (name, value) in &self.values {
-            let change = changes.iter().find(|change| change.name == *name);
-            let value = change.map_or(value, |change| &change.from);
-            words.push(format!("{name} {value}"));
-        }
-        if words.is_empty() {
-            ghost.document.title().to_owned()
-        } else {
-            words.join(", ")
-        }
-    }
 }
 
 /// Returns the report on the measured curve, and the command that computes the fit to this curve.
@@ -219,12 +129,9 @@ fn names_of_marks(app: &App) -> Vec<Name> {
 }
 
 /// Returns the loading stages whose marked points are shown: those of the scene or, under manual
-/// loading, the moves of the body.
+/// loading, those of the whole path with its way to the first move, as on the timeline.
 fn marked_stages(app: &App) -> &[StageRecord] {
-    match app.former_path() {
-        Some(followed) => followed.moves(),
-        None => app.stages(),
-    }
+    app.played_stages()
 }
 
 /// Returns the letters of the ghosts, which are written beside the curves, the newest first.
@@ -310,12 +217,7 @@ fn state(app: &App) -> Vec<String> {
             parts.push(format!("contact {} %", format_rounded(percent, 2, "1")));
         }
     }
-    let patches = if point.patches == 1 {
-        "patch"
-    } else {
-        "patches"
-    };
-    parts.push(format!("{} {patches}", grouped(point.patches)));
+    parts.push(counted(point.patches, "patch"));
     let stiffness = outcome.governing.modulus * point.contact_length;
     parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
     let radius = snapshot.contact_radius;
@@ -344,16 +246,6 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
         None => String::new(),
     };
     format!("{name}{event}")
-}
-
-/// Returns true if the chart contains the area of the dissipated energy: only a closed loop of the
-/// force over the indentation has this area.
-fn shows_loss(app: &App) -> bool {
-    let is_force_over_indentation = app.view.curve.quantities == LoopQuantities::ForceIndentation;
-    is_force_over_indentation
-        && app
-            .outcome()
-            .is_some_and(|outcome| outcome.figures.dissipated_energy.is_some())
 }
 
 /// Returns the dissipated energy, which is written inside the loop, where the loop is widest.
@@ -409,22 +301,11 @@ fn places_inside(app: &App) -> Vec<CurvePoint> {
     places.into_iter().map(|(place, _)| place).collect()
 }
 
-fn units(app: &App) -> LoopUnits {
-    let quantities = app.view.curve.quantities;
-    match app.outcome() {
-        Some(outcome) => LoopUnits::of_scene(quantities, outcome, app.view.curve.normalised),
-        None => LoopUnits::si(quantities),
-    }
-}
-
 /// Returns the indentation in m that belongs to the number `x` on the horizontal axis of the force
 /// curve; `None` if `x` does not determine the indentation.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }
-
-/// Name of the measured points in the legend.
-const MEASURED: &str = "measured";
 
 /// Returns the chart of the residuals of the measured curve, divided by the noise. `x` is its
 /// horizontal axis. Until the residuals are computed, the chart has no points. `None` if there is
@@ -478,15 +359,6 @@ fn half_range(residuals: Vec<f64>) -> f64 {
     most
 }
 
-/// Returns the stiffness of the instrument of the computed scene in N/m, infinite if the instrument
-/// is rigid; `None` before a scene is computed.
-fn stiffness(app: &App) -> Option<f64> {
-    match app.outcome()?.instrument {
-        Some(instrument) => Some(instrument.stiffness),
-        None => Some(f64::INFINITY),
-    }
-}
-
 /// Returns the chart of the pane, with a marker at the shown state. The names of marks, ghosts and
 /// axes are left out of the chart, because the pane writes them elsewhere.
 fn shown_chart(app: &App) -> Option<Chart> {
@@ -504,187 +376,6 @@ fn shown_chart(app: &App) -> Option<Chart> {
         }
     }
     Some(chart)
-}
-
-/// Returns the chart with the loop, the curves for comparison, the path of manual loading, and the
-/// marks. Each curve is drawn over the curves before it.
-fn chart(app: &App) -> Option<Chart> {
-    app.indentations()?;
-    let units = units(app);
-    let measured = measured_points(app);
-    let bands = bands_of_squares(app);
-    let mut loops = Vec::new();
-    loops.extend(measured.as_deref().map(measured_loop));
-    loops.extend(bands.iter().flat_map(loops_of_band));
-    for (number, ghost) in app.ghosts.iter().enumerate() {
-        loops.push(ghost_loop(app, number, ghost));
-    }
-    loops.extend(app.tried_outcome().map(preview_loop));
-    loops.push(present_loop(app, app.outcome()?, measured.is_some()));
-    loops.extend(app.former_path().map(|followed| path_loop(app, followed)));
-    let mut chart = loop_chart(&loops, units);
-    for layer in &mut chart.layers {
-        if layer.name.to_string() == MEASURED {
-            layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
-        }
-    }
-    // Areas are inserted below the curves. Drawn later, they would hide parts of the curves.
-    for [lower, _, upper] in &bands {
-        let border = lower.iter().chain(upper.iter().rev());
-        insert_area(&mut chart, units, Ink::Kept, border);
-    }
-    if shows_loss(app) {
-        let border = app.stages().iter().flat_map(|stage| &stage.curve);
-        insert_area(&mut chart, units, Ink::Loop, border);
-    }
-    Some(chart)
-}
-
-/// Inserts an area below the curves of a chart. The points of `border` enclose the area.
-fn insert_area<'a>(
-    chart: &mut Chart,
-    units: LoopUnits,
-    ink: Ink,
-    border: impl Iterator<Item = &'a CurvePoint>,
-) {
-    let border = border.map(|point| units.place(point)).collect();
-    let area = Layer::unnamed(ink, Shape::Inside(border));
-    chart.layers.insert(1, area);
-}
-
-/// Returns the points of the measured curve; `None` if there is no measured curve, if the pane does
-/// not show forces, or if no scene has been computed.
-fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
-    if !units(app).shows_force() {
-        return None;
-    }
-    let measured = app.edit.measured.as_ref()?;
-    Some(measured.points(stiffness(app)?))
-}
-
-/// Returns the mean and the scatter of the loops of random square surfaces on an elastic
-/// half-space, if the user has switched them on. For each direction of motion there are three
-/// curves: the lower end of the scatter, the mean and the upper end.
-fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
-    if !app.view.squares || !units(app).shows_force() {
-        return Vec::new();
-    }
-    match app.studies.value::<SquareLoops>() {
-        Some(loops) => loops.bands(),
-        None => Vec::new(),
-    }
-}
-
-/// Returns a curve that does not belong to the loop of a scene.
-fn curve_alone(points: &[CurvePoint]) -> ForceLoop<'_> {
-    ForceLoop {
-        curves: vec![(Direction::Unloading, points)],
-        ..ForceLoop::new(&[])
-    }
-}
-
-/// Returns the loop of an outcome, without its marked points.
-fn unmarked_loop(outcome: &Outcome) -> ForceLoop<'_> {
-    ForceLoop {
-        marks: Vec::new(),
-        ..ForceLoop::of_outcome(outcome)
-    }
-}
-
-fn measured_loop(points: &[CurvePoint]) -> ForceLoop<'_> {
-    ForceLoop {
-        name: Some(MEASURED.into()),
-        ink: Some(Ink::Kept),
-        ..curve_alone(points)
-    }
-}
-
-fn loops_of_band(band: &[Vec<CurvePoint>; 3]) -> [ForceLoop<'_>; 3] {
-    let [lower, mean, upper] = band;
-    let curves = [
-        (lower, Stroke::Sparse),
-        (mean, Stroke::Solid),
-        (upper, Stroke::Sparse),
-    ];
-    curves.map(|(points, stroke)| ForceLoop {
-        ink: Some(Ink::Kept),
-        stroke: Some(stroke),
-        ..curve_alone(points)
-    })
-}
-
-fn ghost_loop<'a>(app: &App, number: usize, ghost: &'a Ghost) -> ForceLoop<'a> {
-    let name = format!("{}: {}", letter(number), differences(app, ghost));
-    ForceLoop {
-        name: Some(Label::plain(&name)),
-        ink: Some(Ink::Compared),
-        stroke: Some(Stroke::Dashed),
-        ..unmarked_loop(&ghost.outcome)
-    }
-}
-
-fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
-    ForceLoop {
-        name: Some("preview".into()),
-        ink: Some(Ink::Kept),
-        stroke: Some(Stroke::DashDotted),
-        ..unmarked_loop(outcome)
-    }
-}
-
-/// Returns the loop of the computed scene. If the scene has changed since, its former loop is drawn
-/// in a weaker colour until the new one is computed. Under manual loading it is a reference for the
-/// path of the body. A loop over measured points gets a solid line,
-/// because a line with gaps could not be seen there.
-fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> ForceLoop<'a> {
-    let stroke = if is_over_points {
-        Some(Stroke::Solid)
-    } else {
-        None
-    };
-    if app.edit.path.is_some() {
-        ForceLoop {
-            name: Some("loading of the scene".into()),
-            ink: Some(Ink::Quiet),
-            stroke: Some(Stroke::Sparse),
-            ..unmarked_loop(outcome)
-        }
-    } else if app.is_current() {
-        ForceLoop {
-            stroke,
-            ..ForceLoop::of_outcome(outcome)
-        }
-    } else {
-        ForceLoop {
-            ink: Some(Ink::Quiet),
-            stroke,
-            ..unmarked_loop(outcome)
-        }
-    }
-}
-
-/// Returns the curve of the moves of the body under manual loading. If the scene has changed since,
-/// the former curve is drawn in a weaker colour until the new one is computed.
-fn path_loop<'a>(app: &App, followed: &'a FollowedPath) -> ForceLoop<'a> {
-    let path = ForceLoop::new(followed.moves());
-    let stiffness = stiffness(app).filter(|stiffness| stiffness.is_finite());
-    if app.is_current() {
-        ForceLoop { stiffness, ..path }
-    } else {
-        ForceLoop {
-            stiffness,
-            ink: Some(Ink::Quiet),
-            marks: Vec::new(),
-            ..path
-        }
-    }
-}
-
-/// Returns the values of a ghost that differ from those of the present scene, as text.
-fn differences(app: &App, ghost: &Ghost) -> String {
-    ghost.changes(&app.edit.document, |change| {
-        format!("{} {}", change.name, change.from)
-    })
 }
 
 /// Number of points on the curve of each loading stage beside which the letter of a ghost may be

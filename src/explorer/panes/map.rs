@@ -9,7 +9,7 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use asperity_data::{format_range, format_rounded, grouped};
+use asperity_data::{counted, format_range, format_rounded, grouped};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign, shade_sample};
 use asperity_report::{study_curves, study_figure, study_map};
 use asperity_study::StudyError;
@@ -176,11 +176,7 @@ fn title(app: &App) -> String {
         ),
         None => (format!("Map of {mapped}"), profiles_of_live_map(app)),
     };
-    let profiles = if profiles == 1 {
-        "1 profile".to_owned()
-    } else {
-        format!("{} profiles", grouped(profiles))
-    };
+    let profiles = counted(profiles, "profile");
     format!("{name} over {over}, {profiles}")
 }
 

@@ -2,8 +2,10 @@
 //! function that makes the content of the pane from the state of the explorer.
 
 mod close_up;
+mod compared;
 mod events;
 pub mod force;
+mod force_loops;
 mod map;
 mod parameters;
 mod preloads;

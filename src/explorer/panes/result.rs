@@ -8,8 +8,8 @@ use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
-use asperity_data::{format_range, format_rounded, grouped};
-use asperity_report::{counted, percent};
+use asperity_data::{counted, format_range, format_rounded, grouped};
+use asperity_report::{percent, theories_briefly};
 use asperity_scene::Outcome;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::layout::Size;
@@ -22,7 +22,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Result",
         "pull-off force of each random profile, ● on a linear axis from zero, ◆ this profile; │ is the median. Below it \
-         medians and quartiles over the profiles; key e shows the events instead",
+         medians and quartiles over the profiles, and which theories say that the bodies adhere without a preload \
+         (details: key A); key e shows the events instead",
     )],
     ..PaneRow::EMPTY
 };
@@ -40,23 +41,38 @@ struct ResultLine {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
+    // Under manual loading, the body follows another loading than the one with these results.
+    let title = if app.edit.path.is_some() {
+        "Result of the scene's loop"
+    } else {
+        "Result"
+    };
     let Some(outcome) = app.outcome() else {
-        return Panel::of_text("Result".to_owned(), "computing…");
+        return Panel::of_text(title.to_owned(), "computing…");
     };
     let ensemble = app.studies.value::<Ensemble>();
     let mut lines = Vec::new();
-    if size.height >= WITH_STRIP
-        && let Some(ensemble) = ensemble
-    {
-        lines.extend(strip(app, outcome, ensemble, size.width.into()));
+    if size.height >= WITH_STRIP {
+        lines.extend(match ensemble {
+            Some(ensemble) => strip(app, outcome, ensemble, size.width.into()),
+            // The lines below stay in their places when the strip appears.
+            None if awaits_profiles(app) => vec![Line::default(); STRIP_ROWS + 1],
+            None => Vec::new(),
+        });
     }
     for result in results(app, outcome, ensemble) {
         lines.push(line_of_result(app, &result, size.width));
     }
-    let mut panel = Panel::of_text("Result".to_owned(), "");
+    let mut panel = Panel::of_text(title.to_owned(), "");
     panel.edge = edge(ensemble);
     panel.body = Body::Lines(lines);
     panel
+}
+
+/// Returns true if the scene has random profiles, which the explorer computes next.
+fn awaits_profiles(app: &App) -> bool {
+    let has_failed = app.studies.failure::<Ensemble>().is_some();
+    Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1 && !has_failed
 }
 
 /// Returns the number of profiles that are computed.
@@ -173,7 +189,7 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
         ("F_a", Quantity::PullOffForce, figures.pull_off_force, "N"),
         ("F_a/F_a,max", Quantity::AdhesionShare, share, "%"),
         (
-            "energy lost",
+            "dissipated",
             Quantity::DissipatedEnergy,
             figures.dissipated_energy,
             "J",
@@ -222,6 +238,15 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
             range: String::new(),
         });
     }
+    if let Some(computed) = app.current()
+        && let Some(verdicts) = theories_briefly(&computed.scene, &computed.outcome)
+    {
+        results.push(ResultLine {
+            name: "theories",
+            value: verdicts,
+            range: String::new(),
+        });
+    }
     results
 }
 
@@ -232,7 +257,11 @@ fn largest_error(rows: &[(&str, String)]) -> Option<String> {
     let source = largest.split(':').next().unwrap_or(largest);
     let words = sources.iter().find(|(name, _)| *name == source);
     Some(match words {
-        Some((_, words)) => format!("{source} {words}"),
+        Some((_, words)) => {
+            // The number of profiles is in the title of the pane.
+            let (error, _) = words.split_once(" of the median").unwrap_or((words, ""));
+            format!("{source} {error}")
+        }
         None => largest.clone(),
     })
 }

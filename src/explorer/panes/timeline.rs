@@ -10,13 +10,13 @@ use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel, title_line};
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
-use crate::explorer::timeline::{Tick, Timeline, passed};
+use crate::explorer::timeline::{Tick, Timeline, passed, speed_in_words};
 use asperity_contact::{Direction, Mark, StageRecord};
-use asperity_data::{format_rounded, grouped};
+use asperity_data::grouped;
 use asperity_plot::Ink;
 use asperity_report::{event_words, signed_energy};
 use ratatui::layout::Size;
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use std::ops::{Range, RangeInclusive};
 
@@ -86,9 +86,9 @@ fn title(app: &App) -> String {
     } else {
         "❚❚"
     };
-    let speed = format_rounded(app.config.speed, 2, "1");
+    let speed = speed_in_words(app.config.speed);
     let repeat = if app.config.repeat { " ↻" } else { "" };
-    format!("Timeline  {playing} {speed}×{repeat}")
+    format!("Timeline  {playing} {speed}{repeat}")
 }
 
 /// Returns the event that the animation has passed last, with the energy of its jump; without an
@@ -207,10 +207,16 @@ fn stage_line(app: &App, timeline: &Timeline, width: usize, head: Option<usize>)
         }
     }
     if let Some(cell) = head.and_then(|column| cells.get_mut(column)) {
-        *cell = Cell {
-            symbol: '◆',
-            style: app.style(Meaning::Cursor),
-        };
+        let is_of_line = matches!(cell.symbol, ' ' | '─' | '├' | '┤' | '┼');
+        if is_of_line {
+            cell.symbol = '◆';
+            cell.style = app.style(Meaning::Cursor);
+        } else {
+            // The letter of a name, or a mark, stays readable.
+            cell.style = app
+                .style(Meaning::Cursor)
+                .add_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+        }
     }
     line_of(&cells)
 }

@@ -11,7 +11,7 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use asperity_data::{format_rounded, grouped, per_cent};
+use asperity_data::{counted, format_rounded, per_cent};
 use asperity_experiment::Grade;
 use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Sign, Span};
 use asperity_report::{CostReport, error_rows, theory_rows, work_precision};
@@ -431,6 +431,6 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     } else {
         ""
     };
-    let springs = grouped(row.springs);
-    Some(format!("{springs} {whole}springs, {}", time_of(seconds)))
+    let springs = counted(row.springs, &format!("{whole}spring"));
+    Some(format!("{springs}, {}", time_of(seconds)))
 }

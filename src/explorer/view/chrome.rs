@@ -5,14 +5,15 @@ use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
 use crate::explorer::commands::table::footer as footer_keys;
 use crate::explorer::commands::{map_over, target};
-
+use crate::explorer::layout::Layout;
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
+use crate::explorer::pane::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text::{Part, filled, wrapped_within};
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
-use asperity_data::{format_quantity, format_range, format_rounded, grouped};
+use asperity_data::{counted, format_quantity, format_range, format_rounded};
 
 use asperity_report::square_loops_words;
 use asperity_scene::{Estimate, Outcome};
@@ -156,8 +157,10 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     let mut line = Line::raw(format!("{text}  "));
     let room = usize::from(width).saturating_sub(line.width());
     let beside = headline(app, room);
-    // The results and the warnings matter more than the keys, whose row the message then takes.
-    if beside.spans.is_empty() && rows > 1 {
+    // The results and the warnings matter more than the keys, whose row the message then takes. If
+    // the pane of results is shown, they need no row.
+    let shows_result = Layout::of(app).pane(Pane::Result).is_some();
+    if beside.spans.is_empty() && rows > 1 && !shows_result {
         return vec![Line::raw(text.to_owned()), headline(app, width.into())];
     }
     line.extend(beside);
@@ -450,13 +453,13 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     let median = format_rounded(median, 3, unit);
     let quartiles = format_range((lower, upper), 2, unit);
     let computed = ensemble.computed();
-    let all = ensemble.profiles();
+    let all = counted(ensemble.profiles(), "profile");
     let count = if !is_wide {
         String::new()
-    } else if computed < all {
-        format!(", {computed} of {all} profiles")
+    } else if computed < ensemble.profiles() {
+        format!(", {computed} of {all}")
     } else {
-        format!(", {all} profiles")
+        format!(", {all}")
     };
     let text = format!("{symbol} median {median} ({quartiles}{count})");
     Some(Fact::new(text, Meaning::Title))
@@ -488,14 +491,14 @@ fn searching(app: &App) -> Option<String> {
     }) = app.studies.value()
     {
         let tried = match tried {
-            Some(springs) => format!(": {} springs", grouped(*springs)),
+            Some(springs) => format!(": {}", counted(*springs, "spring")),
             None => String::new(),
         };
         return Some(format!("trying for {tolerance:e}{tried}…"));
     }
     let Fitting { evaluations, .. } = app.studies.value()?;
-    let curves = grouped(*evaluations);
-    Some(format!("fitting, {curves} curves computed…"))
+    let curves = counted(*evaluations, "curve");
+    Some(format!("fitting, {curves} computed…"))
 }
 
 /// Returns the footer: a line with the keys that are valid now.

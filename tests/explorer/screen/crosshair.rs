@@ -66,7 +66,7 @@ fn on_the_force_curve_the_crosshair_reads_both_branches() {
 fn on_the_profile_the_crosshair_reads_position_height_and_state() {
     for document in [rough(), punch()] {
         let mut driver = mid_retraction(document);
-        driver.press("* Tab Home");
+        driver.press("* Tab Tab Home");
         assert_eq!(
             (driver.app.view.pane, probe(&driver).spring),
             (Pane::Profile, 0)
@@ -130,7 +130,7 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
     // With the parameters selected the arrows act on these.
     let before = driver.app.edit.selected;
     while driver.app.view.pane != Pane::Parameters {
-        driver.press("Tab");
+        driver.press("Tab Tab");
     }
     driver.press("Down");
     assert_ne!(driver.app.edit.selected, before);

@@ -50,7 +50,7 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     );
     // Figures of the former scene are no longer shown.
     assert!(!text.contains("F_a "), "{text}");
-    for keys in ["j", "k", ". .", "Tab", "n", "+"] {
+    for keys in ["j", "k", ". .", "Tab Tab", "n", "+"] {
         driver.press(keys);
     }
     driver.shows("stage 2: the contact detaches before -10 nN");

@@ -7,7 +7,7 @@ use ratatui::style::Color;
 
 #[test]
 fn the_profile_is_looked_at_from_near_and_moved_along() {
-    let mut driver = pressed("Tab");
+    let mut driver = pressed("Tab Tab");
     driver.shows("Profile z (nm)");
     for (keys, first, springs) in [
         ("", 0, 1024),

@@ -481,3 +481,65 @@ fn a_path_has_a_largest_number_of_moves() {
     driver.states("the path has 1000 moves, the most");
     assert_eq!(followed(&driver).count(), 1000);
 }
+
+/// From an earlier point of the path, the body goes on from what is shown; the rest comes back by
+/// undo.
+#[test]
+fn a_move_continues_from_the_shown_point_of_the_path() {
+    let mut driver = Driver::start(rough());
+    driver.press("! d");
+    go(&mut driver, "12 µN");
+    go(&mut driver, "1 µN");
+    let whole = path(&driver).clone();
+    // Back into the first move, between its ends.
+    driver.press(", < <");
+    driver.press("Tab Shift+Right Shift+Right Shift+Right Shift+Right");
+    driver.app.view.pane = Pane::Force;
+    let shown = driver.point();
+    driver.press("Right");
+    let moves = &path(&driver).moves;
+    assert_eq!(moves.len(), 2, "{moves:?}");
+    assert_eq!(moves[0], Move::ToIndentation(shown.indentation));
+    assert!(driver.point().indentation > shown.indentation);
+    driver.states("the path goes on from here, without 1 move; u brings back");
+    driver.press("u");
+    assert_eq!(path(&driver), &whole);
+    // Before the first move, the path starts at what is shown.
+    driver.press("Tab Home Shift+Right Shift+Right Shift+Right Shift+Right");
+    driver.app.view.pane = Pane::Force;
+    let shown = driver.point();
+    go(&mut driver, "8 µN");
+    assert_eq!(path(&driver).moves, [Move::ToForce(8e-6)]);
+    let way = &followed(&driver).stages[followed(&driver).before - 1];
+    assert_eq!(way.end(), shown.indentation.max(0.0));
+    // A whole stage is kept as it is.
+    go(&mut driver, "2 µN");
+    driver.press("<");
+    go(&mut driver, "3 µN");
+    assert_eq!(
+        path(&driver).moves,
+        [Move::ToForce(8e-6), Move::ToForce(3e-6)]
+    );
+}
+
+/// The pane of the results names their loading, and the marks of the force are those of the whole
+/// path.
+#[test]
+fn beside_a_path_the_results_are_said_to_be_those_of_the_scene() {
+    let mut driver = Driver::start(rough());
+    driver.resize((120, 36));
+    assert!(!driver.text().contains("Result of the scene's loop"));
+    driver.press("! d");
+    go(&mut driver, "1 µN");
+    assert!(driver.text().contains("Result of the scene's loop"));
+    // The path begins at the pull-off, and its last move only presses: the jump-in and the pull-off
+    // lie before this move.
+    assert!(driver.text().contains("jump-in"), "{}", driver.text());
+}
+
+#[test]
+fn an_empty_target_is_asked_for() {
+    let mut driver = Driver::start(rough());
+    driver.press("d Enter Enter");
+    driver.states("type a target, for example 10 µN");
+}

@@ -36,8 +36,13 @@ fn every_screen_is_readable_in_all_windows_themes_and_markers() {
             .chain([(300, 40), (20, 6), (1, 1), (0, 0)])
         {
             driver.resize(size);
+            // Colours depend on the panes, which are all shown in two of the windows.
+            let themes = match size {
+                (120, 40) | (80, 24) => Theme::value_variants(),
+                _ => &[],
+            };
             let text = driver.text();
-            for theme in Theme::value_variants() {
+            for theme in themes {
                 driver.app.view.appearance.theme = *theme;
                 let screen = driver.screen();
                 assert_eq!(rows(&screen).join("\n"), text, "{theme:?}");
@@ -49,11 +54,16 @@ fn every_screen_is_readable_in_all_windows_themes_and_markers() {
                     );
                 }
             }
-            for (theme, colours) in [
-                (Theme::Neutral, Colours::Plain),
-                (Theme::Light, Colours::Ansi256),
-                (Theme::Dark, Colours::TrueColour),
-            ] {
+            let looks: &[(Theme, Colours)] = if themes.is_empty() {
+                &[(Theme::Dark, Colours::TrueColour)]
+            } else {
+                &[
+                    (Theme::Neutral, Colours::Plain),
+                    (Theme::Light, Colours::Ansi256),
+                    (Theme::Dark, Colours::TrueColour),
+                ]
+            };
+            for &(theme, colours) in looks {
                 driver.app.view.appearance.theme = theme;
                 driver.app.view.appearance.colours = colours;
                 for colour in colours_of(&driver.screen()) {

@@ -187,8 +187,9 @@ fn a_path_by_hand_has_its_own_stages_and_events() {
 fn keys_change_the_speed_and_repeat() {
     let mut driver = at_beginning(smooth());
     driver.resize((120, 36));
-    driver.press("Tab Tab Tab Tab = +");
+    driver.press("Tab = +");
     assert_eq!(driver.app.config.speed, 4.0);
+    driver.states("speed 4×");
     driver.press("- - - - - -");
     assert_eq!(driver.app.config.speed, 0.25);
     driver.press("r");
@@ -227,4 +228,42 @@ fn the_timeline_is_legible_in_ascii() {
         let timeline: String = row.chars().take(area.width.into()).collect();
         assert!(timeline.is_ascii() && !timeline.contains('?'), "{timeline}");
     }
+}
+
+#[test]
+fn the_playhead_hides_no_letter_of_a_stage() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.resize((120, 36));
+    driver.press("Tab");
+    // Over all letters of the first name, column by column.
+    for _ in 0..48 {
+        driver.press("Right");
+        let area = driver.area(Pane::Timeline);
+        let row = driver.rows()[usize::from(area.bottom()) - 1].replace('◆', " ");
+        assert!(row.contains("press to 10 µN"), "{row}");
+    }
+}
+
+#[test]
+fn the_next_pane_is_the_next_on_the_screen() {
+    let mut driver = at_beginning(smooth());
+    driver.resize((160, 45));
+    driver.press("e");
+    driver.app.view.pane = Pane::Force;
+    let mut before = driver.area(Pane::Force);
+    for pane in [
+        Pane::Timeline,
+        Pane::Profile,
+        Pane::CloseUp,
+        Pane::Parameters,
+        Pane::Events,
+    ] {
+        driver.press("Tab");
+        assert_eq!(driver.app.view.pane, pane);
+        let area = driver.area(pane);
+        assert!(area.y >= before.bottom() || area.x >= before.right());
+        before = area;
+    }
+    driver.press("Tab");
+    assert_eq!(driver.app.view.pane, Pane::Force);
 }

@@ -87,7 +87,7 @@ fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
 fn the_cursor_of_what_is_typed_is_on_the_screen() {
     let long = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToZeroForce, ToForce(3.0e-5), ToSeparation]";
     for size in SIZES {
-        let mut driver = pressed("Tab Tab");
+        let mut driver = pressed("Tab Tab Tab Tab");
         driver.resize(size);
         driver.select("loading");
         driver.press("Enter Ctrl+u");
@@ -211,7 +211,7 @@ fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
 
 #[test]
 fn digits_begin_a_value_wherever_the_list_can_be_edited() {
-    let mut driver = pressed("Tab Tab");
+    let mut driver = pressed("Tab Tab Tab Tab");
     assert_eq!(driver.app.view.pane, Pane::Parameters);
     driver.press(". 6 5 Enter");
     assert_eq!(
@@ -237,7 +237,7 @@ fn digits_begin_a_value_wherever_the_list_can_be_edited() {
     // there.
     let before = driver.document().clone();
     driver.select("roughness.hurst");
-    driver.press("Tab . - 0");
+    driver.press("Tab Tab Tab . - 0");
     assert_eq!(
         driver.app.prompt.as_ref().map(|prompt| prompt.line.text()),
         Some("0")
@@ -343,4 +343,28 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
     driver.perform(accepted);
     assert_eq!(driver.app.tried_outcome(), None);
     assert_eq!(driver.outcome().figures.pull_off_force, Some(second));
+}
+
+#[test]
+fn a_width_is_appended_to_the_offered_name_of_a_figure() {
+    let mut driver = Driver::start(rough());
+    driver.press("E ` 85mm`");
+    assert!(
+        driver.text().contains("force.pdf 85mm"),
+        "{}",
+        driver.text()
+    );
+    driver.press("Esc E `mine.svg`");
+    assert!(driver.text().contains(": mine.svg"), "{}", driver.text());
+}
+
+#[test]
+fn an_undone_edit_leaves_the_row_of_the_keys() {
+    let mut driver = Driver::start(rough());
+    driver.resize((80, 24));
+    driver.set("roughness.rms_height", "3e-7");
+    driver.press("u");
+    let rows = driver.rows();
+    assert!(rows[22].contains("undo: "), "{}", rows[22]);
+    assert!(rows[23].contains("? help"), "{}", rows[23]);
 }

@@ -1,8 +1,7 @@
 //! Distribution of the first free parameter over the curves: its values, median, quartiles and
 //! histogram.
 
-use crate::words::counted;
-use asperity_data::{format_quantity, format_range, quartiles};
+use asperity_data::{counted, format_quantity, format_range, quartiles};
 use asperity_experiment::Parameter;
 use asperity_plot::Span;
 use serde::Serialize;

@@ -2,8 +2,8 @@
 
 use super::words::{omitted_waves, ratio};
 use crate::status::duration;
-use crate::words::{counted, whole_percent};
-use asperity_data::memory_size;
+use crate::words::whole_percent;
+use asperity_data::{counted, memory_size};
 use asperity_study::half_space::{ReferenceEvent, SquareLoops};
 use std::time::{Duration, Instant};
 

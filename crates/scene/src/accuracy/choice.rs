@@ -9,7 +9,7 @@ use crate::scene::errors::SceneErrors;
 use crate::scene::model::Solver;
 use crate::simulation::outcome::RunError;
 use asperity_contact::Edges;
-use asperity_data::{grouped, parse_quantity};
+use asperity_data::{counted, grouped, parse_quantity};
 use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
@@ -102,8 +102,8 @@ impl Choice {
         let from = if closed_form {
             "by the closed form".to_owned()
         } else {
-            let finest = grouped(finest);
-            format!("estimated from solutions with up to {finest} springs")
+            let finest = counted(finest, "spring");
+            format!("estimated from solutions with up to {finest}")
         };
         format!(
             "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \

@@ -15,7 +15,7 @@ use crate::scene::errors::SceneErrors;
 use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::RunError;
 use asperity_contact::{ContactError, Edges};
-use asperity_data::{format_quantity, grouped};
+use asperity_data::{counted, format_quantity};
 use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -191,7 +191,7 @@ impl Ladder<'_> {
             let mut goes_on = before > needed || is_first;
             is_first = false;
             for setting in self.settings(points) {
-                let springs = format!("{} springs", grouped(points));
+                let springs = counted(points, "spring");
                 let (name, beyond) = match setting.knob {
                     Knob::Step => (format_quantity(setting.value, "m"), "less"),
                     Knob::SubCellSprings | Knob::GridSprings => (springs, "more"),

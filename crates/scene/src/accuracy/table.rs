@@ -3,7 +3,7 @@
 use crate::accuracy::solution::has_loads;
 use crate::scene::model::{Numerics, Scene, Solver};
 use asperity_contact::Edges;
-use asperity_data::{format_rounded, grouped, median, slope};
+use asperity_data::{counted, format_rounded, median, slope};
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
 
@@ -298,17 +298,17 @@ impl CostTable {
     /// computing time.
     fn springs_within(&self, knob: Knob, edges: &str, bound: f64) -> String {
         if let Some(row) = self.first_row_within(knob, bound) {
-            let springs = grouped(row.springs);
+            let springs = counted(row.springs, "spring");
             let time = match row.seconds {
                 Some(time) => format!(", {}", format_rounded(time.minimum, 3, "s")),
                 None => String::new(),
             };
-            return format!("{springs} springs{time} with edges {edges}");
+            return format!("{springs}{time} with edges {edges}");
         }
         match self.rows_of(knob).next_back() {
             Some(finest) => {
-                let finest = grouped(finest.springs);
-                format!("not found up to {finest} springs with edges {edges}")
+                let finest = counted(finest.springs, "spring");
+                format!("not found up to {finest} with edges {edges}")
             }
             None => format!("edges {edges} were not affordable"),
         }

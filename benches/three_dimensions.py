@@ -1,6 +1,6 @@
-"""Table of docs/line-and-three-dimensions.md: the line over three dimensions, by Hurst exponent and e_el/γ.
+"""Table of docs/three-dimensions.md: the profile over three dimensions, by Hurst exponent and e_el/γ.
 
-    python3 benches/line_and_three_dimensions.py [asperity]
+    python3 benches/three_dimensions.py [asperity]
 
 Each row is one call of `asperity reference`; no number depends on the machine.
 """
