@@ -4,12 +4,13 @@
 
     ball = asp.profile("100 µm", form=asp.sphere("100 µm"))
     loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
-    loop.pull_off                                     # N, (3/2)πγR by Johnson, Kendall and Roberts
+    loop.pull_off_force                               # N, (3/2)πγR by Johnson, Kendall and Roberts
 
 A quantity is a number in SI units, or a text with a unit such as "50 mJ/m²". Compressive forces are positive, and the
 indentation is 0 at first touch. Long calls release the global lock of Python (GIL), and Ctrl-C stops them.
 """
 
+from ._attributes import Table, Values
 from ._errors import FieldError, LoadingError, PremiseWarning
 from ._functions import (
     cone,
@@ -40,46 +41,102 @@ from ._functions import (
 )
 from ._loop import Loop
 from ._native import Scene, __version__
-from ._notation import Form, quantity
+from ._notation import Form
 from ._profile import Profile
 from ._results import (
-    Drawn,
+    Agreement,
+    Budget,
+    Criterion,
+    CurveFeatures,
+    Distribution,
+    Drag,
     Ensemble,
     EnsembleFit,
+    EquivalentLine,
     Fit,
     Fits,
+    FittedParameter,
     Found,
+    Histogram,
+    IntervalEstimate,
+    MeasuredFace,
+    ModelResults,
+    MomentOfLine,
     Outcome,
+    PreloadStatistics,
     Preloads,
+    PreloadsOfProfile,
+    Pressed,
+    ProfileFacts,
+    ProfileSpectrum,
+    ProfileStatistics,
+    Ratio,
+    Ratios,
     Reference,
+    ReferenceBudget,
     Result,
     Reversals,
+    Shares,
+    Spread,
+    Statistics,
+    SteepWaves,
     Study,
     Surface,
-    Values,
+    SurfaceAdhesion,
+    SurfaceFile,
+    ValueWithError,
 )
 
 __all__ = [
-    "Drawn",
+    "Agreement",
+    "Budget",
+    "Criterion",
+    "CurveFeatures",
+    "Distribution",
+    "Drag",
     "Ensemble",
     "EnsembleFit",
+    "EquivalentLine",
     "FieldError",
     "Fit",
     "Fits",
+    "FittedParameter",
     "Form",
     "Found",
+    "Histogram",
+    "IntervalEstimate",
     "LoadingError",
     "Loop",
+    "MeasuredFace",
+    "ModelResults",
+    "MomentOfLine",
     "Outcome",
+    "PreloadStatistics",
     "Preloads",
+    "PreloadsOfProfile",
     "PremiseWarning",
+    "Pressed",
     "Profile",
+    "ProfileFacts",
+    "ProfileSpectrum",
+    "ProfileStatistics",
+    "Ratio",
+    "Ratios",
     "Reference",
+    "ReferenceBudget",
     "Result",
     "Reversals",
     "Scene",
+    "Shares",
+    "Spread",
+    "Statistics",
+    "SteepWaves",
     "Study",
     "Surface",
+    "SurfaceAdhesion",
+    "SurfaceFile",
+    "Table",
+    "ValueWithError",
     "Values",
     "cone",
     "criteria",
@@ -94,7 +151,6 @@ __all__ = [
     "press",
     "profile",
     "punch",
-    "quantity",
     "reference",
     "reversals",
     "rounded_cone",

@@ -18,6 +18,9 @@ class FieldError(ValueError):
         #: Allowed values in words.
         self.allowed = allowed
 
+    def __reduce__(self) -> tuple[type[FieldError], tuple[str, str, str, str]]:
+        return type(self), (str(self), self.field, self.value, self.allowed)
+
 
 class LoadingError(ValueError):
     """Error of a loading stage whose target the contact cannot reach."""
@@ -28,6 +31,9 @@ class LoadingError(ValueError):
         self.stage = stage
         #: Smallest force in N that the contact can reach; None if the stage is refused for another reason.
         self.smallest_force = smallest_force
+
+    def __reduce__(self) -> tuple[type[LoadingError], tuple[str, int, float | None]]:
+        return type(self), (str(self), self.stage, self.smallest_force)
 
 
 class PremiseWarning(UserWarning):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overload
 
 from . import _native
 from ._errors import FieldError, warn_of
+from ._executor import check_executor, gathered, ranges
 from ._loop import Loop
 from ._native import Scene
 from ._notation import (
@@ -30,7 +32,21 @@ from ._notation import (
     whole,
 )
 from ._profile import Profile
-from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
+from ._results import (
+    Criterion,
+    Ensemble,
+    EnsembleFit,
+    Fit,
+    Fits,
+    Found,
+    Outcome,
+    Preloads,
+    Pressed,
+    Reference,
+    Reversals,
+    Study,
+    Surface,
+)
 
 #: Path of a file.
 AnyPath: TypeAlias = str | os.PathLike[str]
@@ -42,6 +58,10 @@ if TYPE_CHECKING:
 
 #: Function that is called with the numbers of finished parts and of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
+#: Loading stages: a text such as "10 µN, separation", or a list of stages.
+Stages: TypeAlias = str | Quantity | Sequence[Quantity]
+#: Scene, number of profiles, number of threads, and the function of the progress.
+_Call: TypeAlias = tuple[Scene, int | None, int | None, Progress]
 #: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile with a modulus.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
@@ -91,14 +111,28 @@ class Reading(TypedDict, total=False):
     opposite: AnyPath | None
 
 
-def scene(scene: AnyScene, /, **fields: Any) -> Scene:
+def scene(
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    **fields: Any,
+) -> Scene:
     """Opens a built-in scene, a scene file, the text of a scene or a profile, and changes fields of it.
 
     `modulus`, `work`, `closing_work` and `stages` are those of `load`; a profile needs a modulus. Each further argument changes
     a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes `adhesion.work`. The value None
     removes an optional part. `docs/scene-file.md` lists the fields. All functions that take a scene take these arguments.
     """
-    return _opened(scene, fields)
+    return _opened(scene, _with_contact(fields, modulus, work, closing_work, stages))
+
+
+def _with_contact(fields: dict[str, Any], *contact: Any) -> dict[str, Any]:
+    """Returns the fields of a call with the values of its arguments modulus, work, closing_work and stages."""
+    return {**fields, **dict(zip(_CONTACT, contact, strict=True))}
 
 
 def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = False) -> Scene:
@@ -371,15 +405,15 @@ def profile(
     if heights is not None:
         if len(heights) != count:
             raise refusal("roughness", f"{len(heights)} heights", f"{count} heights, one for each point")
-        return Profile._of(_native.Profile.of_roughness(plain, heights), None)
+        return Profile._of_roughness(plain, heights)
     if isinstance(roughness, Surface):
-        rough = roughness._surface.roughen(plain, number)
-        return Profile._of(_native.Profile.of_scene(rough), rough)
+        rough = plain.roughened(roughness._scene, number)
+        return Profile._of_scene(rough)
     _check_kind(roughness, _ROUGHNESS, "roughness", "asperity.self_affine(...), asperity.measured(...), a Surface or an array")
     if isinstance(roughness, Form) and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": number})
     rough = plain.set(in_fields({"roughness": roughness}))
-    return Profile._of(_native.Profile.of_scene(rough), rough)
+    return Profile._of_scene(rough)
 
 
 def _check_kind(given: Any, kinds: tuple[str, ...], field: str, allowed: str) -> None:
@@ -397,7 +431,7 @@ def load(
     modulus: Quantity,
     work: Quantity = 0.0,
     closing_work: Quantity | None = None,
-    stages: str | Sequence[Quantity] = "zero force, separation",
+    stages: Stages = "zero force, separation",
     loading_stiffness: Quantity | None = None,
     edges: str = "sub_cell",
     samples: int = 512,
@@ -430,7 +464,7 @@ def load(
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
         load = (foundation, (stages, edges == "grid", samples))
-        loop = Loop(_native.Loop.of_heights(profile._native, load, progress), (profile._native, load))
+        loop = Loop._of(_native.Loop.of_heights(profile._native, load, progress), (profile, load))
         warn_of(loop.warnings)
         return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
@@ -443,34 +477,62 @@ def load(
         "numerics.samples": samples,
     }
     body = profile._scene.set(in_fields(fields))
-    loop = Loop(_native.Loop.of_scene(body, progress), body)
+    loop = Loop._of(_native.Loop.of_scene(body, progress), body)
     warn_of(loop.warnings)
     return loop
 
 
 def run(
-    scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    **fields: Any,
 ) -> Outcome:
     """Computes a scene as `asperity run` does: on its own profile, and on `profiles` random profiles, by default 16.
 
     `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
     of finished profiles and the number of all profiles.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     outcome = _outcome(_call(scene, fields, profiles, jobs, progress))
     warn_of(outcome._premises())
     return outcome
 
 
-def _outcome(call: tuple[Scene, int | None, int | None, Progress]) -> Outcome:
+def _outcome(call: _Call) -> Outcome:
     loop = _native.Loop.of_scene(call[0], None)
     return Outcome(call[0], _native.run(call, loop), loop)
 
 
 def ensemble(
-    scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    executor: Executor | None = None,
+    **fields: Any,
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    found = Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
+    call = _call(scene, fields, profiles, jobs, progress)
+    if executor is None:
+        found = Ensemble(_native.ensemble(call))
+    else:
+        parts = _parts(executor, _native.ensemble_part, call, ())
+        found = Ensemble(_native.ensemble_of_parts(call, parts))
     warn_of(found._premises())
     return found
 
@@ -481,6 +543,10 @@ def find(
     /,
     where: str,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     range: tuple[Quantity, Quantity] | str | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
@@ -492,6 +558,7 @@ def find(
     The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times
     of the value in the scene.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     field = text(field, "field", "the path of a number of a scene, or preload")
     where = text(where, "where", "a condition such as 'F_a = 1 µN'")
     searched = None if range is None else ends(range, "range")
@@ -505,6 +572,10 @@ def preloads(
     between: tuple[Quantity, Quantity],
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     count: int = 64,
     log: bool = False,
     profiles: int = 1,
@@ -516,6 +587,7 @@ def preloads(
 
     A profile of given heights is allowed, with a modulus: `preloads(profile, (0, "1 µN"), modulus="1 MPa", work="50 mJ/m²")`.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     count = whole(count, "count", 2, 10_000)
     axis = f"{ends(between, 'between', _PRELOADS)}:{count}" + (":log" if flag(log, "log") else "")
     found = Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress, takes_heights=True), axis))
@@ -528,6 +600,10 @@ def reversals(
     between: tuple[Quantity, Quantity] | None = None,
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     count: int = 64,
     progress: Progress = None,
     **fields: Any,
@@ -536,6 +612,7 @@ def reversals(
 
     By default the turning points lie between first touch and the preload of the scene.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     forces = None if between is None else ends(between, "between", _PRELOADS)
     count = whole(count, "count", 2, 512)
     found = Reversals(_native.reversals(_call(scene, fields, None, None, progress, takes_heights=True), forces, count))
@@ -547,6 +624,10 @@ def reference(
     scene: AnyScene,
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     grid: int = 64,
     surfaces: int | None = None,
     profiles: int | None = None,
@@ -558,6 +639,7 @@ def reference(
 
     `surfaces` is the number of squares, by default 24 without and 12 with adhesion.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     cells = whole(grid, "grid", 1, 2**16)
     count = None if surfaces is None else whole(surfaces, "surfaces", 1, 10_000)
     found = Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
@@ -565,10 +647,19 @@ def reference(
     return found
 
 
-def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
+def criteria(
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    **fields: Any,
+) -> list[Criterion]:
     """Returns what other theories say of a scene, each with its number, its threshold and its reference."""
-    found: list[Values] = _outcome(_call(scene, fields, 1, None, None)).criteria
-    return found
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
+    return _outcome(_call(scene, fields, 1, None, None)).criteria
 
 
 def study(
@@ -576,10 +667,15 @@ def study(
     axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any] | Quantity],
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     record: Sequence[str] | str = ("pull_off_force", "regime"),
     profiles: int = 16,
     jobs: int | None = None,
     progress: Progress = None,
+    executor: Executor | None = None,
     **fields: Any,
 ) -> Study:
     """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles for each.
@@ -587,13 +683,19 @@ def study(
     A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
     The fields of a measured roughness in memory are no axes, since its array has no file to be read again.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     if not isinstance(axes, Mapping):
         raise refused_type("axes", axes, "a dictionary of paths and values, such as {'adhesion.kappa': [2, 6, 20]}")
     names = [record] if isinstance(record, str) else list(record)
     for name in names:
         text(name, "record", "names of quantities")
     call = _call(scene, fields, profiles, jobs, progress, takes_heights=True)
-    found = Study(_native.study(call, [_axis(name, values) for name, values in axes.items()], names))
+    given = [_axis(name, values) for name, values in axes.items()]
+    if executor is None:
+        found = Study(_native.study(call, given, names))
+    else:
+        parts = _parts(executor, _native.study_part, call, (given, names))
+        found = Study(_native.study_of_parts(call, given, names, parts))
     warn_of(found._premises())
     return found
 
@@ -643,7 +745,7 @@ def surface(
     if isinstance(files, (list, tuple)) and files and all(isinstance(file, (str, os.PathLike)) for file in files):
         distance = None if spacing is None else quantity(cast("Quantity", spacing), "m", "spacing")
         form = _measured([path(file, "files") for file in files], False, distance, reading)
-        found = Surface(_native.Surface(_scene_of(form), figures, count, threads, None))
+        found = Surface(*_native.surface(_scene_of(form), figures, count, threads, None))
         warn_of(found._premises())
         return found
     for name in ("unit", "height_unit", "channel", "surface_name", "resample"):
@@ -658,7 +760,7 @@ def surface(
     along, across = (quantity(cast("Quantity", distance), "m", "spacing") for distance in distances)
     scene = _scene_of(_measured(["array"], False, None, reading))
     map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
-    found = Surface(_native.Surface(scene, figures, count, threads, map_of_heights))
+    found = Surface(*_native.surface(scene, figures, count, threads, map_of_heights))
     warn_of(found._premises())
     return found
 
@@ -676,15 +778,92 @@ def _positive(value: Quantity | None, unit: str, field: str) -> float | None:
     return number
 
 
+@overload
 def fit(
     curves: _Curve | Sequence[_Curve],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
     *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: int,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> EnsembleFit: ...
+@overload
+def fit(
+    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fit: ...
+@overload
+def fit(
+    curves: list[str] | list[Path] | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fits: ...
+@overload
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fit | Fits: ...
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
     progress: Progress = None,
+    executor: Executor | None = None,
     options: Mapping[str, Any] | None = None,
     **fields: Any,
 ) -> Fit | Fits | EnsembleFit:
@@ -696,6 +875,7 @@ def fit(
     body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help` lists
     them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     is_single = _is_curve(curves)
     given: list[Any] = [curves] if is_single else _list(curves, "curves")
     if not given:
@@ -710,7 +890,15 @@ def fit(
     count = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     words = [f"--free={name}" for name in named] + in_words({"profiles": count, **(options or {})})
     call = _call(scene, fields, None, jobs, progress, takes_heights=True)
-    report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
+    words += ["curves", "scene"]
+    if executor is None or is_single or count is not None:
+        report = _native.fit(call, (all_curves, is_single), words)
+    else:
+        check_executor(executor)
+        several = ranges(len(all_curves))
+        tasks = [(_in_process(call, jobs), all_curves[first:end], words) for first, end in several]
+        parts = gathered(executor, _native.fits_part, tasks, [end - first for first, end in several], progress)
+        report = _native.fits_of_parts(call, all_curves, words, parts)
     found: Fit | Fits | EnsembleFit
     if count is not None:
         found = EnsembleFit(report)
@@ -784,7 +972,7 @@ def press(
     force: Quantity,
     periodic: bool = False,
     residual: float = 1e-8,
-) -> Values:
+) -> Pressed:
     """Presses a rigid square map of heights in m on an elastic half-space in three dimensions, without adhesion.
 
     The side of the map is in m, the effective modulus in Pa, the force in N. The map has 32, 64, 128 … cells along a side. The
@@ -798,13 +986,31 @@ def press(
         raise refusal("heights", f"an array of the shape {square.shape}", "a square map")
     maps, figures = _native.press(square, load, flag(periodic, "periodic"), quantity(residual, "1", "residual"))
     pressure, gap = (found.reshape(cells, cells) for found in maps)
-    found = Values(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
-    return Values(found, convolutions=int(found.convolutions), pressure=pressure, gap=gap)
+    found = dict(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
+    return Pressed({**found, "convolutions": int(found["convolutions"]), "pressure": pressure, "gap": gap})
 
 
 def presets() -> list[str]:
     """Returns the names of the built-in scenes."""
     return _native.presets()
+
+
+def _in_process(call: _Call, jobs: int | None) -> _Call:
+    """Returns a call as another process gets it: without the function of the progress, and with one thread by default."""
+    return call[0], call[1], 1 if jobs is None else jobs, None
+
+
+def _parts(executor: Executor, task: Callable[..., str], call: _Call, arguments: tuple[Any, ...]) -> list[str]:
+    """Computes the random profiles of a call in parts, on an executor."""
+    check_executor(executor)
+    scene, profiles, jobs, progress = call
+    count = _native.profiles_of(scene) if profiles is None else profiles
+    several = ranges(count)
+    sent = (scene, count, 1 if jobs is None else jobs, None)
+    # Without profiles, the task only checks the call, so that an error appears here and not in each process.
+    task(sent, *arguments, 0, 0)
+    tasks = [(sent, *arguments, first, end) for first, end in several]
+    return gathered(executor, task, tasks, [end - first for first, end in several], progress)
 
 
 def _call(
@@ -814,7 +1020,7 @@ def _call(
     jobs: int | None,
     progress: Progress,
     takes_heights: bool = False,
-) -> tuple[Scene, int | None, int | None, Progress]:
+) -> _Call:
     profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
     _check_progress(progress)

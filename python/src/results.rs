@@ -13,12 +13,14 @@ use asperity::study::{
     compute_with_measured,
 };
 use asperity::surface::lines::MeasuredRoughness;
+use asperity_plot::{pdf_of_svg, png_of_svg};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport,
-    RunReport, scene_provenance,
+    RunReport, missing_form, scene_provenance,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -79,7 +81,42 @@ impl Report {
             .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
         written.map_err(|error| PyValueError::new_err(error.to_string()))
     }
+
+    /// Returns the result in each format that it has, for its copies and for other processes. PNG
+    /// and PDF follow from SVG.
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (Forms,))> {
+        let mut forms = Forms::new();
+        for format in Format::ALL {
+            if !matches!(format, Format::Png | Format::Pdf)
+                && let Ok(written) = self.write(py, format.name())
+            {
+                forms.insert(format.name().to_owned(), written);
+            }
+        }
+        let restored = py.get_type::<Report>().getattr("restored")?;
+        Ok((restored.unbind(), (forms,)))
+    }
+
+    /// Returns the result whose forms [`Self::__reduce__`] has returned.
+    #[staticmethod]
+    fn restored(forms: Forms) -> Report {
+        Report::new(move |format| {
+            if let Some(written) = forms.get(format.name()) {
+                return Ok(written.clone());
+            }
+            let svg = forms.get(Format::Svg.name()).map(Vec::as_slice);
+            let svg = str::from_utf8(svg.unwrap_or_default()).map_err(io::Error::other)?;
+            match format {
+                Format::Png if !svg.is_empty() => png_of_svg(svg),
+                Format::Pdf if !svg.is_empty() => pdf_of_svg(svg),
+                _ => Err(missing_form(format)),
+            }
+        })
+    }
 }
+
+/// Bytes of a result by the names of the formats in which it was written.
+type Forms = BTreeMap<String, Vec<u8>>;
 
 fn done_of_ensemble(ensemble: &Ensemble) -> Option<u64> {
     Some(ensemble.computed())
@@ -319,7 +356,7 @@ pub enum AxisValue {
 }
 
 /// Path of the field that varies along an axis, and the values on the axis.
-type GivenAxis = (String, Vec<AxisValue>);
+pub type GivenAxis = (String, Vec<AxisValue>);
 
 fn read_axis(
     scene: &CheckedScene,
@@ -346,6 +383,32 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
+/// Returns the plan of a study with these axes and recorded quantities.
+pub fn plan_of_study(
+    case: &Case<'_>,
+    axes: &[GivenAxis],
+    record: &[String],
+) -> Result<Plan, Failure> {
+    let mut quantities = Vec::with_capacity(record.len());
+    for name in record {
+        quantities.push(Quantity::named(name)?);
+    }
+    let mut read = Vec::new();
+    for axis in axes {
+        read.push(read_axis(case.document.scene(), axis)?);
+    }
+    let mut axes = Vec::with_capacity(read.len());
+    for (path, values) in &read {
+        axes.push((path.as_str(), values.as_slice()));
+    }
+    Ok(Plan::new(
+        &case.document,
+        &axes,
+        case.profiles,
+        &quantities,
+    )?)
+}
+
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
 /// several random profiles.
 #[pyfunction]
@@ -356,19 +419,7 @@ pub fn study(
     record: Vec<String>,
 ) -> PyResult<Report> {
     call.computed(py, |case| {
-        let mut quantities = Vec::with_capacity(record.len());
-        for name in &record {
-            quantities.push(Quantity::named(name)?);
-        }
-        let mut read = Vec::new();
-        for axis in &axes {
-            read.push(read_axis(case.document.scene(), axis)?);
-        }
-        let mut axes = Vec::with_capacity(read.len());
-        for (path, values) in &read {
-            axes.push((path.as_str(), values.as_slice()));
-        }
-        let plan = Plan::new(&case.document, &axes, case.profiles, &quantities)?;
+        let plan = plan_of_study(&case, &axes, &record)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             match &case.in_memory {
                 Some(measured) => compute_with_measured(&plan, Arc::clone(measured), control),

@@ -31,15 +31,15 @@ def sphere(points=4096):
 class Loops(unittest.TestCase):
     def test_a_sphere_is_that_of_johnson_kendall_and_roberts(self):
         loop = asp.load(sphere(), **LOAD)
-        self.assertAlmostEqual(loop.pull_off / (1.5 * np.pi * 0.05 * 1e-4), 1, delta=1e-5)
-        self.assertLess(loop.pull_off_error, 1e-5 * loop.pull_off)
+        self.assertAlmostEqual(loop.pull_off_force / (1.5 * np.pi * 0.05 * 1e-4), 1, delta=1e-5)
+        self.assertLess(loop.pull_off_force_error, 1e-5 * loop.pull_off_force)
         self.assertEqual(loop.regime, "pressure-insensitive")
-        self.assertGreater(loop.tabor, 5)
-        self.assertAlmostEqual(sum(loop.released), loop.dissipated, delta=1e-12 * loop.dissipated)
+        self.assertGreater(loop.tabor_number, 5)
+        self.assertAlmostEqual(sum(loop.released_energy), loop.dissipated_energy, delta=1e-12 * loop.dissipated_energy)
         events = loop.events
         self.assertEqual([str(event["mark"]) for event in events], ["jump-in", "preload", "pull-off", "jump-out"])
         self.assertEqual([str(name) for name in events["event"]], ["touches", "", "", "detaches"])
-        self.assertLess(abs(events["energy"][0] + loop.released[0]), abs(loop.released[0]))
+        self.assertLess(abs(events["energy"][0] + loop.released_energy[0]), abs(loop.released_energy[0]))
         self.assertTrue(np.isnan(events["energy"][1]) and events["force_after"][3] == 0)
 
     def test_heights_are_loaded_as_the_body_they_come_from(self):
@@ -48,10 +48,10 @@ class Loops(unittest.TestCase):
         for stages in ["100 µN, separation", ["200 nm", "10 µN", "touch", "separation"], "zero force, separation"]:
             load = {**LOAD, "stages": stages, "loading_stiffness": "1 kN/m"}
             one, other = asp.load(body, **load), asp.load(heights, **load)
-            for name in ["d", "F", "D", "stage", "length", "patches", "energy", "released"]:
+            for name in ["indentation", "force", "displacement", "stage", "contact_length", "patches", "stored_energy", "released_energy"]:
                 np.testing.assert_array_equal(getattr(one, name), getattr(other, name), name)
-            self.assertEqual((one.pull_off, one.dissipated, one.preload), (other.pull_off, other.dissipated, other.preload))
-            known = (other.regime, other.tabor, other.kappa, other.share, other.pull_off_error)
+            self.assertEqual((one.pull_off_force, one.dissipated_energy, one.preload), (other.pull_off_force, other.dissipated_energy, other.preload))
+            known = (other.regime, other.tabor_number, other.kappa, other.adhesion_share, other.pull_off_force_error)
             self.assertEqual(known, (None,) * 5)
 
     def test_any_array_of_real_numbers_is_taken(self):
@@ -75,17 +75,17 @@ class Loops(unittest.TestCase):
             found = asp.preloads(saved, ("1 µN", "100 µN"), count=2, **fields).to_pandas()
         for preload, force in zip(["1 µN", "100 µN"], found.pull_off_force, strict=True):
             loop = asp.load(asp.Profile(body.heights, body.spacing), **{**LOAD, "stages": f"{preload}, separation"})
-            self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
+            self.assertAlmostEqual(force / loop.pull_off_force, 1, delta=1e-9)
 
     def test_an_array_of_a_result_cannot_be_changed(self):
         with self.assertRaisesRegex(ValueError, "read-only"):
-            asp.load(sphere(), **LOAD).F[0] = 1
+            asp.load(sphere(), **LOAD).force[0] = 1
 
     def test_a_loop_is_a_table_and_a_picture(self):
         loop = asp.load(sphere(256), **LOAD)
         self.assertTrue(loop._repr_svg_().startswith("<svg"))
         self.assertNotIn(">scene<", loop._repr_svg_())
-        self.assertRegex(repr(loop), r"^<Loop: pull_off 23\.\d+ µN, preload 100 µN, dissipated .* pJ>$")
+        self.assertRegex(repr(loop), r"^<Loop: pull_off_force 23\.\d+ µN, preload 100 µN, dissipated_energy .* pJ>$")
 
 
 class Refusals(unittest.TestCase):
@@ -160,12 +160,12 @@ class Computations(unittest.TestCase):
 
     def test_the_profile_and_the_loop_are_those_of_the_outcome(self):
         outcome = asp.run(SCENE, profiles=1)
-        self.assertEqual([point["force"] for point in outcome.curve], list(outcome.loop.F))
-        self.assertEqual(outcome.line["points"], len(outcome.profile))
-        self.assertEqual(outcome.loop.pull_off, outcome.pull_off_force)
-        again = asp.Profile(outcome.profile.heights, outcome.profile.spacing)
-        loop = asp.load(again, modulus=outcome.modulus, work=outcome.work_of_adhesion, stages="10 µN, separation")
-        self.assertAlmostEqual(loop.pull_off / outcome.pull_off_force, 1, delta=1e-9)
+        self.assertEqual(list(outcome.curve["force"]), list(outcome.loop.force))
+        self.assertEqual(outcome.profile.points, len(outcome.body))
+        self.assertEqual(outcome.loop.pull_off_force, outcome.pull_off_force)
+        again = asp.Profile(outcome.body.heights, outcome.body.spacing)
+        loop = asp.load(again, modulus=outcome.modulus, work=outcome.work, stages="10 µN, separation")
+        self.assertAlmostEqual(loop.pull_off_force / outcome.pull_off_force, 1, delta=1e-9)
 
     def test_a_sphere_in_three_dimensions_is_that_of_hertz(self):
         at = (np.arange(128) + 0.5) / 128 - 0.5

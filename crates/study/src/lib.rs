@@ -8,7 +8,8 @@
 //!   and a [`StiffnessRange`]. [`Changes`] are made to a plan when it is read.
 //! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of
 //!   a plan, a [`Shard`], in a [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes
-//!   the tables from all parts.
+//!   the tables from all parts. [`compute_part`] computes some profiles without a folder, as a
+//!   [`Part`] that other processes can send.
 //! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and
 //!   [`RegimeCounts`].
 //! * One scene on many profiles: an [`Ensemble`]. [`Found`] answers a [`Question`], with an
@@ -82,7 +83,7 @@ mod study_map;
 mod tables;
 
 pub use axis::{Axis, Spacing};
-pub use compute::{compute, compute_with_measured};
+pub use compute::{Part, compute, compute_part, compute_with_measured};
 pub use ensemble::Ensemble;
 pub use error::StudyError;
 pub use find::Found;

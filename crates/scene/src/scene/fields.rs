@@ -5,7 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use super::adhesion::{Adhesion, RoughnessParameter, Strength};
 use super::defaults;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
-use super::field::{FILE_NAME, Field, read_adhesion, read_form, read_roughness, read_stages, row};
+use super::field::{
+    FILE_NAME, Field, TABLE, read_adhesion, read_form, read_roughness, read_stages, row,
+};
 use super::measured::Measured;
 use super::model::{Roughness, SCENE_VERSION, Solver};
 use super::range::Range;
@@ -210,7 +212,7 @@ pub const FIELDS: &[Field] = &[
     row("form.radius", form!(Punch, radius), Range::above(0.0, 5.0))
         .quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
-    row("form.file", form!(Table, file), FILE_NAME)
+    row("form.file", form!(Table, file), TABLE)
         .name("table of the form")
         .meaning("file with two columns: ascending radii r from 0, and depths f of a body of \
                   revolution"),

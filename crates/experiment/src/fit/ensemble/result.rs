@@ -41,6 +41,7 @@ pub struct EnsembleFit {
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of random profiles with which the curves were compared.
+    #[serde(rename = "profiles")]
     pub lines: u64,
     /// Number of force curves computed on these profiles.
     pub computed: usize,
