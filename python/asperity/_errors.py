@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class FieldError(ValueError):
@@ -38,6 +39,23 @@ class LoadingError(ValueError):
 
 class PremiseWarning(UserWarning):
     """Warning of a result that does not meet a premise of the model, such as a contact that reaches the ends of the profile."""
+
+
+@contextmanager
+def naming(field: str, value: object) -> Iterator[None]:
+    """Turns an error of a value that names no argument into a FieldError of the argument `field`."""
+    try:
+        yield
+    except ValueError as error:
+        if type(error) is not ValueError:
+            raise
+        message = str(error)
+        allowed = message.rpartition("allowed: ")[2]
+        try:
+            given = str(value)
+        except ValueError:  # A whole number of more than 4300 digits.
+            given = f"a value of the type {type(value).__name__}"
+        raise FieldError(message, field, given, allowed) from None
 
 
 def warn_of(sentences: Iterable[str]) -> None:

@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._attributes import OF_QUANTITY, Attribute, Table, Values, unit_of
+from ._errors import naming
 from ._loop import Loop
 from ._notation import Form, Quantity
 from ._notation import path as file_path
+from ._notation import refusal
 from ._profile import Profile
 
 if TYPE_CHECKING:
@@ -95,7 +97,9 @@ class Result(Values):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the result to a file. Its ending selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
-        written = self._report.write(os.path.splitext(file_path(path, "path"))[1].lstrip(".").lower())
+        name = file_path(path, "path")
+        with naming("path", name):
+            written = self._report.write(os.path.splitext(name)[1].lstrip(".").lower())
         with open(path, "wb") as file:
             file.write(written)
 
@@ -140,6 +144,8 @@ class ProfileStatistics(Values):
 
     def values(self, quantity: str = "pull_off_force") -> npt.NDArray[Any]:
         """Returns the values of a quantity on all profiles, in the order of their seeds; NaN for a profile without a value."""
+        if quantity not in self.per_profile.columns:
+            raise refusal("quantity", quantity, ", ".join(self.per_profile.columns))
         return self.per_profile[quantity]
 
 
@@ -766,6 +772,8 @@ class Surface(MeasuredFace, Drawn):
         """
         from ._functions import scene
 
+        if modulus is None:
+            raise refusal("modulus", modulus, "an effective modulus such as '1 MPa'")
         length, points = self._size
         return scene(self._scene, modulus=modulus, work=work, **{"length": length, "numerics__points": points, **fields})
 

@@ -99,7 +99,7 @@ pub fn fit(
     words: Vec<String>,
 ) -> PyResult<Report> {
     let (curves, is_one) = curves;
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let asked = Asked::new(&case, words)?;
         if let Some(profiles) = asked.arguments.ensemble.lines {
             let options = asked
@@ -129,7 +129,7 @@ pub fn fits_part(
     curves: Vec<Curve>,
     words: Vec<String>,
 ) -> PyResult<String> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let asked = Asked::new(&case, words)?;
         let fit = asked.fit(&case);
         written(&fit_each(&case, &fit, &curves, &asked.reading)?)
@@ -145,7 +145,7 @@ pub fn fits_of_parts(
     words: Vec<String>,
     parts: Vec<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let asked = Asked::new(&case, words)?;
         let mut rows = Vec::with_capacity(curves.len());
         for part in &parts {

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use std::ops::Range;
 
 fn plan_of_ensemble(case: &Case<'_>) -> Result<Plan, Failure> {
+    case.check_profiles()?;
     // The plan has no folder, to which the names of measured files could be relative.
     let document = &case.document;
     let moved = document.moved_to(|file| document.resolve(file).display().to_string())?;
@@ -41,7 +42,7 @@ pub fn profiles_of(scene: &Scene) -> u64 {
 /// Computes the random profiles of an ensemble from the index `first` up to `end`.
 #[pyfunction]
 pub fn ensemble_part(py: Python<'_>, call: Call, first: u64, end: u64) -> PyResult<String> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         computed_part(&case, &plan_of_ensemble(&case)?, first..end)
     })
 }
@@ -49,7 +50,7 @@ pub fn ensemble_part(py: Python<'_>, call: Call, first: u64, end: u64) -> PyResu
 /// Gathers an ensemble from its parts.
 #[pyfunction]
 pub fn ensemble_of_parts(py: Python<'_>, call: Call, parts: Vec<String>) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let ensemble = Ensemble::of_parts(&plan_of_ensemble(&case)?, read_parts(&parts)?)?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &ensemble, format)
@@ -67,7 +68,7 @@ pub fn study_part(
     first: u64,
     end: u64,
 ) -> PyResult<String> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let plan = plan_of_study(&case, &axes, &record)?;
         computed_part(&case, &plan, first..end)
     })
@@ -82,7 +83,7 @@ pub fn study_of_parts(
     record: Vec<String>,
     parts: Vec<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let plan = plan_of_study(&case, &axes, &record)?;
         let results = Results::of_parts(&plan, read_parts(&parts)?)?;
         Ok(Report::new(move |format| {

@@ -140,6 +140,7 @@ fn done(parts: &u64) -> Option<u64> {
 /// to the usual ones.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let scene = case.document.scene();
+    case.check_profiles()?;
     case.watched(case.profiles, done_of_ensemble, |control| {
         Ensemble::of(
             scene,
@@ -163,7 +164,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         .outcome
         .clone()
         .ok_or_else(|| PyValueError::new_err("no scene"))?;
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let scene = case.document.scene();
         let folder = case.document.resolve("");
         let mut ensemble = None;
@@ -196,7 +197,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
 /// Computes a scene on random profiles.
 #[pyfunction]
 pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let ensemble = on_profiles(&case, &Ensemble::FURTHER)?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &ensemble, format)
@@ -209,22 +210,26 @@ pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
 pub fn find(
     py: Python<'_>,
     call: Call,
-    field: &str,
-    value: &str,
-    range: Option<&str>,
+    field: String,
+    value: String,
+    range: Option<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
+        case.check_profiles()?;
         let scene = case.document.scene();
         let mut simulation = case.simulation();
         let mut question = Question::new(
             scene,
-            field,
-            Question::parse_condition(value)?,
+            &field,
+            Question::parse_condition(&value)
+                .map_err(|error| Failure::of_argument("where", &value, &error))?,
             case.profiles,
             &mut simulation,
-        )?;
+        )
+        .map_err(|error| Failure::of_refusal("field", &field, error))?;
         if let Some(range) = range {
-            question.searched = Axis::parse_range(range, question.axis.unit)?;
+            question.searched = Axis::parse_range(&range, question.axis.unit)
+                .map_err(|error| Failure::of_argument("range", &range, &error))?;
         }
         let found = case.watched(case.profiles, done, |control| {
             Found::of(question, &mut simulation, control)
@@ -243,10 +248,12 @@ pub fn find(
 /// Computes the pull-off force of a scene as a function of the preload. `preloads` is a text in the
 /// notation of `asperity run --preloads`.
 #[pyfunction]
-pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
-    call.computed(py, |case| {
+pub fn preloads(py: Python<'_>, call: Call, preloads: String) -> PyResult<Report> {
+    call.computed(py, move |case| {
+        case.check_profiles()?;
         let scene = case.document.scene();
-        let axis = Axis::parse_preloads(preloads)?;
+        let axis = Axis::parse_preloads(&preloads)
+            .map_err(|error| Failure::of_argument("between", &preloads, &error))?;
         let mut simulation = case.simulation();
         let staircase = case.watched(case.profiles, unchanged, |control| {
             Staircase::of(scene, &axis, &mut simulation, control)
@@ -279,13 +286,16 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
 pub fn reversals(
     py: Python<'_>,
     call: Call,
-    range: Option<&str>,
+    range: Option<String>,
     count: usize,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let mut ends = None;
         if let Some(range) = range {
-            ends = Some(Axis::parse_range(range, "N")?);
+            ends = Some(
+                Axis::parse_range(&range, "N")
+                    .map_err(|error| Failure::of_argument("between", &range, &error))?,
+            );
         }
         let mut simulation = case.simulation().for_one_scene();
         let map =
@@ -316,7 +326,7 @@ pub fn reference(
     surfaces: Option<u64>,
 ) -> PyResult<Report> {
     let lines = call.1;
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let scene = case.document.scene();
         let usual = ReferenceOptions::of(scene, surfaces);
         let options = ReferenceOptions {
@@ -362,7 +372,9 @@ fn read_axis(
     scene: &CheckedScene,
     (path, values): &GivenAxis,
 ) -> Result<(String, Vec<f64>), Failure> {
-    let unit = Axis::new(path, Spacing::List, Vec::new(), scene)?.unit;
+    let unit = Axis::new(path, Spacing::List, Vec::new(), scene)
+        .map_err(|error| Failure::of_argument("axes", path, &error))?
+        .unit;
     let mut numbers = Vec::with_capacity(values.len());
     for value in values {
         numbers.push(match value {
@@ -389,9 +401,12 @@ pub fn plan_of_study(
     axes: &[GivenAxis],
     record: &[String],
 ) -> Result<Plan, Failure> {
+    case.check_profiles()?;
     let mut quantities = Vec::with_capacity(record.len());
     for name in record {
-        quantities.push(Quantity::named(name)?);
+        quantities.push(
+            Quantity::named(name).map_err(|error| Failure::of_argument("record", name, &error))?,
+        );
     }
     let mut read = Vec::new();
     for axis in axes {
@@ -401,12 +416,12 @@ pub fn plan_of_study(
     for (path, values) in &read {
         axes.push((path.as_str(), values.as_slice()));
     }
-    Ok(Plan::new(
-        &case.document,
-        &axes,
-        case.profiles,
-        &quantities,
-    )?)
+    Ok(
+        Plan::new(&case.document, &axes, case.profiles, &quantities).map_err(|error| {
+            let paths: Vec<&str> = axes.iter().map(|axis| axis.0).collect();
+            Failure::of_refusal("axes", &paths.join(", "), error)
+        })?,
+    )
 }
 
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
@@ -418,7 +433,7 @@ pub fn study(
     axes: Vec<GivenAxis>,
     record: Vec<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let plan = plan_of_study(&case, &axes, &record)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             match &case.in_memory {

@@ -54,13 +54,14 @@ pub fn surface(
         wording: argument,
     };
     let heights = match &map {
-        Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),
+        Some((map, spacing)) => Some((map.as_slice()?.to_vec(), map.shape()[1], *spacing)),
         None => None,
     };
-    computed(py, None, |watch| {
+    computed(py, None, move |watch| {
+        let is_array = heights.is_some();
         let faces = match heights {
             None => read_faces(&task)?,
-            Some((heights, columns, spacing)) => faces_of_map(&task, heights, columns, spacing)?,
+            Some((heights, columns, spacing)) => faces_of_map(&task, &heights, columns, spacing)?,
         };
         let stop = || watch.stop();
         let report = task
@@ -78,7 +79,7 @@ pub fn surface(
         let line = MeasuredRoughness::Equivalent(report.line.clone());
         let scene = Scene {
             document: Document::from_scene(&scene, "scene")?,
-            in_memory: heights.is_some().then(|| Arc::new(line)),
+            in_memory: is_array.then(|| Arc::new(line)),
         };
         Ok((
             Report::new(move |format| bytes(None, &report, format)),

@@ -1,6 +1,7 @@
 """Tests of the installed package: `python -m unittest discover python/tests`."""
 
 import doctest
+import inspect
 import json
 import os
 import re
@@ -11,9 +12,11 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
+import reference
 
 import asperity as asp
 
@@ -131,17 +134,17 @@ class Refusals(unittest.TestCase):
                 self.refused(asp.FieldError, "=|:", asp.load, body, **{**LOAD, name: value})
 
     def test_scenes(self):
-        self.refused(ValueError, "^nosuch: there is no such file, no such built-in scene", asp.run, "nosuch")
+        self.refused(asp.FieldError, "^nosuch: there is no such file, no such built-in scene", asp.run, "nosuch")
         self.refused(OSError, "^nosuch.ron: cannot be read", asp.run, "nosuch.ron")
-        self.refused(ValueError, "no such field; did you mean adhesion.work", asp.run, SCENE, adhesion__wrk=1)
+        self.refused(asp.FieldError, "no such field; did you mean adhesion.work", asp.run, SCENE, adhesion__wrk=1)
         error = self.refused(asp.FieldError, "roughness.hurst = 1.4: allowed", asp.run, SCENE, roughness__hurst=1.4)
         self.assertEqual((error.field, error.value), ("roughness.hurst", "1.4"))
         self.assertIn("above 0 and below 1", error.allowed)
         for name in ["profiles", "jobs"]:
             self.refused(asp.FieldError, f"^{name} = 0; allowed: a whole number from 1", asp.run, SCENE, **{name: 0})
         self.refused(asp.FieldError, "object; allowed: a number", asp.run, SCENE, roughness__hurst=object())
-        self.refused(ValueError, "no such number", asp.find, "x", SCENE, "F_a = 1 N")
-        self.refused(ValueError, "allowed: a quantity", asp.find, "preload", SCENE, "much")
+        self.refused(asp.FieldError, "no such number", asp.find, "x", SCENE, "F_a = 1 N")
+        self.refused(asp.FieldError, "allowed: a quantity", asp.find, "preload", SCENE, "much")
 
 
 class Computations(unittest.TestCase):
@@ -188,7 +191,7 @@ class Computations(unittest.TestCase):
             (lambda: asp.fit(([1], [1]), SCENE, ["wrk"]), "did you mean work"),
             (lambda: asp.fit(([1], [1]), SCENE, ["work"], options={"noise": "-5 nN"}), "allowed: a standard deviation above 0"),
             (lambda: asp.study(SCENE, {"adhesion.kappa": []}), "no values; allowed: at least one"),
-            (lambda: asp.table([[0, 1], [0, 2]]), r"numpy\.save\('tip\.npy', numpy\.c_\[radii, depths\]\)"),
+            (lambda: asp.table([[0, 1], [0, 2]]), r"asperity\.revolve\(radii, depths\) takes arrays"),
             (lambda: asp.run(asp.Profile([0, 1], 1), modulus=1e6), r"asperity\.measured\('line\.npy', as_line=True\)"),
             (lambda: asp.press(np.zeros((32, 33)), side=1, modulus=1, force=1), "a square map"),
             (lambda: asp.press(np.zeros((31, 31)), side=1, modulus=1, force=1), "31"),
@@ -213,6 +216,32 @@ class Computations(unittest.TestCase):
         while threads() > before and time.monotonic() < end:
             time.sleep(0.01)
         self.assertEqual(threads(), before)
+
+    def test_an_interrupt_does_not_wait_for_a_step_that_takes_long(self):
+        cases = [
+            "asp.profile('1 mm', 20_000_000, roughness=asp.self_affine(0.7, rms_height='1 nm', modes=(4, 5_000_000)))",
+            "asp.surface(1e-9 * np.random.default_rng(1).standard_normal((1024, 1024)), spacing=1e-7, robust=True)",
+            "asp.press(1e-9 * np.random.default_rng(1).standard_normal((1024, 1024)), side=1e-3, modulus=1e6, force=1e-2)",
+        ]
+        for case in cases:
+            code = f"""if True:
+                import asperity as asp, numpy as np
+                print("begin", flush=True)
+                try:
+                    {case}
+                except KeyboardInterrupt:
+                    print("stopped", flush=True)
+                """
+            child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+            self.addCleanup(child.kill)
+            self.assertEqual(child.stdout.readline(), "begin\n")
+            time.sleep(0.4)
+            clock = time.monotonic()
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.communicate(timeout=60)[0], "stopped\n", case)
+            # The limit leaves room for a busy machine.
+            self.assertLess(time.monotonic() - clock, 1.0, case)
+            self.assertEqual(child.returncode, 0)
 
     def test_other_threads_run_meanwhile(self):
         counted, ended = [0], threading.Event()
@@ -298,6 +327,32 @@ class Documentation(unittest.TestCase):
                 os.chdir(here)
         self.assertGreater(len(test.examples), 10)
         self.assertEqual(failed, 0)
+
+    def test_the_examples_of_the_functions_print_what_they_say(self):
+        finder, count = doctest.DocTestFinder(recurse=False), 0
+        functions = {name: getattr(asp, name) for name in asp.__all__ if inspect.isfunction(getattr(asp, name))}
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            here = os.getcwd()
+            os.chdir(folder)
+            try:
+                for name, function in functions.items():
+                    for test in finder.find(function, name, globs={"asp": asp, "np": np}):
+                        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test)
+                        self.assertEqual((result.failed, result.attempted > 0), (0, True), name)
+                        count += 1
+            finally:
+                os.chdir(here)
+        self.assertEqual(count, len(functions))
+
+    def test_the_reference_is_that_of_the_package(self):
+        page = HERE.parent / "docs" / "python.md"
+        expected = reference.page()
+        if os.environ.get("UPDATE_DOCS"):
+            page.write_text(expected, encoding="utf-8")
+        self.assertEqual(page.read_text(encoding="utf-8"), expected, "UPDATE_DOCS=1 renews the page")
+        listed = {name for names in reference.FUNCTIONS.values() for name in names}
+        self.assertEqual(listed, {name for name in asp.__all__ if inspect.isfunction(getattr(asp, name))})
 
     def test_the_code_of_the_root_readme_runs(self):
         text = (HERE.parent / "README.md").read_text(encoding="utf-8")

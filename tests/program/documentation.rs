@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 18] = [
+const PAGES: [(&str, &str); 19] = [
     (
         "learn.md",
         "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits",
@@ -52,6 +52,10 @@ const PAGES: [(&str, &str); 18] = [
     (
         "experiment.md",
         "measured force curves: reading, fit of the work of adhesion, errors",
+    ),
+    (
+        "python.md",
+        "functions and results of the Python package, with examples",
     ),
     ("model.md", "equations, regimes, other theories, validity"),
     (
