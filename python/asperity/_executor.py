@@ -47,7 +47,9 @@ def gathered(
                 progress(done, sum(sizes))
         return [future.result() for future in futures]
     except CancelledError:
-        raise FieldError("executor: its tasks were cancelled", "executor", str(executor), "an executor that is not shut down") from None
+        raise FieldError(
+            "executor: its tasks were cancelled", "executor", str(executor), "an executor that is not shut down"
+        ) from None
     finally:
         for future in futures:
             future.cancel()

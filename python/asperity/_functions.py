@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overload
 
@@ -73,6 +74,15 @@ _FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
+#: Parameters of the adhesion, which determine each other.
+_ADHESION = ("adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio")
+#: Fields of a scene that these arguments set.
+_FIELDS = {
+    "material.modulus": "modulus",
+    "adhesion.work": "work",
+    "adhesion.closing_work": "closing_work",
+    "loading": "stages",
+}
 #: Options of `asperity fit` that are arguments of `fit`, or that belong to files that the command writes.
 _NOT_READING = ("set", "free", "profiles", "jobs", "scene", "format", "output", "force")
 _PRELOADS = "the smallest and the largest force in N; count gives their number, and log=True equal ratios"
@@ -168,13 +178,31 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
     closing = contact.get("closing_work")
     closing = None if closing is None else quantity(closing, "J/m²", "closing_work")
     if "work" in contact:
-        opened = opened.with_works(quantity(contact["work"], "J/m²", "work"), closing)
+        work = quantity(contact["work"], "J/m²", "work")
+        with _by_arguments(contact):
+            opened = opened.with_works(work, closing)
     elif closing is not None:
         changes += in_fields({"adhesion.closing_work": closing})
     if not changes:
         return opened
     with naming(changes[0][0], changes[0][1]) if len(changes) == 1 else naming("fields", list(dict(changes))):
-        return opened.set(changes)
+        with _by_arguments(contact):
+            return opened.set(changes)
+
+
+@contextmanager
+def _by_arguments(given: Collection[str]) -> Iterator[None]:
+    """Names the argument in an error about a field that was set by one of the arguments modulus, work, closing_work and stages."""
+    try:
+        yield
+    except FieldError as error:
+        field = next((field for field in _FIELDS if error.field == field or error.field.startswith(f"{field}.")), None)
+        if field is None or _FIELDS[field] not in given:
+            raise
+        message, allowed = str(error), error.allowed
+        for path, name in _FIELDS.items():
+            message, allowed = message.replace(path, name), allowed.replace(path, name)
+        raise FieldError(message, _FIELDS[field], error.value, allowed) from None
 
 
 def _scene_of_profile(profile: Profile, has_modulus: bool, takes_heights: bool) -> Scene:
@@ -468,10 +496,10 @@ def profile(
     _check_kind(form, _FORMS, "form", form_allowed)
     if isinstance(roughness, tuple) and len(roughness) == 2 and hasattr(roughness[0], "__len__"):
         measured_heights, distance = roughness
-        roughness = surface(cast("npt.ArrayLike", measured_heights), spacing=cast("Quantity", distance))
+        roughness = surface(measured_heights, spacing=distance)
     heights = None
     if roughness is not None and not isinstance(roughness, (Form, str, Surface)):
-        heights = numbers(roughness, "roughness")
+        heights = numbers(cast("npt.ArrayLike", roughness), "roughness")
     count = whole(points, "points", 2, 2**28) if points is not None else 16384 if heights is None else len(heights)
     number = whole(seed, "seed", 0, 2**64 - 1)
     metres = field_number(length, "length", "", "length")
@@ -559,7 +587,8 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    body = profile._scene.set(in_fields(fields))
+    with _by_arguments(_CONTACT):
+        body = profile._scene.set(in_fields(fields))
     with naming("stages", stages):
         loop = Loop._of(_native.Loop.of_scene(body, progress), body)
     warn_of(loop.warnings)
@@ -819,6 +848,7 @@ def study(
         text(name, "record", "names of quantities")
     call = _call(scene, fields, profiles, jobs, progress, takes_heights=True)
     given = [_axis(name, values) for name, values in axes.items()]
+    call = (_stated_by(call[0], given), *call[1:])
     with naming("axes", ", ".join(name for name, _ in given)):
         if executor is None:
             found = Study(_native.study(call, given, names))
@@ -827,6 +857,17 @@ def study(
             found = Study(_native.study_of_parts(call, given, names, parts))
     warn_of(found._premises())
     return found
+
+
+def _stated_by(scene: Scene, axes: list[tuple[str, list[float | str]]]) -> Scene:
+    """Returns a scene whose adhesion is stated by the parameter on an axis, such as κ, in place of another one."""
+    for path, values in axes:
+        if path not in _ADHESION or scene.value(path) is not None or scene.value("adhesion.closing_work") is not None:
+            continue
+        if values and any(scene.value(other) is not None for other in _ADHESION):
+            adhesion = {path.removeprefix("adhesion."): values[0], "range": scene.value("adhesion.range")}
+            scene = scene.set(in_fields({"adhesion": {name: value for name, value in adhesion.items() if value is not None}}))
+    return scene
 
 
 def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:
@@ -1033,6 +1074,8 @@ def fit(
         raise refusal("curves", given, "a curve, or a list of at least one curve")
     all_curves = [_curve(number, curve) for number, curve in enumerate(given)]
     named = [name if between is None else f"{name}={ends(between, name)}" for name, between in _ranges(free)]
+    if not named:
+        raise refusal("free", free, "at least one name of a parameter")
     if options is not None and not isinstance(options, Mapping):
         raise refused_type("options", options, "a dictionary such as {'noise': '2 nN'}")
     for name in options or {}:

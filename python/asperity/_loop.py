@@ -51,11 +51,15 @@ class Loop(Values):
     stage = Attribute["npt.NDArray[np.int64]"]("1", "number of the loading stage of each point, counted from 0")
     indentation = Attribute["npt.NDArray[np.float64]"]("m", "indentation d")
     force = Attribute["npt.NDArray[np.float64]"]("N", "force F")
-    displacement = Attribute["npt.NDArray[np.float64]"]("m", "displacement D = d + F/k of the instrument, which equals d if the instrument is rigid")
+    displacement = Attribute["npt.NDArray[np.float64]"](
+        "m", "displacement D = d + F/k of the instrument, which equals d if the instrument is rigid"
+    )
     contact_length = Attribute["npt.NDArray[np.float64]"]("m", "length of all contact patches, 2a for a sphere")
     patches = Attribute["npt.NDArray[np.int64]"]("1", "number of contact patches")
     stored_energy = Attribute["npt.NDArray[np.float64]"]("J", "elastic energy of the springs")
-    released_energy = Attribute["npt.NDArray[np.float64]"]("J", "released elastic energy of each stage; over a closed loop the sum is the dissipated energy")
+    released_energy = Attribute["npt.NDArray[np.float64]"](
+        "J", "released elastic energy of each stage; over a closed loop the sum is the dissipated energy"
+    )
     pull_off_force = Attribute[float | None]("N", "pull-off force F_a, minus the smallest force of the last unloading")
     pull_off_indentation = Attribute[float | None]("m", "indentation at the pull-off")
     preload = Attribute[float | None]("N", "preload F_n, the largest force between the last separation and the last unloading")

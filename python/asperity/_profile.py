@@ -111,6 +111,6 @@ class Profile:
         points = " ".join(f"{a:.1f},{b + 5:.1f}" for a, b in zip(x, y, strict=True))
         return (
             '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 180" width="600" role="img">'
-            f"<title>{repr(self)[1:-1]}</title><polyline points=\"{points}\" fill=\"none\" stroke=\"#0072b2\"/>"
+            f'<title>{repr(self)[1:-1]}</title><polyline points="{points}" fill="none" stroke="#0072b2"/>'
             f'<text x="0" y="176" font-size="12">{repr(self)[1:-1]}</text></svg>'
         )

@@ -41,7 +41,9 @@ class Statistics(Values):
     median = Attribute[float](OF_QUANTITY, "median")
     quartiles = Attribute[tuple[float, float]](OF_QUANTITY, "lower and upper quartile")
     range = Attribute[tuple[float, float]](OF_QUANTITY, "smallest and largest value")
-    median_interval = Attribute[tuple[float, float] | None](OF_QUANTITY, "95 % interval of the median; None for fewer than 4 values")
+    median_interval = Attribute[tuple[float, float] | None](
+        OF_QUANTITY, "95 % interval of the median; None for fewer than 4 values"
+    )
     mean = Attribute[float](OF_QUANTITY, "mean")
     standard_deviation = Attribute[float | None](OF_QUANTITY, "sample standard deviation; None for a single value")
     standard_error = Attribute[float | None](OF_QUANTITY, "standard error of the mean; None for a single value")
@@ -240,10 +242,14 @@ class Outcome(Drawn):
     criteria = Attribute[list[Criterion]]("", "what other theories say of the scene")
     budget = Attribute[Budget | None]("", "relative errors of F_a, by their sources")
     curve = Attribute[Table](
-        "", "force curve; `loop` has it as arrays", columns="stage indentation force contact_length patches stored_energy displacement"
+        "",
+        "force curve; `loop` has it as arrays",
+        columns="stage indentation force contact_length patches stored_energy displacement",
     )
     patches_at_end = Attribute[list[list[int]]]("1", "first and last spring of each patch at the end of the loading")
-    patches_at_stage_ends = Attribute[list[list[list[int]]] | None]("1", "first and last spring of each patch at the end of each stage")
+    patches_at_stage_ends = Attribute[list[list[list[int]]] | None](
+        "1", "first and last spring of each patch at the end of each stage"
+    )
     histogram = Attribute[Histogram | None]("", "numbers of heights in equal ranges")
     counts = Attribute[dict[str, int]]("1", "operations of the computation")
     timings = Attribute[dict[str, float]]("s", "times of the steps of the computation")
@@ -337,7 +343,9 @@ class Reversals(Drawn):
     _shown = ("reversals", "step")
 
     scene = Attribute[dict[str, object]]("", "scene, with the fields of docs/scene-file.md")
-    preloads = Attribute[Table]("", "pull-off force over the preload, one row for each turning point that presses", columns=_PRELOADS)
+    preloads = Attribute[Table](
+        "", "pull-off force over the preload, one row for each turning point that presses", columns=_PRELOADS
+    )
     reversals = Attribute[Table](
         "",
         "one row for each turning point",
@@ -358,7 +366,9 @@ class ModelResults(Values):
     pull_off_force = Attribute[Statistics | None]("N", "pull-off force")
     first_touch_pull_off_force = Attribute[Statistics | None]("N", "pull-off force of a loop that turns at first touch")
     dissipated_energy = Attribute[Statistics | None]("J", "dissipated energy")
-    loading = Attribute[list[dict[str, object]]]("", "indentation, stiffness and contact area at forces of the loading without adhesion")
+    loading = Attribute[list[dict[str, object]]](
+        "", "indentation, stiffness and contact area at forces of the loading without adhesion"
+    )
 
 
 class Ratio(Values):
@@ -671,7 +681,9 @@ class MomentOfLine(Values):
     error = Attribute[float](OF_QUANTITY, "standard error")
     statistical = Attribute[float](OF_QUANTITY, "error by the limited number of waves")
     method = Attribute[float](OF_QUANTITY, "error by the method of estimation")
-    missing_short_waves = Attribute[float | None](OF_QUANTITY, "change by shorter waves than the points resolve, if there are any")
+    missing_short_waves = Attribute[float | None](
+        OF_QUANTITY, "change by shorter waves than the points resolve, if there are any"
+    )
 
 
 class EquivalentLine(Values):
@@ -733,7 +745,9 @@ class MeasuredFace(Values):
     rms_gradient = Attribute[float | None]("1", "rms gradient; None for profiles")
     skewness = Attribute[float]("1", "skewness of the heights")
     kurtosis = Attribute[float]("1", "kurtosis of the heights, 3 for a normal distribution")
-    reliability_cutoff = Attribute[float | None]("m", "wavelength below which the tip falsifies the spectrum; None without tip_radius")
+    reliability_cutoff = Attribute[float | None](
+        "m", "wavelength below which the tip falsifies the spectrum; None without tip_radius"
+    )
     hurst_exponent = Attribute[ValueWithError | None]("1", "Hurst exponent, if the spectrum is a power law")
     roll_off_wave_number = Attribute[ValueWithError | None]("rad/m", "wave number of the roll-off")
     spectrum = Attribute[Table]("", "spectrum of the surface", columns="wave_number c2d relative_error line")

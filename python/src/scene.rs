@@ -168,6 +168,11 @@ impl Scene {
         self.set(vec![("adhesion".to_owned(), text)])
     }
 
+    /// Returns the value of a field as text; `None` if the scene does not state it.
+    fn value(&self, path: &str) -> Option<&str> {
+        self.document.value(path)
+    }
+
     /// Returns the text of the scene, as in a scene file.
     #[getter]
     fn text(&self) -> &str {

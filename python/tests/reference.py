@@ -147,7 +147,9 @@ def methods(one: type) -> list[str]:
     """Returns a row for each method and property of a class itself, with the first paragraph of its documentation."""
     rows = []
     for name, value in vars(one).items():
-        if name.startswith("_") or not (inspect.isfunction(value) or isinstance(value, (property, cached_property, staticmethod))):
+        if name.startswith("_") or not (
+            inspect.isfunction(value) or isinstance(value, (property, cached_property, staticmethod))
+        ):
             continue
         text = (inspect.getdoc(value) or "").split("\n\n")[0].replace("\n", " ").rstrip(".")
         shown = signature(value, name) if inspect.isfunction(value) else name

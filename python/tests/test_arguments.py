@@ -181,7 +181,7 @@ class Contacts(InFolder):
         self.refused(asp.run, body, modulus=1e6, material__modulus=2e6, field="modulus", says="not both")
         self.refused(asp.run, "jkr-sphere", work=1, adhesion__kappa=2, field="work", says="not both")
         self.refused(asp.run, "jkr-sphere", modulus="1 J", field="modulus", says="not a unit of pressure")
-        self.refused(asp.run, "jkr-sphere", work=-1, field="adhesion.work")
+        self.refused(asp.run, "jkr-sphere", work=-1, field="work")
 
 
 class Surfaces(InFolder):

@@ -112,7 +112,9 @@ class Objects(unittest.TestCase):
                 loop.save(Path(folder) / f"loop.{ending}")
             self.assertEqual(json.loads((Path(folder) / "loop.json").read_text())["force"], list(loop.force))
             np.testing.assert_array_equal(np.load(Path(folder) / "loop.npy")["force"], loop.force)
-            np.testing.assert_array_equal(np.genfromtxt(Path(folder) / "loop.csv", delimiter=",", names=True)["force"], loop.force)
+            np.testing.assert_array_equal(
+                np.genfromtxt(Path(folder) / "loop.csv", delimiter=",", names=True)["force"], loop.force
+            )
 
     def test_profiles_scenes_and_surfaces_are_copied_with_the_same_bits(self):
         rough = asp.self_affine(0.7, rms_height="50 nm", modes=(4, 100))
