@@ -862,12 +862,18 @@ def study(
 def _stated_by(scene: Scene, axes: list[tuple[str, list[float | str]]]) -> Scene:
     """Returns a scene whose adhesion is stated by the parameter on an axis, such as κ, in place of another one."""
     for path, values in axes:
-        if path not in _ADHESION or scene.value(path) is not None or scene.value("adhesion.closing_work") is not None:
+        if path not in _ADHESION or not values or _is_stated(scene, path) or _is_stated(scene, "adhesion.closing_work"):
             continue
-        if values and any(scene.value(other) is not None for other in _ADHESION):
-            adhesion = {path.removeprefix("adhesion."): values[0], "range": scene.value("adhesion.range")}
-            scene = scene.set(in_fields({"adhesion": {name: value for name, value in adhesion.items() if value is not None}}))
+        if any(_is_stated(scene, other) for other in _ADHESION):
+            adhesion = {path.removeprefix("adhesion."): values[0]}
+            if _is_stated(scene, "adhesion.range"):
+                adhesion["range"] = str(scene.value("adhesion.range"))
+            scene = scene.set(in_fields({"adhesion": adhesion}))
     return scene
+
+
+def _is_stated(scene: Scene, path: str) -> bool:
+    return scene.value(path) not in (None, "None")
 
 
 def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:

@@ -463,16 +463,22 @@ class Study(Result):
         import xarray as xr
 
         table = self.to_numpy()
-        names = list(self.axes)
-        shape = [len(values) for values in self.axes.values()] + [self.profiles]
-        dimensions = [*names, "profile"]
-        dataset = xr.Dataset(attrs={"title": str(self.scene.get("title", ""))})
-        for name in table.dtype.names or ():
-            if name in ("cell", *names):
-                continue
-            dataset[name] = (dimensions, np.reshape(table[name], shape), {"units": self._unit_of_column(name)})
-        for name, values in self.axes.items():
-            dataset = dataset.assign_coords({name: (name, values, {"units": self.units.get(name, "1")})})
+        columns = table.dtype.names or ()
+        # The axes in the order of the cells, in which preloads are the last.
+        preloads = [name for name in ("preload", "preload_in_N") if name in self.axes]
+        names = [name for name in columns if name in self.axes and name not in preloads] + preloads
+        shape = [*(len(self.axes[name]) for name in names), self.profiles]
+        coordinates: dict[str, Any] = {
+            name: (name, self.axes[name], {"units": self.units.get(name, "1")}) for name in names
+        }
+        if "seed" in columns:
+            coordinates["seed"] = ("profile", table["seed"][: self.profiles])
+        dataset = xr.Dataset(coords=coordinates, attrs={"title": str(self.scene.get("title", ""))})
+        for name in columns:
+            # The column of an axis of preloads has another name or unit than the axis.
+            if name not in ("cell", "seed", *names) and not (name == "preload" and preloads == ["preload_in_N"]):
+                values = np.reshape(table[name], shape)
+                dataset[name] = ([*names, "profile"], values, {"units": self._unit_of_column(name)})
         return dataset
 
 

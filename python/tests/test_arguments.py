@@ -1,5 +1,6 @@
 """Tests of what the functions take, and of the words in which they refuse: `python -m unittest discover python/tests`."""
 
+import inspect
 import json
 import os
 import subprocess
@@ -86,6 +87,34 @@ class EquivalentLines(InFolder):
         self.assertEqual(len(asp.profile("50 µm", roughness=[0.0, 1e-9])), 2)
         self.refused(asp.profile, "50 µm", 513, roughness=rough, field="roughness", says="512 heights; allowed: 513")
 
+    def test_a_form_of_two_arrays_is_that_of_a_file(self):
+        radii = np.linspace(0, 60e-6, 200)
+        depths = radii**2 / (2 * RADIUS)
+        np.save("tip.npy", np.c_[radii, depths])
+        given = asp.profile("100 µm", 1024, form=asp.revolve(radii, depths))
+        saved = asp.profile("100 µm", 1024, form=asp.table("tip.npy"))
+        np.testing.assert_array_equal(given.gaps, saved.gaps)
+        contact = {"modulus": MODULUS, "work": WORK, "stages": "10 µN, separation"}
+        self.assertAlmostEqual(asp.load(given, **contact).pull_off_force / PULL_OFF, 1, delta=1e-4)
+        # The rows are in the text of the scene.
+        again = asp.scene(asp.scene(given, **contact).text)
+        self.assertEqual(asp.run(again).pull_off_force, asp.load(given, **contact).pull_off_force)
+        study = asp.study(given, {"adhesion.work": [0.01, WORK]}, **contact)
+        self.assertEqual(study.records["pull_off_force"][1], asp.load(given, **contact).pull_off_force)
+        Path("form.ron").write_text(again.text, encoding="utf-8")
+        self.assertEqual(asp.run("form.ron").pull_off_force, asp.run(again).pull_off_force)
+        for radii, depths, field in [([0, 1, 1], [0, 1, 2], "radii"), ([1, 2], [0, 1], "radii"), ([0], [0], "radii"), ([0, 1], [0], "depths")]:
+            self.refused(asp.revolve, radii, depths, field=field)
+        self.refused(asp.profile, "1 mm", form=asp.revolve([0, 1e-6], [0, 1e-7]), field="form", says="the table ends")
+
+    def test_heights_with_their_spacing_are_a_measured_surface(self):
+        heights = rough_map()
+        for form in [None, asp.sphere("1 mm")]:
+            pair = asp.profile("6 µm", 512, form=form, roughness=(heights, "0.1 µm"), seed=3)
+            surface = asp.profile("6 µm", 512, form=form, roughness=asp.surface(heights, spacing=1e-7), seed=3)
+            np.testing.assert_array_equal(pair.gaps, surface.gaps)
+        self.refused(asp.profile, "6 µm", roughness=(heights, "1 N"), field="spacing")
+
     def test_a_surface_is_the_roughness_of_a_form(self):
         heights = rough_map()
         np.save("map.npy", heights)
@@ -163,6 +192,12 @@ class Contacts(InFolder):
             self.refused(asp.find, "preload", given, "F_a = 1 µN", field="modulus")
             self.refused(asp.fit, ([0, 1], [0, 1]), given, ["work"], field="modulus")
         self.assertFalse(hasattr(body, "scene"))
+
+    def test_all_functions_of_scenes_name_the_arguments_of_a_contact(self):
+        for name in ["scene", "run", "ensemble", "find", "preloads", "reversals", "reference", "criteria", "study", "fit", "load"]:
+            parameters = inspect.signature(getattr(asp, name)).parameters
+            for argument in ["modulus", "work", "closing_work", "stages"]:
+                self.assertIs(parameters[argument].kind, inspect.Parameter.KEYWORD_ONLY, name)
 
     def test_all_functions_take_the_contact_of_load(self):
         body = sphere()
@@ -283,6 +318,9 @@ class Texts(InFolder):
         np.testing.assert_allclose(forces["preload"], [1e-6, 2e-6])
         one = asp.study("pressure-sensitive", {"adhesion__kappa": 2}, record="kappa", profiles=1).to_pandas()
         self.assertEqual(list(one["adhesion.kappa"]), [2])
+        # The scene states its adhesion by κ, which the axis replaces.
+        works = asp.study("pressure-sensitive", {"adhesion.work": ["5 mJ/m²", "20 mJ/m²"]}, record="work", profiles=1, adhesion__range="1 nm")
+        np.testing.assert_allclose(works.records["work"], [5e-3, 20e-3])
         self.refused(asp.study, "pressure-sensitive", {"preload": ["1 µN"]}, field="preload", says="preload_in_N takes forces")
         self.refused(asp.study, "jkr-sphere", {"adhesion.work": ["1 N"]}, field="adhesion.work", says="not a unit")
         self.refused(asp.study, "jkr-sphere", {"adhesion.work": [True]}, field="adhesion.work")

@@ -181,6 +181,34 @@ class Objects(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no column 'F'; columns: "):
             table["F"]
 
+    def test_a_study_has_the_axes_of_a_dataset(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.skipTest("no xarray")
+        axes = {"roughness.hurst": [0.5, 0.8], "preload_in_N": ["1 µN", "2 µN", "5 µN"]}
+        study = asp.study(SCENE, axes, profiles=3, record=["pull_off_force", "regime"], **FEW)
+        data = study.to_xarray()
+        self.assertEqual(dict(data.sizes), {"preload_in_N": 3, "roughness.hurst": 2, "profile": 3})
+        self.assertEqual((data.pull_off_force.attrs["units"], data["preload_in_N"].attrs["units"]), ("N", "N"))
+        for row in study.records:
+            place = {"roughness.hurst": row["roughness.hurst"], "preload_in_N": row["preload"]}
+            one = data.pull_off_force.sel(place, method="nearest").values[list(data.seed.values).index(row["seed"])]
+            self.assertEqual(one, row["pull_off_force"])
+
+    def test_a_loop_is_drawn_on_axes(self):
+        try:
+            import matplotlib
+        except ImportError:
+            with self.assertRaisesRegex(ImportError, "pip install matplotlib"):
+                self.made["loop"].plot()
+            return
+        matplotlib.use("Agg")
+        axes = self.made["loop"].plot(label="one")
+        self.assertIs(self.made["loop of heights"].plot(axes), axes)
+        self.assertEqual(len(axes.lines), 2)
+        np.testing.assert_array_equal(axes.lines[0].get_ydata(), self.made["loop"].force)
+
     def test_a_name_has_one_unit(self):
         units = {}
         # A ratio has the name of its quantity, and the residual of a solver is counted in rms heights.
