@@ -269,7 +269,8 @@ class Objects(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "program.py"
             file.write_text("\n".join(program) + "\n")
-            for checker in (["mypy", "--strict"], ["basedpyright", "--level", "error"], ["pyright"]):
+            interpreter = ["--pythonpath", sys.executable]
+            for checker in (["mypy", "--strict"], ["basedpyright", "--level", "error", *interpreter], ["pyright", *interpreter]):
                 try:
                     command = [sys.executable, "-m", *checker, str(file)]
                     said = subprocess.run(command, capture_output=True, text=True, cwd=folder)

@@ -215,7 +215,7 @@ pub const FIELDS: &[Field] = &[
     row("form.file", form!(Table, file), TABLE)
         .name("table of the form")
         .meaning("file with two columns: ascending radii r from 0, and depths f of a body of \
-                  revolution"),
+                  revolution; or the rows in place of a name, data:,0 0;1e-6 2e-8"),
     row("form.unit", form!(Table, unit), UNIT)
         .name("unit of the table").default("\"\"")
         .meaning("unit of the lengths if the table states none; m if empty"),
