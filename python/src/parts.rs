@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::results::{GivenAxis, Report, bytes, named, plan_of_study};
 use crate::scene::{Scene, read_again, written};
 use asperity::data::Control;
-use asperity::study::{Ensemble, Part, Plan, Results, compute_part};
+use asperity::study::{Ensemble, Plan, Results, StudyPart, compute_part};
 use pyo3::prelude::*;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ fn computed_part(case: &Case<'_>, plan: &Plan, lines: Range<u64>) -> Result<Stri
     written(&part)
 }
 
-fn read_parts(parts: &[String]) -> Result<Vec<Part>, Failure> {
+fn read_parts(parts: &[String]) -> Result<Vec<StudyPart>, Failure> {
     parts.iter().map(|part| read_again(part)).collect()
 }
 

@@ -4,6 +4,7 @@
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
 use super::measured::profile;
+use super::part::StudyPart;
 use super::plan::Plan;
 use super::recorder::{Recorded, Recorder};
 use super::results::Results;
@@ -11,7 +12,6 @@ use asperity_contact::ContactError;
 use asperity_data::{Control, Warning, on_threads};
 use asperity_scene::{RunError, Simulation};
 use asperity_surface::lines::MeasuredRoughness;
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -181,7 +181,10 @@ fn compute_on(
 ) -> Result<Results, StudyError> {
     let mut results = Results::empty(plan.clone())?;
     compute_profiles(plan, measured, 0..plan.lines, control, &mut |solved| {
-        results.take_in_streak(solved);
+        for (cell, record) in solved.streak.cells.zip(solved.records) {
+            results.set_record(cell * plan.lines + solved.streak.line, record);
+        }
+        results.set_warnings(solved.streak.line, solved.warnings);
     })?;
     Ok(results)
 }
@@ -211,7 +214,7 @@ pub fn compute_part(
     measured: Option<Arc<MeasuredRoughness>>,
     lines: Range<u64>,
     control: Control<'_>,
-) -> Result<Part, StudyError> {
+) -> Result<StudyPart, StudyError> {
     check(plan, &control)?;
     let measured = match measured {
         Some(measured) => {
@@ -220,7 +223,7 @@ pub fn compute_part(
         }
         None => profile(plan, Path::new(""))?,
     };
-    let mut part = Part::default();
+    let mut part = StudyPart::default();
     compute_profiles(plan, measured, lines, control, &mut |solved| {
         for (cell, record) in solved.streak.cells.zip(solved.records) {
             part.records.push((cell, solved.streak.line, record));
@@ -230,14 +233,6 @@ pub fn compute_part(
         }
     })?;
     Ok(part)
-}
-
-/// Records of some profiles of a plan, and the premises of the model that they do not meet. Each
-/// entry begins with the number of the [cell](Plan) and the index of the profile.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Part {
-    pub(super) records: Vec<(u64, u64, Recorded)>,
-    pub(super) warnings: Vec<(u64, u64, Vec<Warning>)>,
 }
 
 /// Computes the profiles `lines` of a plan. `receive` is called on the calling thread with each

@@ -1,8 +1,8 @@
 //! The ensemble of a scene: its results on several random profiles with the same roughness.
 
-use super::compute::Part;
 use super::error::StudyError;
 use super::missing_profiles::Failures;
+use super::part::StudyPart;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
@@ -113,7 +113,7 @@ impl Ensemble {
     /// Returns the errors of [`Results::of_parts`].
     pub fn of_parts(
         plan: &Plan,
-        parts: impl IntoIterator<Item = Part>,
+        parts: impl IntoIterator<Item = StudyPart>,
     ) -> Result<Ensemble, StudyError> {
         let results = Results::of_parts(plan, parts)?;
         Ok(Ensemble { results })

@@ -2,7 +2,6 @@
 //! study wrote, from the table that [`merge`](crate::merge) wrote, or are computed in memory.
 
 use super::axis::Axis;
-use super::compute::{Part, SolvedStreak};
 use super::error::StudyError;
 use super::grid::{Grid, GridCell, GridLayer};
 use super::missing_profiles::{Failures, MissingProfiles, SolvedProfile};
@@ -208,42 +207,6 @@ impl Results {
             self.set_record(cell * self.plan.lines + solved.line, record);
         }
         self.set_warnings(solved.line, solved.warnings);
-    }
-
-    /// Stores the records of a computed streak, which has the cells that differ only in the
-    /// preload.
-    pub(super) fn take_in_streak(&mut self, solved: SolvedStreak) {
-        let line = solved.streak.line;
-        for (cell, record) in solved.streak.cells.zip(solved.records) {
-            self.set_record(cell * self.plan.lines + line, record);
-        }
-        self.set_warnings(line, solved.warnings);
-    }
-
-    /// Gathers the results of a plan from parts that were computed apart by
-    /// [`compute_part`](crate::compute_part).
-    ///
-    /// # Errors
-    /// Returns an error if the memory does not suffice, or if a part belongs to another plan.
-    pub fn of_parts(
-        plan: &Plan,
-        parts: impl IntoIterator<Item = Part>,
-    ) -> Result<Results, StudyError> {
-        let mut results = Results::empty(plan.clone())?;
-        for part in parts {
-            for (cell, line, record) in part.records {
-                let count = record.as_ref().map_or(plan.record.len(), Vec::len);
-                if cell >= plan.cells() || line >= plan.lines || count != plan.record.len() {
-                    let found = format!("a record of cell {cell} and profile {line}");
-                    return Err(StudyError::refused(None, found, "parts of the same plan"));
-                }
-                results.set_record(cell * plan.lines + line, record);
-            }
-            for (cell, line, warnings) in part.warnings {
-                results.set_warnings(line, vec![(cell, warnings)]);
-            }
-        }
-        Ok(results)
     }
 
     /// Stores the premises of the model that cells do not meet on the profile with the index
