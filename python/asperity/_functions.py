@@ -135,7 +135,8 @@ def scene(
 
     `modulus`, `work`, `closing_work` and `stages` are those of `load`; a profile needs a modulus. Each further argument changes
     a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes `adhesion.work`. The value None
-    removes an optional part. `docs/scene-file.md` lists the fields. All functions that take a scene take these arguments.
+    removes an optional part, and one parameter of the adhesion replaces another one. `docs/scene-file.md` lists the fields. All
+    functions that take a scene take these arguments.
 
     >>> asp.scene("jkr-sphere", work="20 mJ/m²")
     <Scene "jkr-sphere, changed">
@@ -185,6 +186,9 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
         changes += in_fields({"adhesion.closing_work": closing})
     if not changes:
         return opened
+    parameters = [(field, [value]) for field, value in changes if field in _ADHESION]
+    if len(parameters) == 1:
+        opened = _stated_by(opened, parameters)
     with naming(changes[0][0], changes[0][1]) if len(changes) == 1 else naming("fields", list(dict(changes))):
         with _by_arguments(contact):
             return opened.set(changes)
@@ -815,7 +819,7 @@ def criteria(
 
 def study(
     scene: AnyScene,
-    axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any] | Quantity],
+    axes: Mapping[str, object],
     /,
     *,
     modulus: Quantity | None = None,
@@ -859,8 +863,8 @@ def study(
     return found
 
 
-def _stated_by(scene: Scene, axes: list[tuple[str, list[float | str]]]) -> Scene:
-    """Returns a scene whose adhesion is stated by the parameter on an axis, such as κ, in place of another one."""
+def _stated_by(scene: Scene, axes: Sequence[tuple[str, Sequence[float | str]]]) -> Scene:
+    """Returns a scene whose adhesion is stated by the parameter of an axis or a field, such as κ, in place of another one."""
     for path, values in axes:
         if path not in _ADHESION or not values or _is_stated(scene, path) or _is_stated(scene, "adhesion.closing_work"):
             continue
@@ -873,7 +877,7 @@ def _stated_by(scene: Scene, axes: list[tuple[str, list[float | str]]]) -> Scene
 
 
 def _is_stated(scene: Scene, path: str) -> bool:
-    return scene.value(path) not in (None, "None")
+    return scene.value(path) is not None
 
 
 def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:

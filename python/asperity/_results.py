@@ -468,9 +468,7 @@ class Study(Result):
         preloads = [name for name in ("preload", "preload_in_N") if name in self.axes]
         names = [name for name in columns if name in self.axes and name not in preloads] + preloads
         shape = [*(len(self.axes[name]) for name in names), self.profiles]
-        coordinates: dict[str, Any] = {
-            name: (name, self.axes[name], {"units": self.units.get(name, "1")}) for name in names
-        }
+        coordinates: dict[str, Any] = {name: (name, self.axes[name], {"units": self.units.get(name, "1")}) for name in names}
         if "seed" in columns:
             coordinates["seed"] = ("profile", table["seed"][: self.profiles])
         dataset = xr.Dataset(coords=coordinates, attrs={"title": str(self.scene.get("title", ""))})

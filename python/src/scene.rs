@@ -170,7 +170,7 @@ impl Scene {
 
     /// Returns the value of a field as text; `None` if the scene does not state it.
     fn value(&self, path: &str) -> Option<&str> {
-        self.document.value(path)
+        self.document.value(path).filter(|value| *value != "None")
     }
 
     /// Returns the text of the scene, as in a scene file.

@@ -318,7 +318,11 @@ class Texts(InFolder):
         np.testing.assert_allclose(forces["preload"], [1e-6, 2e-6])
         one = asp.study("pressure-sensitive", {"adhesion__kappa": 2}, record="kappa", profiles=1).to_pandas()
         self.assertEqual(list(one["adhesion.kappa"]), [2])
-        # The scene states its adhesion by κ, which the axis replaces.
+        # The scene states its adhesion by κ, which an axis or a field replaces.
+        by_work = asp.scene("pressure-sensitive", adhesion__work="10 mJ/m²", adhesion__range="1 nm")
+        self.assertIn("adhesion: (work: 0.01, range: 1.0e-9)", by_work.text)
+        self.assertIn("adhesion: (kappa: 3", asp.scene("rough-sphere", adhesion__kappa=3).text)
+        self.refused(asp.scene, "rough-sphere", adhesion__kappa=3, adhesion__work=1, field="adhesion")
         works = asp.study("pressure-sensitive", {"adhesion.work": ["5 mJ/m²", "20 mJ/m²"]}, record="work", profiles=1, adhesion__range="1 nm")
         np.testing.assert_allclose(works.records["work"], [5e-3, 20e-3])
         self.refused(asp.study, "pressure-sensitive", {"preload": ["1 µN"]}, field="preload", says="preload_in_N takes forces")
