@@ -8,7 +8,11 @@ from contextlib import contextmanager
 
 
 class FieldError(ValueError):
-    """Error of a value that is not allowed."""
+    """Error of a value that is not allowed.
+
+    `field` is the name of the argument or the path of the field of a scene, `value` the refused value as a text, and `allowed` says
+    in words which values are allowed.
+    """
 
     def __init__(self, message: str, field: str, value: str, allowed: str) -> None:
         super().__init__(message)
@@ -24,7 +28,11 @@ class FieldError(ValueError):
 
 
 class LoadingError(ValueError):
-    """Error of a loading stage whose target the contact cannot reach."""
+    """Error of a loading stage whose target the contact cannot reach.
+
+    `stage` is its number, counted from 0, and `smallest_force` the smallest force in N within reach; None if the stage is refused
+    for another reason.
+    """
 
     def __init__(self, message: str, stage: int, smallest_force: float | None) -> None:
         super().__init__(message)

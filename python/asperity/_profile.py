@@ -29,11 +29,6 @@ class Profile:
     Tabor number.
     """
 
-    #: Distance between points in m.
-    spacing: float
-    #: Length of the profile in m.
-    length: float
-
     def __init__(self, heights: npt.ArrayLike, spacing: Quantity, *, nominal_form: str | None = None) -> None:
         distance = quantity(spacing, "m", "spacing")
         if nominal_form is not None and nominal_form not in ("flat", "curved"):
@@ -66,10 +61,20 @@ class Profile:
         self._native, self._scene = native, scene
         # Function and arguments that make the profile again.
         self._made = made
-        self._points, self.spacing, self.length = native.size()
+        self._points, self._spacing, self._length = native.size()
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         return self._made
+
+    @property
+    def spacing(self) -> float:
+        """Distance between points in m."""
+        return self._spacing
+
+    @property
+    def length(self) -> float:
+        """Length of the profile in m."""
+        return self._length
 
     @cached_property
     def _columns(self) -> list[npt.NDArray[np.float64]]:

@@ -416,12 +416,10 @@ pub fn plan_of_study(
     for (path, values) in &read {
         axes.push((path.as_str(), values.as_slice()));
     }
-    Ok(
-        Plan::new(&case.document, &axes, case.profiles, &quantities).map_err(|error| {
-            let paths: Vec<&str> = axes.iter().map(|axis| axis.0).collect();
-            Failure::of_refusal("axes", &paths.join(", "), error)
-        })?,
-    )
+    Plan::new(&case.document, &axes, case.profiles, &quantities).map_err(|error| {
+        let paths: Vec<&str> = axes.iter().map(|axis| axis.0).collect();
+        Failure::of_refusal("axes", &paths.join(", "), error)
+    })
 }
 
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
