@@ -198,11 +198,21 @@ impl Scene {
     }
 
     /// Returns the function and the arguments with which a copy of the scene is made: its text, its
-    /// name, and its roughness in memory as text.
+    /// name, and its roughness in memory as text. The names of its files are made absolute, since a
+    /// copy may be used in another folder.
     fn __reduce__(&self, py: Python<'_>) -> PyResult<Reduced> {
         let in_memory = self.in_memory.as_deref().map(written).transpose()?;
+        let mut document = self.document.clone();
+        if in_memory.is_none() {
+            document = document
+                .moved_to(|file| {
+                    let path = self.document.resolve(file);
+                    let absolute = std::path::absolute(&path).unwrap_or(path);
+                    absolute.display().to_string()
+                })
+                .map_err(Failure::from)?;
+        }
         let restored = py.get_type::<Scene>().getattr("restored")?.unbind();
-        let document = &self.document;
         let arguments = (
             document.text().to_owned(),
             document.name().to_owned(),

@@ -3,6 +3,7 @@
 import concurrent.futures
 import copy
 import json
+import os
 import pickle
 import pydoc
 import subprocess
@@ -135,6 +136,21 @@ class Objects(unittest.TestCase):
         copied = pickle.loads(pickle.dumps(scene))
         self.assertEqual(copied.text, scene.text)
         np.testing.assert_array_equal(asp.ensemble(copied, profiles=2).values(), asp.ensemble(scene, profiles=2).values())
+        with tempfile.TemporaryDirectory() as folder:
+            # The scene names a file beside it, and its copy is used elsewhere.
+            np.savetxt(Path(folder) / "map.txt", rough_map())
+            text = """(version: 1, material: (modulus: 1.0e6), length: 6.0e-6, adhesion: (work: 0.001),
+                roughness: Measured(file: "map.txt", unit: "m", spacing: 1.0e-7, seed: 1), numerics: (points: 512))"""
+            (Path(folder) / "scene.ron").write_text(text, encoding="utf-8")
+            here = os.getcwd()
+            os.chdir(folder)
+            try:
+                opened = asp.scene("scene.ron")
+                sent = pickle.dumps(opened)
+                expected = asp.ensemble(opened, profiles=2).values()
+            finally:
+                os.chdir(here)
+            np.testing.assert_array_equal(asp.ensemble(pickle.loads(sent), profiles=2).values(), expected)
         form = pickle.loads(pickle.dumps(asp.sphere("1 mm")))
         self.assertEqual(repr(form), repr(asp.sphere("1 mm")))
         for error in [asp.FieldError("a", "b", "c", "d"), asp.LoadingError("a", 1, None)]:
