@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overload
 
 from . import _native
-from ._errors import FieldError, warn_of
+from ._errors import FieldError, naming, warn_of
+from ._executor import check_executor, gathered, ranges
 from ._loop import Loop
 from ._native import Scene
 from ._notation import (
@@ -30,7 +33,21 @@ from ._notation import (
     whole,
 )
 from ._profile import Profile
-from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
+from ._results import (
+    Criterion,
+    Ensemble,
+    EnsembleFit,
+    Fit,
+    Fits,
+    Found,
+    Outcome,
+    Preloads,
+    Pressed,
+    Reference,
+    Reversals,
+    Study,
+    Surface,
+)
 
 #: Path of a file.
 AnyPath: TypeAlias = str | os.PathLike[str]
@@ -42,6 +59,10 @@ if TYPE_CHECKING:
 
 #: Function that is called with the numbers of finished parts and of all parts. An exception in it stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
+#: Loading stages: a text such as "10 µN, separation", or a list of stages.
+Stages: TypeAlias = str | Quantity | Sequence[Quantity]
+#: Scene, number of profiles, number of threads, and the function of the progress.
+_Call: TypeAlias = tuple[Scene, int | None, int | None, Progress]
 #: Name of a built-in scene, path of a scene file, text of a scene, a Scene, or a Profile with a modulus.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 
@@ -53,6 +74,15 @@ _FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
+#: Parameters of the adhesion, which determine each other.
+_ADHESION = ("adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio")
+#: Fields of a scene that these arguments set.
+_FIELDS = {
+    "material.modulus": "modulus",
+    "adhesion.work": "work",
+    "adhesion.closing_work": "closing_work",
+    "loading": "stages",
+}
 #: Options of `asperity fit` that are arguments of `fit`, or that belong to files that the command writes.
 _NOT_READING = ("set", "free", "profiles", "jobs", "scene", "format", "output", "force")
 _PRELOADS = "the smallest and the largest force in N; count gives their number, and log=True equal ratios"
@@ -91,14 +121,32 @@ class Reading(TypedDict, total=False):
     opposite: AnyPath | None
 
 
-def scene(scene: AnyScene, /, **fields: Any) -> Scene:
+def scene(
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    **fields: Any,
+) -> Scene:
     """Opens a built-in scene, a scene file, the text of a scene or a profile, and changes fields of it.
 
     `modulus`, `work`, `closing_work` and `stages` are those of `load`; a profile needs a modulus. Each further argument changes
     a field, with two underscores for each point of its path: `adhesion__work="50 mJ/m²"` changes `adhesion.work`. The value None
-    removes an optional part. `docs/scene-file.md` lists the fields. All functions that take a scene take these arguments.
+    removes an optional part, and one parameter of the adhesion replaces another one. `docs/scene-file.md` lists the fields. All
+    functions that take a scene take these arguments.
+
+    >>> asp.scene("jkr-sphere", work="20 mJ/m²")
+    <Scene "jkr-sphere, changed">
     """
-    return _opened(scene, fields)
+    return _opened(scene, _with_contact(fields, modulus, work, closing_work, stages))
+
+
+def _with_contact(fields: dict[str, Any], *contact: Any) -> dict[str, Any]:
+    """Returns the fields of a call with the values of its arguments modulus, work, closing_work and stages."""
+    return {**fields, **dict(zip(_CONTACT, contact, strict=True))}
 
 
 def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = False) -> Scene:
@@ -116,7 +164,8 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
         opened = given
     elif isinstance(given, (str, os.PathLike)):
         name = path(given, "scene")
-        opened = Scene.parse(name) if name.lstrip().startswith("(") else Scene.open(name)
+        with naming("scene", name):
+            opened = Scene.parse(name) if name.lstrip().startswith("(") else Scene.open(name)
     else:
         allowed = "the name of a built-in scene, a scene file, the text of a scene, a Scene or a Profile"
         raise refused_type("scene", given, allowed)
@@ -130,10 +179,34 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
     closing = contact.get("closing_work")
     closing = None if closing is None else quantity(closing, "J/m²", "closing_work")
     if "work" in contact:
-        opened = opened.with_works(quantity(contact["work"], "J/m²", "work"), closing)
+        work = quantity(contact["work"], "J/m²", "work")
+        with _by_arguments(contact):
+            opened = opened.with_works(work, closing)
     elif closing is not None:
         changes += in_fields({"adhesion.closing_work": closing})
-    return opened.set(changes) if changes else opened
+    if not changes:
+        return opened
+    parameters = [(field, [value]) for field, value in changes if field in _ADHESION]
+    if len(parameters) == 1:
+        opened = _stated_by(opened, parameters)
+    with naming(changes[0][0], changes[0][1]) if len(changes) == 1 else naming("fields", list(dict(changes))):
+        with _by_arguments(contact):
+            return opened.set(changes)
+
+
+@contextmanager
+def _by_arguments(given: Collection[str]) -> Iterator[None]:
+    """Names the argument in an error about a field that was set by one of the arguments modulus, work, closing_work and stages."""
+    try:
+        yield
+    except FieldError as error:
+        field = next((field for field in _FIELDS if error.field == field or error.field.startswith(f"{field}.")), None)
+        if field is None or _FIELDS[field] not in given:
+            raise
+        message, allowed = str(error), error.allowed
+        for path, name in _FIELDS.items():
+            message, allowed = message.replace(path, name), allowed.replace(path, name)
+        raise FieldError(message, _FIELDS[field], error.value, allowed) from None
 
 
 def _scene_of_profile(profile: Profile, has_modulus: bool, takes_heights: bool) -> Scene:
@@ -159,17 +232,29 @@ def _stages(stages: Any) -> str:
 
 
 def sphere(radius: Quantity) -> Form:
-    """Returns a sphere of this radius in m. It is a paraboloid, as in the theories of Hertz and JKR."""
+    """Returns a sphere of this radius in m. It is a paraboloid, as in the theories of Hertz and JKR.
+
+    >>> asp.sphere("100 µm")
+    Paraboloid(radius: 0.0001)
+    """
     return Form("Paraboloid", radius=field_number(radius, "form.radius", "Paraboloid", "radius"))
 
 
 def cone(angle: Quantity) -> Form:
-    """Returns a cone. `angle` is the angle between its flank and the surface in rad."""
+    """Returns a cone. `angle` is the angle between its flank and the surface in rad.
+
+    >>> asp.cone("45°")
+    Cone(angle: 0.7853981633974483)
+    """
     return Form("Cone", angle=field_number(angle, "form.angle", "Cone", "angle"))
 
 
 def power(coefficient: Quantity, exponent: Quantity) -> Form:
-    """Returns a body of revolution with the depth b rⁿ at the radius r. `coefficient` is b in m^(1−n), `exponent` is n."""
+    """Returns a body of revolution with the depth b rⁿ at the radius r. `coefficient` is b in m^(1−n), `exponent` is n.
+
+    >>> asp.power(1e12, 4)   # 10¹² m⁻³ r⁴
+    Power(coefficient: 1000000000000.0, exponent: 4.0)
+    """
     return Form(
         "Power",
         coefficient=field_number(coefficient, "form.coefficient", "Power", "coefficient"),
@@ -178,12 +263,20 @@ def power(coefficient: Quantity, exponent: Quantity) -> Form:
 
 
 def punch(radius: Quantity) -> Form:
-    """Returns a flat punch of this radius in m."""
+    """Returns a flat punch of this radius in m.
+
+    >>> asp.punch("10 µm")
+    Punch(radius: 1e-05)
+    """
     return Form("Punch", radius=field_number(radius, "form.radius", "Punch", "radius"))
 
 
 def wavy_sphere(radius: Quantity, amplitude: Quantity, wavelength: Quantity) -> Form:
-    """Returns a sphere with concentric waves. Radius, amplitude and wavelength are in m."""
+    """Returns a sphere with concentric waves. Radius, amplitude and wavelength are in m.
+
+    >>> asp.wavy_sphere("100 µm", amplitude="10 nm", wavelength="5 µm")
+    WavySphere(radius: 0.0001, amplitude: 1e-08, wavelength: 5e-06)
+    """
     return Form(
         "WavySphere",
         radius=field_number(radius, "form.radius", "WavySphere", "radius"),
@@ -197,6 +290,9 @@ def rounded_cone(radius: Quantity, angle: Quantity) -> Form:
 
     `radius` is the radius of curvature of the apex in m, and `angle` the angle between the flank and the surface in rad.
     For a pyramid, give the angle of the cone with the same cross section.
+
+    >>> asp.rounded_cone("20 nm", angle=0.3)
+    RoundedCone(radius: 2e-08, angle: 0.3)
     """
     return Form(
         "RoundedCone",
@@ -209,6 +305,9 @@ def two_spheres(radius: Quantity, second_radius: Quantity, behind: Quantity) -> 
     """Returns two spheres side by side on one probe, each above a half of the length of the profile.
 
     The radii are in m. `behind` is the depth in m of the apex of the second sphere below the apex of the first one.
+
+    >>> asp.two_spheres("100 µm", "80 µm", behind="50 nm")
+    TwoSpheres(radius: 0.0001, second_radius: 8e-05, behind: 5e-08)
     """
     return Form(
         "TwoSpheres",
@@ -221,11 +320,33 @@ def two_spheres(radius: Quantity, second_radius: Quantity, behind: Quantity) -> 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
     """Returns a body of revolution whose radii and depths are in a file. `unit` is their unit if the file states none.
 
-    `numpy.save("tip.npy", numpy.c_[radii, depths])` writes such a file of two arrays.
+    `asperity.revolve(radii, depths)` takes two arrays.
+
+    >>> np.savetxt("tip.txt", [[0, 0], [1, 0.1], [2, 0.4]])
+    >>> asp.profile("4 µm", 64, form=asp.table("tip.txt", unit="um"))
+    <Profile: 64 points on 4 µm, height 800 nm>
     """
     if not isinstance(file, (str, os.PathLike)):
-        raise refused_type("file", file, "a path, numpy.save('tip.npy', numpy.c_[radii, depths])")
+        raise refused_type("file", file, "a path; asperity.revolve(radii, depths) takes arrays")
     return _checked("form", Form("Table", file=Path(path(file, "file")).absolute(), unit=_unit(unit, "unit")))
+
+
+def revolve(radii: npt.ArrayLike, depths: npt.ArrayLike) -> Form:
+    """Returns a body of revolution from two arrays: radii in m that ascend from 0, and the depths in m below the apex there.
+
+    Between the points the depth is a smooth curve. The largest radius is at least half of the length of a profile.
+
+    >>> radii = np.linspace(0, 50e-6, 101)
+    >>> asp.profile("100 µm", 1024, form=asp.revolve(radii, radii**2 / 200e-6))   # a sphere with R = 100 µm
+    <Profile: 1024 points on 100 µm, height 25 µm>
+    """
+    distances, below = numbers(radii, "radii"), numbers(depths, "depths")
+    if len(distances) < 2 or distances[0] != 0 or not (distances[1:] > distances[:-1]).all():
+        raise refusal("radii", distances, "two or more radii in m that ascend from 0")
+    if len(below) != len(distances):
+        raise refusal("depths", f"{len(below)} depths", f"{len(distances)} depths, one for each radius")
+    rows = ";".join(f"{radius!r} {depth!r}" for radius, depth in zip(distances.tolist(), below.tolist(), strict=True))
+    return _checked("form", Form("Table", file=Text("data:," + rows)))
 
 
 def self_affine(
@@ -242,6 +363,10 @@ def self_affine(
     Its amplitude is given by `rms_height` in m or by `rms_gradient`. Its waves are given by `modes`, the first and the last
     number of waves per length, or by `wavelengths`, the longest and the shortest one in m. Above the wavelength `roll_off` in m
     the spectrum of the surface is flat.
+
+    >>> rough = asp.self_affine(0.7, rms_height="100 nm", wavelengths=("50 µm", "200 nm"))
+    >>> asp.profile("100 µm", 4096, roughness=rough, seed=1)
+    <Profile: 4096 points on 100 µm, height ... nm>
     """
 
     def number(value: Quantity | None, name: str) -> float | None:
@@ -282,6 +407,11 @@ def measured(
 
     With `as_line=True` the heights of the file are used unchanged. They must be those of an equivalent line, which
     `asperity.Profile` explains. A measured profile is a cut through the surface and no equivalent line.
+
+    >>> np.savetxt("map.txt", np.random.default_rng(1).standard_normal((64, 64)))
+    >>> rough = asp.measured("map.txt", unit="nm", spacing="0.1 µm")
+    >>> asp.profile("6 µm", 512, form=asp.sphere("1 mm"), roughness=rough)
+    <Profile: 512 points on 6 µm, height ... nm>
     """
     others = [further_files] if isinstance(further_files, (str, os.PathLike)) else further_files
     names = [str(Path(path(name, "file")).absolute()) for name in (file, *others)]
@@ -350,20 +480,30 @@ def profile(
     points: int | None = None,
     *,
     form: Form | None = None,
-    roughness: Form | Surface | npt.ArrayLike | None = None,
+    roughness: Form | Surface | tuple[npt.ArrayLike, Quantity] | npt.ArrayLike | None = None,
     seed: int = 1,
 ) -> Profile:
     """Makes the profile of a body with a form and a roughness, with `points` points along a length in m, by default 16384.
 
-    A `roughness` is made by `self_affine` or `measured`, or it is a `Surface`, whose spectrum the profile gets. An array has the
-    heights in m of the roughness at each point, those of an equivalent line as in `asperity.Profile`. The axis of the form is at
-    the point with the index `points // 2`. A seed gives the same random phases on any machine and for any number of points.
+    A `roughness` is made by `self_affine` or `measured`, or it is a `Surface`, whose spectrum the profile gets. A pair of measured
+    heights in m and the distance between their points in m counts as the surface `asperity.surface(heights, spacing=...)`. An
+    array alone has the heights in m of the roughness at each point, those of an equivalent line as in `asperity.Profile`. The axis
+    of the form is at the point with the index `points // 2`. A seed gives the same random phases on any machine and for any number of points.
+
+    >>> asp.profile("100 µm", form=asp.sphere("100 µm"))
+    <Profile: 16384 points on 100 µm, height 25 µm>
+    >>> heights = 1e-9 * np.random.default_rng(1).standard_normal((64, 64))   # a measured map in m
+    >>> asp.profile("6 µm", 512, form=asp.sphere("1 mm"), roughness=(heights, "0.1 µm"))
+    <Profile: 512 points on 6 µm, height ... nm>
     """
     form_allowed = "a form of a body, such as asperity.sphere('1 mm')"
     _check_kind(form, _FORMS, "form", form_allowed)
+    if isinstance(roughness, tuple) and len(roughness) == 2 and hasattr(roughness[0], "__len__"):
+        measured_heights, distance = roughness
+        roughness = surface(measured_heights, spacing=distance)
     heights = None
     if roughness is not None and not isinstance(roughness, (Form, str, Surface)):
-        heights = numbers(roughness, "roughness")
+        heights = numbers(cast("npt.ArrayLike", roughness), "roughness")
     count = whole(points, "points", 2, 2**28) if points is not None else 16384 if heights is None else len(heights)
     number = whole(seed, "seed", 0, 2**64 - 1)
     metres = field_number(length, "length", "", "length")
@@ -371,15 +511,16 @@ def profile(
     if heights is not None:
         if len(heights) != count:
             raise refusal("roughness", f"{len(heights)} heights", f"{count} heights, one for each point")
-        return Profile._of(_native.Profile.of_roughness(plain, heights), None)
+        with naming("form", form):
+            return Profile._of_roughness(plain, heights)
     if isinstance(roughness, Surface):
-        rough = roughness._surface.roughen(plain, number)
-        return Profile._of(_native.Profile.of_scene(rough), rough)
+        with naming("roughness", roughness):
+            return Profile._of_scene(plain.roughened(roughness._scene, number))
     _check_kind(roughness, _ROUGHNESS, "roughness", "asperity.self_affine(...), asperity.measured(...), a Surface or an array")
     if isinstance(roughness, Form) and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": number})
-    rough = plain.set(in_fields({"roughness": roughness}))
-    return Profile._of(_native.Profile.of_scene(rough), rough)
+    with naming("form" if roughness is None else "roughness", form if roughness is None else roughness):
+        return Profile._of_scene(plain.set(in_fields({"roughness": roughness})))
 
 
 def _check_kind(given: Any, kinds: tuple[str, ...], field: str, allowed: str) -> None:
@@ -397,7 +538,7 @@ def load(
     modulus: Quantity,
     work: Quantity = 0.0,
     closing_work: Quantity | None = None,
-    stages: str | Sequence[Quantity] = "zero force, separation",
+    stages: Stages = "zero force, separation",
     loading_stiffness: Quantity | None = None,
     edges: str = "sub_cell",
     samples: int = 512,
@@ -411,6 +552,13 @@ def load(
     `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. The instrument has the stiffness `loading_stiffness` in N/m, by
     default infinite. `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The
     force curve has `samples` points on each stage. The smallest and the largest force do not depend on their number.
+
+    >>> ball = asp.profile("100 µm", form=asp.sphere("100 µm"))
+    >>> loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
+    >>> loop
+    <Loop: pull_off_force 23.56 µN, preload 100 µN, dissipated_energy 22.34 pJ>
+    >>> bool(loop.force.min() == -loop.pull_off_force)
+    True
     """
     if not isinstance(profile, Profile):
         allowed = "a profile that asperity.profile or asperity.Profile makes; asperity.run computes scenes"
@@ -430,7 +578,8 @@ def load(
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
         load = (foundation, (stages, edges == "grid", samples))
-        loop = Loop(_native.Loop.of_heights(profile._native, load, progress), (profile._native, load))
+        with naming("stages", stages):
+            loop = Loop._of(_native.Loop.of_heights(profile._native, load, progress), (profile, load))
         warn_of(loop.warnings)
         return loop
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
@@ -442,35 +591,79 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    body = profile._scene.set(in_fields(fields))
-    loop = Loop(_native.Loop.of_scene(body, progress), body)
+    with _by_arguments(_CONTACT):
+        body = profile._scene.set(in_fields(fields))
+    with naming("stages", stages):
+        loop = Loop._of(_native.Loop.of_scene(body, progress), body)
     warn_of(loop.warnings)
     return loop
 
 
 def run(
-    scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    **fields: Any,
 ) -> Outcome:
     """Computes a scene as `asperity run` does: on its own profile, and on `profiles` random profiles, by default 16.
 
     `jobs` is the number of threads, by default one for each core. No result depends on it. `progress` is called with the number
     of finished profiles and the number of all profiles.
+
+    >>> outcome = asp.run("pressure-sensitive", adhesion__kappa=2, profiles=4, numerics__points=2048)
+    >>> outcome
+    <Outcome: pull_off_force 448.3 µN, regime pressure-sensitive>
+    >>> outcome.ensemble.pull_off_force
+    <Statistics: median ... µN, quartiles ... µN to ... µN, count 4>
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     outcome = _outcome(_call(scene, fields, profiles, jobs, progress))
     warn_of(outcome._premises())
     return outcome
 
 
-def _outcome(call: tuple[Scene, int | None, int | None, Progress]) -> Outcome:
-    loop = _native.Loop.of_scene(call[0], None)
+def _outcome(call: _Call) -> Outcome:
+    with naming("stages", "the loading of the scene"):
+        loop = _native.Loop.of_scene(call[0], None)
     return Outcome(call[0], _native.run(call, loop), loop)
 
 
 def ensemble(
-    scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    executor: Executor | None = None,
+    **fields: Any,
 ) -> Ensemble:
-    """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    found = Ensemble(_native.ensemble(_call(scene, fields, profiles, jobs, progress)))
+    """Computes a scene on random profiles, by default 16, and returns their statistics.
+
+    >>> found = asp.ensemble("pressure-sensitive", profiles=4, numerics__points=2048)
+    >>> len(found.values("dissipated_energy"))
+    4
+    >>> found.per_profile.to_pandas().attrs["units"]["dissipated_energy"]
+    'J'
+    """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
+    call = _call(scene, fields, profiles, jobs, progress)
+    if executor is None:
+        found = Ensemble(_native.ensemble(call))
+    else:
+        parts = _parts(executor, _native.ensemble_part, call, ())
+        found = Ensemble(_native.ensemble_of_parts(call, parts))
     warn_of(found._premises())
     return found
 
@@ -481,6 +674,10 @@ def find(
     /,
     where: str,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     range: tuple[Quantity, Quantity] | str | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
@@ -491,7 +688,14 @@ def find(
 
     The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times
     of the value in the scene.
+
+    >>> found = asp.find("preload", "pressure-sensitive", "F_a/F_a,max = 20 %", profiles=4)
+    >>> found
+    <Found: F_n = 10.72 µN ... median of 4 profiles.>
+    >>> len(found.values)
+    4
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     field = text(field, "field", "the path of a number of a scene, or preload")
     where = text(where, "where", "a condition such as 'F_a = 1 µN'")
     searched = None if range is None else ends(range, "range")
@@ -505,6 +709,10 @@ def preloads(
     between: tuple[Quantity, Quantity],
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     count: int = 64,
     log: bool = False,
     profiles: int = 1,
@@ -515,7 +723,12 @@ def preloads(
     """Computes the pull-off force after each of `count` preloads between two forces in N, with `log` at equal ratios.
 
     A profile of given heights is allowed, with a modulus: `preloads(profile, (0, "1 µN"), modulus="1 MPa", work="50 mJ/m²")`.
+
+    >>> found = asp.preloads("pressure-sensitive", ("1 µN", "10 µN"), count=4, numerics__points=2048)
+    >>> list(found.to_pandas().columns)
+    ['seed', 'preload', 'preload_indentation', 'pull_off_force', 'pull_off_indentation', 'dissipated_energy']
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     count = whole(count, "count", 2, 10_000)
     axis = f"{ends(between, 'between', _PRELOADS)}:{count}" + (":log" if flag(log, "log") else "")
     found = Preloads(_native.preloads(_call(scene, fields, profiles, jobs, progress, takes_heights=True), axis))
@@ -528,6 +741,10 @@ def reversals(
     between: tuple[Quantity, Quantity] | None = None,
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     count: int = 64,
     progress: Progress = None,
     **fields: Any,
@@ -535,7 +752,12 @@ def reversals(
     """Computes the unloadings of a scene from `count` turning points between two forces in N.
 
     By default the turning points lie between first touch and the preload of the scene.
+
+    >>> found = asp.reversals("pressure-sensitive", count=16, numerics__points=2048)
+    >>> len(found.reversals["pull_off_force"]) == len(found.forces)
+    True
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     forces = None if between is None else ends(between, "between", _PRELOADS)
     count = whole(count, "count", 2, 512)
     found = Reversals(_native.reversals(_call(scene, fields, None, None, progress, takes_heights=True), forces, count))
@@ -547,6 +769,10 @@ def reference(
     scene: AnyScene,
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     grid: int = 64,
     surfaces: int | None = None,
     profiles: int | None = None,
@@ -557,45 +783,101 @@ def reference(
     """Computes a scene in three dimensions on random squares of `grid` × `grid` cells, and on random profiles.
 
     `surfaces` is the number of squares, by default 24 without and 12 with adhesion.
+
+    >>> found = asp.reference("jkr-sphere", grid=32, surfaces=1, profiles=1, numerics__points=512)
+    >>> found.profile_is_exact, round(found.ratio.pull_off_force.value, 1)   # 32 cells are few
+    (True, 0.9)
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     cells = whole(grid, "grid", 1, 2**16)
     count = None if surfaces is None else whole(surfaces, "surfaces", 1, 10_000)
-    found = Reference(_native.reference(_call(scene, fields, profiles, jobs, progress), cells, count))
+    call = _call(scene, fields, profiles, jobs, progress)
+    with naming("grid", grid):
+        found = Reference(_native.reference(call, cells, count))
     warn_of(found._premises())
     return found
 
 
-def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
-    """Returns what other theories say of a scene, each with its number, its threshold and its reference."""
-    found: list[Values] = _outcome(_call(scene, fields, 1, None, None)).criteria
-    return found
+def criteria(
+    scene: AnyScene,
+    /,
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
+    **fields: Any,
+) -> list[Criterion]:
+    """Returns what other theories say of a scene, each with its number, its threshold and its reference.
+
+    >>> [(one.name, one.sticks) for one in asp.criteria("pressure-sensitive", numerics__points=2048)][0]
+    ('Persson & Tosatti 2001', False)
+    """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
+    return _outcome(_call(scene, fields, 1, None, None)).criteria
 
 
 def study(
     scene: AnyScene,
-    axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any] | Quantity],
+    axes: Mapping[str, object],
     /,
     *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     record: Sequence[str] | str = ("pull_off_force", "regime"),
-    profiles: int = 16,
+    profiles: int | None = None,
     jobs: int | None = None,
     progress: Progress = None,
+    executor: Executor | None = None,
     **fields: Any,
 ) -> Study:
-    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles for each.
+    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles, by default 16.
 
     A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
     The fields of a measured roughness in memory are no axes, since its array has no file to be read again.
+
+    >>> axes = {"adhesion.kappa": [1, 4, 16], "roughness.hurst": [0.2, 0.8]}
+    >>> study = asp.study("pressure-sensitive", axes, record="adhesion_share", profiles=4, numerics__points=2048)
+    >>> frame = study.to_pandas()
+    >>> len(frame), frame.attrs["units"]["adhesion_share"]
+    (24, '1')
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     if not isinstance(axes, Mapping):
         raise refused_type("axes", axes, "a dictionary of paths and values, such as {'adhesion.kappa': [2, 6, 20]}")
-    names = [record] if isinstance(record, str) else list(record)
+    names = [record] if isinstance(record, str) else _list(record, "record")
     for name in names:
         text(name, "record", "names of quantities")
     call = _call(scene, fields, profiles, jobs, progress, takes_heights=True)
-    found = Study(_native.study(call, [_axis(name, values) for name, values in axes.items()], names))
+    given = [_axis(name, values) for name, values in axes.items()]
+    call = (_stated_by(call[0], given), *call[1:])
+    with naming("axes", ", ".join(name for name, _ in given)):
+        if executor is None:
+            found = Study(_native.study(call, given, names))
+        else:
+            parts = _parts(executor, _native.study_part, call, (given, names))
+            found = Study(_native.study_of_parts(call, given, names, parts))
     warn_of(found._premises())
     return found
+
+
+def _stated_by(scene: Scene, axes: Sequence[tuple[str, Sequence[float | str]]]) -> Scene:
+    """Returns a scene whose adhesion is stated by the parameter of an axis or a field, such as κ, in place of another one."""
+    for path, values in axes:
+        if path not in _ADHESION or not values or _is_stated(scene, path) or _is_stated(scene, "adhesion.closing_work"):
+            continue
+        if any(_is_stated(scene, other) for other in _ADHESION):
+            adhesion = {path.removeprefix("adhesion."): values[0]}
+            if _is_stated(scene, "adhesion.range"):
+                adhesion["range"] = str(scene.value("adhesion.range"))
+            scene = scene.set(in_fields({"adhesion": adhesion}))
+    return scene
+
+
+def _is_stated(scene: Scene, path: str) -> bool:
+    return scene.value(path) is not None
 
 
 def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:
@@ -626,6 +908,13 @@ def surface(
 
     With a `modulus` in Pa and a `work` of adhesion in J/m², the pull-off force of the equivalent line after a `preload` in N, by
     default turned at zero force, is computed on `profiles` random profiles, by default 16 for at most 131 072 springs.
+
+    >>> heights = 1e-9 * np.random.default_rng(1).standard_normal((64, 64))   # m
+    >>> surface = asp.surface(heights, spacing="0.1 µm")
+    >>> surface.equivalent_line.rms_gradient
+    <MomentOfLine: value ..., error ...>
+    >>> surface.profile("6 µm", 512, form=asp.sphere("1 mm"), seed=3)
+    <Profile: 512 points on 6 µm, height ... nm>
     """
     figures = [_positive(tip_radius, "m", "tip_radius"), _positive(modulus, "Pa", "modulus")]
     figures += [_positive(work, "J/m²", "work"), _positive(preload, "N", "preload")]
@@ -643,7 +932,8 @@ def surface(
     if isinstance(files, (list, tuple)) and files and all(isinstance(file, (str, os.PathLike)) for file in files):
         distance = None if spacing is None else quantity(cast("Quantity", spacing), "m", "spacing")
         form = _measured([path(file, "files") for file in files], False, distance, reading)
-        found = Surface(_native.Surface(_scene_of(form), figures, count, threads, None))
+        with naming("files", files):
+            found = Surface(*_native.surface(_scene_of(form), figures, count, threads, None))
         warn_of(found._premises())
         return found
     for name in ("unit", "height_unit", "channel", "surface_name", "resample"):
@@ -656,9 +946,12 @@ def surface(
     if isinstance(spacing, (tuple, list)):
         distances = list(_pair(spacing, "spacing", "a distance, or the distances along a row and between rows"))
     along, across = (quantity(cast("Quantity", distance), "m", "spacing") for distance in distances)
+    if not (1e-18 <= min(along, across) and max(along, across) <= 1e9):
+        raise refusal("spacing", spacing, "from 1e-18 to 1e9 m")
     scene = _scene_of(_measured(["array"], False, None, reading))
     map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
-    found = Surface(_native.Surface(scene, figures, count, threads, map_of_heights))
+    with naming("heights", f"an array of the shape {heights.shape}"):
+        found = Surface(*_native.surface(scene, figures, count, threads, map_of_heights))
     warn_of(found._premises())
     return found
 
@@ -668,23 +961,102 @@ def _scene_of(roughness: Form) -> Scene:
 
 
 def _positive(value: Quantity | None, unit: str, field: str) -> float | None:
-    if value is None:
-        return None
+    return None if value is None else _above_zero(value, unit, field)
+
+
+def _above_zero(value: Quantity, unit: str, field: str) -> float:
     number = quantity(value, unit, field)
     if not 0 < number < float("inf"):
-        raise refusal(field, value, f"above 0 {unit}")
+        raise refusal(field, value, f"above 0 {unit}".removesuffix(" 1"))
     return number
 
 
+@overload
 def fit(
     curves: _Curve | Sequence[_Curve],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
     *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: int,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> EnsembleFit: ...
+@overload
+def fit(
+    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fit: ...
+@overload
+def fit(
+    curves: list[str] | list[Path] | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fits: ...
+@overload
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = ...,
+    work: Quantity | None = ...,
+    closing_work: Quantity | None = ...,
+    stages: Stages | None = ...,
+    profiles: None = ...,
+    jobs: int | None = ...,
+    progress: Progress = ...,
+    executor: Executor | None = ...,
+    options: Mapping[str, Any] | None = ...,
+    **fields: Any,
+) -> Fit | Fits: ...
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    modulus: Quantity | None = None,
+    work: Quantity | None = None,
+    closing_work: Quantity | None = None,
+    stages: Stages | None = None,
     profiles: int | None = None,
     jobs: int | None = None,
     progress: Progress = None,
+    executor: Executor | None = None,
     options: Mapping[str, Any] | None = None,
     **fields: Any,
 ) -> Fit | Fits | EnsembleFit:
@@ -695,13 +1067,25 @@ def fit(
     radius, and second_radius and behind of two spheres. A dictionary gives their ranges as well. With `profiles`, one work of adhesion is found for all curves of a rough
     body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help` lists
     them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
+
+    >>> ball = asp.profile("100 µm", 1024, form=asp.sphere("100 µm"))
+    >>> loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
+    >>> away = np.linspace(-1e-6, 0, 100)   # no contact before and after the loop
+    >>> d = np.r_[away[:-1], loop.indentation, loop.indentation[-1] + away[::-1]]
+    >>> force = np.r_[0 * away[:-1], loop.force, 0 * away] + 20e-9 * np.random.default_rng(1).standard_normal(len(d))
+    >>> fit = asp.fit((d, force), "jkr-sphere", ["work", "offset"], modulus="1 MPa", form__radius="100 µm", numerics__points=512)
+    >>> round(fit.work.value, 3), fit.described
+    (0.05, True)
     """
+    fields = _with_contact(fields, modulus, work, closing_work, stages)
     is_single = _is_curve(curves)
     given: list[Any] = [curves] if is_single else _list(curves, "curves")
     if not given:
         raise refusal("curves", given, "a curve, or a list of at least one curve")
     all_curves = [_curve(number, curve) for number, curve in enumerate(given)]
     named = [name if between is None else f"{name}={ends(between, name)}" for name, between in _ranges(free)]
+    if not named:
+        raise refusal("free", free, "at least one name of a parameter")
     if options is not None and not isinstance(options, Mapping):
         raise refused_type("options", options, "a dictionary such as {'noise': '2 nN'}")
     for name in options or {}:
@@ -710,7 +1094,18 @@ def fit(
     count = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     words = [f"--free={name}" for name in named] + in_words({"profiles": count, **(options or {})})
     call = _call(scene, fields, None, jobs, progress, takes_heights=True)
-    report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
+    words += ["curves", "scene"]
+    shown = ", ".join(name for name, _ in all_curves)
+    if executor is None or is_single or count is not None:
+        with naming("curves", shown):
+            report = _native.fit(call, (all_curves, is_single), words)
+    else:
+        check_executor(executor)
+        several = ranges(len(all_curves))
+        tasks = [(_in_process(call, jobs), all_curves[first:end], words) for first, end in several]
+        parts = gathered(executor, _native.fits_part, tasks, [end - first for first, end in several], progress)
+        with naming("curves", shown):
+            report = _native.fits_of_parts(call, all_curves, words, parts)
     found: Fit | Fits | EnsembleFit
     if count is not None:
         found = EnsembleFit(report)
@@ -758,7 +1153,8 @@ def _curve(index: int, curve: Any) -> tuple[str, Any]:
 
 
 def _list(values: Any, field: str) -> list[Any]:
-    allowed = "a file, two arrays, or a list of these" if field == "curves" else "names, or a dictionary of names and ranges"
+    kinds = {"curves": "a file, two arrays, or a list of these", "free": "names, or a dictionary of names and ranges"}
+    allowed = kinds.get(field, "a name, or a list of names")
     if isinstance(values, (bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise refused_type(field, values, allowed)
     if hasattr(values, "shape"):
@@ -784,27 +1180,60 @@ def press(
     force: Quantity,
     periodic: bool = False,
     residual: float = 1e-8,
-) -> Values:
+) -> Pressed:
     """Presses a rigid square map of heights in m on an elastic half-space in three dimensions, without adhesion.
 
     The side of the map is in m, the effective modulus in Pa, the force in N. The map has 32, 64, 128 … cells along a side. The
     conditions of contact are violated by at most `residual` rms heights. `pressure` in Pa and `gap` in m of the result are
     maps.
+
+    >>> x = (np.arange(64) + 0.5) / 64 - 0.5
+    >>> heights = -np.add.outer(x**2, x**2) / 2   # a sphere with R = 1 m
+    >>> pressed = asp.press(heights, side=1, modulus=1, force=0.01)
+    >>> pressed.pressure.shape
+    (64, 64)
     """
-    load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
+    load = (
+        _above_zero(side, "m", "side"),
+        _above_zero(modulus, "Pa", "modulus"),
+        _above_zero(force, "N", "force"),
+    )
     square = numbers(heights, "heights", (2,))
     cells = len(square)
     if square.shape != (cells, cells):
         raise refusal("heights", f"an array of the shape {square.shape}", "a square map")
-    maps, figures = _native.press(square, load, flag(periodic, "periodic"), quantity(residual, "1", "residual"))
+    with naming("heights", f"an array of the shape {square.shape}"):
+        maps, figures = _native.press(square, load, flag(periodic, "periodic"), _above_zero(residual, "1", "residual"))
     pressure, gap = (found.reshape(cells, cells) for found in maps)
-    found = Values(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
-    return Values(found, convolutions=int(found.convolutions), pressure=pressure, gap=gap)
+    found = dict(zip(["force", "indentation", "area", "residual", "convolutions"], figures, strict=True))
+    return Pressed({**found, "convolutions": int(found["convolutions"]), "pressure": pressure, "gap": gap})
 
 
 def presets() -> list[str]:
-    """Returns the names of the built-in scenes."""
+    """Returns the names of the built-in scenes.
+
+    >>> "jkr-sphere" in asp.presets()
+    True
+    """
     return _native.presets()
+
+
+def _in_process(call: _Call, jobs: int | None) -> _Call:
+    """Returns a call as another process gets it: without the function of the progress, and with one thread by default."""
+    return call[0], call[1], 1 if jobs is None else jobs, None
+
+
+def _parts(executor: Executor, task: Callable[..., str], call: _Call, arguments: tuple[Any, ...]) -> list[str]:
+    """Computes the random profiles of a call in parts, on an executor."""
+    check_executor(executor)
+    scene, profiles, jobs, progress = call
+    count = _native.profiles_of(scene) if profiles is None else profiles
+    several = ranges(count)
+    sent = (scene, count, 1 if jobs is None else jobs, None)
+    # Without profiles, the task only checks the call, so that an error appears here and not in each process.
+    task(sent, *arguments, 0, 0)
+    tasks = [(sent, *arguments, first, end) for first, end in several]
+    return gathered(executor, task, tasks, [end - first for first, end in several], progress)
 
 
 def _call(
@@ -814,7 +1243,7 @@ def _call(
     jobs: int | None,
     progress: Progress,
     takes_heights: bool = False,
-) -> tuple[Scene, int | None, int | None, Progress]:
+) -> _Call:
     profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
     _check_progress(progress)

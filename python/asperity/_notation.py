@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 Quantity: TypeAlias = SupportsFloat | str
 
 
+#: Largest number of characters with which a form is shown.
+_LONGEST_FORM = 200
+
+
 class Text(str):
     """A text that a scene file has in quotes. All other texts are written as they are, since they may be quantities."""
 
@@ -29,8 +33,13 @@ class Form:
         self.kind = kind
         self.values = {name: value for name, value in values.items() if value is not None}
 
-    def __repr__(self) -> str:
+    def notation(self) -> str:
+        """Returns the form or roughness as a scene file has it."""
         return self.kind + in_scene(self.values, "values")
+
+    def __repr__(self) -> str:
+        text = self.notation()
+        return text if len(text) <= _LONGEST_FORM else f"{text[:_LONGEST_FORM]}…"
 
 
 def described(value: object) -> str:
@@ -62,8 +71,10 @@ def in_scene(value: Any, field: str) -> str:
         return quoted(value)
     if isinstance(value, str):
         return value
-    if value is None or isinstance(value, Form):
-        return repr(value)
+    if isinstance(value, Form):
+        return value.notation()
+    if value is None:
+        return "None"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, os.PathLike):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._notation import Quantity, numbers, quantity, refusal
@@ -29,28 +29,52 @@ class Profile:
     Tabor number.
     """
 
-    #: Distance between points in m.
-    spacing: float
-    #: Length of the profile in m.
-    length: float
-
     def __init__(self, heights: npt.ArrayLike, spacing: Quantity, *, nominal_form: str | None = None) -> None:
         distance = quantity(spacing, "m", "spacing")
         if nominal_form is not None and nominal_form not in ("flat", "curved"):
             raise refusal("nominal_form", nominal_form, "flat, curved or None")
         is_curved = None if nominal_form is None else nominal_form == "curved"
-        self._take(_native.Profile(numbers(heights, "heights"), distance, is_curved), None)
+        given = numbers(heights, "heights").copy()
+        self._take(_native.Profile(given, distance, is_curved), None, (Profile._of_heights, (given, distance, nominal_form)))
+
+    @staticmethod
+    def _of_heights(heights: npt.NDArray[np.float64], spacing: float, nominal_form: str | None) -> Profile:
+        return Profile(heights, spacing, nominal_form=nominal_form)
 
     @classmethod
-    def _of(cls, native: _native.Profile, scene: _native.Scene | None) -> Profile:
+    def _of_scene(cls, scene: _native.Scene) -> Profile:
+        """Returns the profile of a scene, whose modulus is a placeholder."""
         profile = cls.__new__(cls)
-        profile._take(native, scene)
+        profile._take(_native.Profile.of_scene(scene), scene, (cls._of_scene, (scene,)))
         return profile
 
-    def _take(self, native: _native.Profile, scene: _native.Scene | None) -> None:
-        # A scene with the form and the roughness, and with a placeholder for the modulus; None if the heights were given.
+    @classmethod
+    def _of_roughness(cls, plain: _native.Scene, heights: npt.NDArray[np.float64]) -> Profile:
+        """Returns the profile of a scene without roughness, on which these heights are the roughness."""
+        profile = cls.__new__(cls)
+        given = heights.copy()
+        profile._take(_native.Profile.of_roughness(plain, given), None, (cls._of_roughness, (plain, given)))
+        return profile
+
+    def _take(self, native: _native.Profile, scene: _native.Scene | None, made: tuple[Any, tuple[Any, ...]]) -> None:
+        # The scene has the form and the roughness; None if the heights were given.
         self._native, self._scene = native, scene
-        self._points, self.spacing, self.length = native.size()
+        # Function and arguments that make the profile again.
+        self._made = made
+        self._points, self._spacing, self._length = native.size()
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        return self._made
+
+    @property
+    def spacing(self) -> float:
+        """Distance between points in m."""
+        return self._spacing
+
+    @property
+    def length(self) -> float:
+        """Length of the profile in m."""
+        return self._length
 
     @cached_property
     def _columns(self) -> list[npt.NDArray[np.float64]]:
@@ -75,4 +99,23 @@ class Profile:
         return self._points
 
     def __repr__(self) -> str:
-        return f"<Profile of {len(self)} points on {_native.in_words(self.length, 'm')}>"
+        return f"<Profile: {len(self)} points on {_native.in_words(self.length, 'm')}, height {_native.in_words(self._height(), 'm')}>"
+
+    def _height(self) -> float:
+        return float(self.gaps.max())
+
+    def _repr_svg_(self) -> str:
+        """Returns a figure of the heights for notebooks."""
+        import numpy as np
+
+        # As many points as a picture can show; the highest of each group keeps the peaks.
+        groups = np.array_split(self.heights, min(len(self), 600))
+        tops = np.array([group.max() for group in groups])
+        x = np.linspace(0, 600, len(tops))
+        y = 150 * (tops.max() - tops) / (np.ptp(self.heights) or 1)
+        points = " ".join(f"{a:.1f},{b + 5:.1f}" for a, b in zip(x, y, strict=True))
+        return (
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 180" width="600" role="img">'
+            f'<title>{repr(self)[1:-1]}</title><polyline points="{points}" fill="none" stroke="#0072b2"/>'
+            f'<text x="0" y="176" font-size="12">{repr(self)[1:-1]}</text></svg>'
+        )

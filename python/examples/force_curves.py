@@ -13,8 +13,8 @@ folder.mkdir(exist_ok=True)
 body = asp.profile("24 µm", 4096, form=asp.sphere(radius))
 for number in range(6):
     loop = asp.load(body, modulus=modulus, work=work, stages="2 µN, separation", samples=200)
-    d = np.r_[np.linspace(-200e-9, -1e-9, 100), loop.d, np.linspace(0, -200e-9, 100) + loop.d[-1]]
-    force = np.r_[np.zeros(100), loop.F, np.zeros(100)] + 2e-9 * noise.standard_normal(len(loop) + 200)
+    d = np.r_[np.linspace(-200e-9, -1e-9, 100), loop.indentation, np.linspace(0, -200e-9, 100) + loop.indentation[-1]]
+    force = np.r_[np.zeros(100), loop.force, np.zeros(100)] + 2e-9 * noise.standard_normal(len(loop) + 200)
     shift = 1e-7 * noise.random()
     table = np.c_[d + shift, force]
     np.savetxt(folder / f"{number}.csv", table, delimiter=",", header="displacement (m),force (N)", comments="")

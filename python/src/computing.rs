@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{Builder, scope};
+use std::thread::Builder;
 use std::time::Duration;
 
 /// Message of the exception that is raised if the program has a defect (a panic).
@@ -42,7 +42,9 @@ impl Watch {
     /// Calls the callback with two numbers: the number of finished parts of the computation, and
     /// the number of all parts.
     pub fn report(&self, done: u64, all: u64) {
-        if let Some(progress) = &self.progress {
+        if let Some(progress) = &self.progress
+            && !self.stop()
+        {
             self.keep(Python::attach(|py| {
                 progress.call1(py, (done, all)).map(drop)
             }));
@@ -63,42 +65,54 @@ impl Watch {
 /// Runs a computation on a thread of its own, without the lock of Python (GIL), and returns its
 /// result. Meanwhile the calling thread checks for signals, because it may be the only thread that
 /// receives them.
-pub fn computed<R: Send>(
+///
+/// After a signal or an exception of the callback, the calling thread does not wait. The
+/// computation learns from [`Watch::stop`] that it must stop, but a single Fourier transform may
+/// take seconds, and its end is of no interest. The computation therefore owns its data.
+pub fn computed<R: Send + 'static>(
     py: Python<'_>,
     progress: Progress,
-    work: impl FnOnce(&Watch) -> Result<R, Failure> + Send,
+    work: impl FnOnce(&Watch) -> Result<R, Failure> + Send + 'static,
 ) -> PyResult<R> {
-    let watch = Watch {
+    let watch = Arc::new(Watch {
         progress,
         ..Watch::default()
-    };
-    let done = py.detach(|| {
-        let (ended, end) = channel::<()>();
-        let watch = &watch;
-        scope(|scope| {
-            let started = Builder::new().spawn_scoped(scope, move || {
-                // `_ended` is dropped when the computation ends, even by a panic. This wakes the
-                // waiting thread.
-                let _ended = ended;
-                work(watch)
-            });
-            let worker = started.map_err(|error| {
-                PyRuntimeError::new_err(format!("could not start a thread: {error}"))
-            })?;
-            while end.recv_timeout(Duration::from_millis(50)) == Err(RecvTimeoutError::Timeout) {
-                watch.keep(Python::attach(|py| py.check_signals()));
-            }
-            Ok::<_, PyErr>(worker.join())
+    });
+    let shared = Arc::clone(&watch);
+    let (sender, receiver) = channel();
+    let worker = Builder::new()
+        .spawn(move || {
+            let result = work(&shared);
+            // Nobody receives the result of a computation that was stopped.
+            let _ = sender.send(result);
         })
+        .map_err(|error| PyRuntimeError::new_err(format!("could not start a thread: {error}")))?;
+    let waiting = Arc::clone(&watch);
+    let received = py.detach(move || {
+        loop {
+            match receiver.recv_timeout(Duration::from_millis(50)) {
+                Err(RecvTimeoutError::Timeout) => {
+                    waiting.keep(Python::attach(|py| py.check_signals()));
+                }
+                received => return received.ok(),
+            }
+            if waiting.stop() {
+                return None;
+            }
+        }
     });
     if let Some(error) = watch
         .raised
-        .into_inner()
+        .lock()
         .unwrap_or_else(PoisonError::into_inner)
+        .take()
     {
         return Err(error);
     }
-    Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
+    // The thread has sent its result, or has ended by a panic.
+    py.detach(|| worker.join())
+        .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
+    Ok(received.ok_or_else(|| PyRuntimeError::new_err(DEFECT))??)
 }
 
 /// Arguments of a call from Python: a scene, the number of profiles, the number of threads, and the
@@ -120,6 +134,19 @@ impl Case<'_> {
     /// Returns a simulation of the scene.
     pub fn simulation(&self) -> Simulation {
         simulation(&self.document, self.in_memory.as_ref())
+    }
+
+    /// Returns an error if several random profiles are requested of a scene with a fixed profile.
+    pub fn check_profiles(&self) -> Result<(), Failure> {
+        if self.profiles > 1 && self.document.scene().seed().is_none() {
+            let allowed = "1, since the profile of this scene is fixed";
+            return Err(Failure::field(
+                "profiles",
+                &self.profiles.to_string(),
+                allowed,
+            ));
+        }
+        Ok(())
     }
 
     /// Runs the computation `work`, which consists of `all` parts and which a signal or the
@@ -147,10 +174,10 @@ impl Case<'_> {
 
 impl Call {
     /// Runs the computation `work` on the data of this call, by the function [`computed`].
-    pub fn computed<R: Send>(
+    pub fn computed<R: Send + 'static>(
         self,
         py: Python<'_>,
-        work: impl FnOnce(Case<'_>) -> Result<R, Failure> + Send,
+        work: impl FnOnce(Case<'_>) -> Result<R, Failure> + Send + 'static,
     ) -> PyResult<R> {
         let Call(scene, profiles, jobs, progress) = self;
         let Scene {

@@ -10,7 +10,7 @@ use asperity::study::StudyError;
 use asperity::surface::SurfaceError;
 use asperity_half_space::HalfSpaceError;
 use pyo3::call::PyCallArgs;
-use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
 use std::fs::File;
@@ -33,10 +33,12 @@ pub struct Failure(PyErr);
 impl Failure {
     /// Creates a failure with an exception of the class `name`, which the Python package defines.
     fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
-        Failure(Python::attach(|py| match exception(py, name, values) {
+        // A computation that was stopped may fail while the interpreter ends.
+        let error = Python::try_attach(|py| match exception(py, name, values) {
             Ok(exception) => PyErr::from_value(exception),
             Err(error) => error,
-        }))
+        });
+        Failure(error.unwrap_or_else(|| PyRuntimeError::new_err("the interpreter ends")))
     }
 
     /// Creates the failure for a value that is not allowed. `field` is the name of the argument,
@@ -58,6 +60,25 @@ impl Failure {
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
         let message = format!("{} = \"{}\": {reason}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, &reason.to_string())
+    }
+
+    /// Creates the failure for an argument that an error refuses without its name. The words after
+    /// `allowed: ` in the error describe the allowed values.
+    pub fn of_argument(field: &str, value: &str, error: &impl Display) -> Failure {
+        let message = error.to_string();
+        let allowed = message.rsplit("allowed: ").next().unwrap_or_default();
+        Failure::field_in_words(message.clone(), field, value, allowed)
+    }
+
+    /// Creates the failure for an argument that a study refuses. Other errors of the study keep
+    /// their own exceptions.
+    pub fn of_refusal(field: &str, value: &str, error: StudyError) -> Failure {
+        match error {
+            StudyError::Refused { .. } => {
+                Failure::of_argument(field, value, &error.in_words(argument))
+            }
+            error => error.into(),
+        }
     }
 
     /// Creates the failure of a function that reads files. If a file cannot be opened, the failure
@@ -114,7 +135,12 @@ impl From<SceneErrors> for Failure {
         if field.is_empty() {
             return message.into();
         }
-        Failure::field_in_words(message, field, value, allowed)
+        let allowed = if allowed.is_empty() {
+            &message
+        } else {
+            allowed
+        };
+        Failure::field_in_words(message.clone(), field, value, allowed)
     }
 }
 

@@ -4,8 +4,10 @@ use crate::advice::argument;
 use crate::computing::{Call, Case};
 use crate::failure::Failure;
 use crate::results::{Report, bytes, named};
+use crate::scene::{read_again, written};
 use crate::words::command;
 use asperity::cli::arguments::Command;
+use asperity::cli::fit::FitArguments;
 use asperity::data::{Control, Remedied, counted, on_threads, path_name};
 use asperity::experiment::{
     CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
@@ -56,6 +58,37 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     Err(Failure::of_files(&files, message))
 }
 
+/// A fit as the caller has asked for it: options of the command `asperity fit`, and those of
+/// reading the curves.
+struct Asked {
+    arguments: FitArguments,
+    reading: CurveOptions,
+}
+
+impl Asked {
+    fn new(case: &Case, words: Vec<String>) -> Result<Self, Failure> {
+        let Some(Command::Fit(arguments)) = command("fit", words)? else {
+            return Err("fit: no options of a fit".to_owned().into());
+        };
+        let reading = CurveOptions {
+            instrument: case.document.scene().loading_stiffness,
+            ..arguments.reading.clone()
+        };
+        Ok(Asked { arguments, reading })
+    }
+
+    fn fit<'a>(&self, case: &'a Case) -> Fit<'a> {
+        let mut fit = Fit::of(&case.document);
+        if let Some(measured) = &case.in_memory {
+            fit = fit.with_measured(Arc::clone(measured));
+        }
+        for parameter in &self.arguments.free {
+            fit = fit.free(*parameter);
+        }
+        fit
+    }
+}
+
 /// Fits a scene to measured curves. Each curve is fitted separately or, with random profiles, all
 /// curves are fitted together. `words` are options of the command `asperity fit`.
 #[pyfunction]
@@ -66,32 +99,59 @@ pub fn fit(
     words: Vec<String>,
 ) -> PyResult<Report> {
     let (curves, is_one) = curves;
-    call.computed(py, |case| {
-        let Some(Command::Fit(arguments)) = command("fit", words)? else {
-            return Err("fit: no options of a fit".to_owned().into());
-        };
-        let reading = CurveOptions {
-            instrument: case.document.scene().loading_stiffness,
-            ..arguments.reading
-        };
-        if let Some(profiles) = arguments.ensemble.lines {
-            let options = arguments
+    call.computed(py, move |case| {
+        let asked = Asked::new(&case, words)?;
+        if let Some(profiles) = asked.arguments.ensemble.lines {
+            let options = asked
+                .arguments
                 .ensemble
-                .options(&arguments.free, profiles)
+                .options(&asked.arguments.free, profiles)
                 .map_err(|error| error.to_string())?;
-            return fit_together(&case, &curves, &reading, &options);
+            return fit_together(&case, &curves, &asked.reading, &options);
         }
-        let mut fit = Fit::of(&case.document);
-        if let Some(measured) = &case.in_memory {
-            fit = fit.with_measured(Arc::clone(measured));
-        }
-        for parameter in &arguments.free {
-            fit = fit.free(*parameter);
-        }
+        let fit = asked.fit(&case);
         match &curves[..] {
-            [curve] if is_one => fit_single(&case, &fit, curve, &reading),
-            _ => fit_each(&case, &fit, &arguments.free, &curves, &reading),
+            [curve] if is_one => fit_single(&case, &fit, curve, &asked.reading),
+            _ => {
+                let rows = fit_each(&case, &fit, &curves, &asked.reading)?;
+                report_of_rows(&case, &asked.arguments.free, &curves, rows)
+            }
         }
+    })
+}
+
+/// Fits a scene to some of several curves, for another process that gathers the rows by
+/// [`fits_of_parts`]. Returns the rows as text.
+#[pyfunction]
+pub fn fits_part(
+    py: Python<'_>,
+    call: Call,
+    curves: Vec<Curve>,
+    words: Vec<String>,
+) -> PyResult<String> {
+    call.computed(py, move |case| {
+        let asked = Asked::new(&case, words)?;
+        let fit = asked.fit(&case);
+        written(&fit_each(&case, &fit, &curves, &asked.reading)?)
+    })
+}
+
+/// Returns the report on several curves, each of which [`fits_part`] has fitted.
+#[pyfunction]
+pub fn fits_of_parts(
+    py: Python<'_>,
+    call: Call,
+    curves: Vec<Curve>,
+    words: Vec<String>,
+    parts: Vec<String>,
+) -> PyResult<Report> {
+    call.computed(py, move |case| {
+        let asked = Asked::new(&case, words)?;
+        let mut rows = Vec::with_capacity(curves.len());
+        for part in &parts {
+            rows.extend(read_again::<Vec<CurveRow>>(part)?);
+        }
+        report_of_rows(&case, &asked.arguments.free, &curves, rows)
     })
 }
 
@@ -155,10 +215,9 @@ fn fit_single(
 fn fit_each(
     case: &Case,
     fit: &Fit,
-    free: &[Free],
     curves: &[Curve],
     reading: &CurveOptions,
-) -> Result<Report, Failure> {
+) -> Result<Vec<CurveRow>, Failure> {
     let watch = case.watch;
     let stop = || watch.stop();
     let done = AtomicU64::new(0);
@@ -174,7 +233,16 @@ fn fit_each(
         }
         Ok(row)
     };
-    let rows = on_threads(all, case.jobs, || fit_number)?;
+    Ok(on_threads(all, case.jobs, || fit_number)?)
+}
+
+/// Returns the report on several curves, of which at least one must be fitted.
+fn report_of_rows(
+    case: &Case,
+    free: &[Free],
+    curves: &[Curve],
+    rows: Vec<CurveRow>,
+) -> Result<Report, Failure> {
     check_any_fitted(curves, &rows)?;
     let mut parameters = Vec::new();
     for parameter in Parameter::ALL {

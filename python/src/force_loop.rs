@@ -31,27 +31,30 @@ pub struct Profile {
 impl Profile {
     #[new]
     fn new(
+        py: Python<'_>,
         heights: PyReadonlyArray1<'_, f64>,
         spacing: f64,
         is_curved: Option<bool>,
     ) -> PyResult<Self> {
-        let profile = asperity::Profile::from_heights(heights.as_slice()?, spacing);
+        let heights = heights.as_slice()?.to_vec();
         let nominal_form = match is_curved {
             Some(true) => NominalForm::Curved,
             Some(false) => NominalForm::Flat,
             None => NominalForm::Unstated,
         };
-        Ok(Profile {
-            profile: profile
-                .map_err(Failure::from)?
-                .with_nominal_form(nominal_form),
+        computed(py, None, move |_| {
+            let profile = asperity::Profile::from_heights(heights, spacing)?;
+            Ok(Profile {
+                profile: profile.with_nominal_form(nominal_form),
+            })
         })
     }
 
     /// Returns the profile of a scene.
     #[staticmethod]
-    fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        computed(py, None, |_| {
+    fn of_scene(py: Python<'_>, scene: Py<Scene>) -> PyResult<Self> {
+        computed(py, None, move |_| {
+            let scene = scene.get();
             let profile = scene
                 .simulation()
                 .for_one_scene()
@@ -63,15 +66,21 @@ impl Profile {
     /// Returns a profile with the form of a scene, and with the given heights in m as its
     /// roughness.
     #[staticmethod]
-    fn of_roughness(scene: &Scene, heights: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+    fn of_roughness(
+        py: Python<'_>,
+        scene: &Scene,
+        heights: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Self> {
         let scene = scene.document.scene();
         let mut builder = ProfileBuilder::new(scene.length, heights.len()?);
         if let Some(form) = &scene.form {
             builder = builder.form(form.clone());
         }
-        let profile = builder.build_with(heights.as_slice()?.to_vec());
-        Ok(Profile {
-            profile: profile.map_err(Failure::from)?,
+        let heights = heights.as_slice()?.to_vec();
+        computed(py, None, move |_| {
+            Ok(Profile {
+                profile: builder.build_with(heights)?,
+            })
         })
     }
 
@@ -170,17 +179,17 @@ impl Loop {
     #[staticmethod]
     fn of_heights(
         py: Python<'_>,
-        profile: &Profile,
+        profile: Py<Profile>,
         load: Load,
         progress: Progress,
     ) -> PyResult<Loop> {
-        computed(py, progress, |watch| {
+        computed(py, progress, move |watch| {
             let Loading {
                 contact,
                 targets,
                 stiffness,
                 samples,
-            } = Loading::new(profile, &load)?;
+            } = Loading::new(profile.get(), &load)?;
             let mut proceed = |stage| {
                 watch.report(stage as u64, targets.len() as u64);
                 !watch.stop()
@@ -206,16 +215,16 @@ impl Loop {
     #[staticmethod]
     fn events_of_heights<'py>(
         py: Python<'py>,
-        profile: &Profile,
+        profile: Py<Profile>,
         load: Load,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let table = computed(py, None, |watch| {
+        let table = computed(py, None, move |watch| {
             let Loading {
                 contact,
                 targets,
                 stiffness,
                 samples,
-            } = Loading::new(profile, &load)?;
+            } = Loading::new(profile.get(), &load)?;
             let mut proceed = |_| !watch.stop();
             let mut jumps = JumpCollector::default();
             let options = LoadOptions::default()
@@ -232,9 +241,10 @@ impl Loop {
     /// Computes the loading of the body of a scene, and returns its events as
     /// [`Self::events_of_heights`] does.
     #[staticmethod]
-    fn events_of_scene<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyBytes>> {
-        let mut simulation = scene.simulation().for_one_scene();
-        let table = computed(py, None, |watch| {
+    fn events_of_scene<'py>(py: Python<'py>, scene: Py<Scene>) -> PyResult<Bound<'py, PyBytes>> {
+        let table = computed(py, None, move |watch| {
+            let scene = scene.get();
+            let mut simulation = scene.simulation().for_one_scene();
             let scene = scene.document.scene();
             let mut jumps = JumpCollector::default();
             let mut observe =
@@ -249,9 +259,10 @@ impl Loop {
 
     /// Computes the loading of the body of a scene.
     #[staticmethod]
-    fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
-        let mut simulation = scene.simulation().for_one_scene();
-        computed(py, progress, |watch| {
+    fn of_scene(py: Python<'_>, scene: Py<Scene>, progress: Progress) -> PyResult<Loop> {
+        computed(py, progress, move |watch| {
+            let scene = scene.get();
+            let mut simulation = scene.simulation().for_one_scene();
             let scene = scene.document.scene();
             let mut done = 0;
             let outcome = simulation.run(scene, &|| watch.stop(), &mut |_, _, _| {

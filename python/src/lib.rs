@@ -8,6 +8,7 @@ mod computing;
 mod failure;
 mod fit;
 mod force_loop;
+mod parts;
 mod press;
 mod quantity;
 mod results;
@@ -22,13 +23,14 @@ mod _native {
 
     #[pymodule_export]
     use super::{
-        fit::fit,
+        fit::{fit, fits_of_parts, fits_part},
         force_loop::{Loop, Profile},
+        parts::{ensemble_of_parts, ensemble_part, profiles_of, study_of_parts, study_part},
         press::press,
-        quantity::{in_field, in_words, parsed, shown, unit_of},
+        quantity::{in_field, in_words, parsed, quantities, shown, unit_of},
         results::{Report, ensemble, find, preloads, reference, reversals, run, study},
         scene::{Scene, presets},
-        surface::Surface,
+        surface::surface,
     };
 
     /// Runs the program with the given arguments and returns the exit code. The first argument is

@@ -24,7 +24,7 @@ pub fn press<'py>(
     let cells = heights.shape()[0];
     let heights = heights.as_slice()?.to_vec();
     let (side, modulus, force) = load;
-    let found = computed(py, None, |watch| {
+    let found = computed(py, None, move |watch| {
         let square = Square {
             heights: &heights,
             side,

@@ -4,6 +4,7 @@
 use crate::failure::Failure;
 use asperity::data::{format_quantity, parse_quantity};
 use asperity::scene::fields::field;
+use asperity::study::Quantity;
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -45,6 +46,21 @@ pub fn shown(text: &str) -> String {
 #[pyfunction]
 pub fn in_words(value: f64, unit: &str) -> String {
     format_quantity(value, unit)
+}
+
+/// Returns the quantities that a study records: name, symbol, unit and description of each.
+#[pyfunction]
+pub fn quantities() -> Vec<[&'static str; 4]> {
+    let mut rows = Vec::new();
+    for quantity in Quantity::ALL {
+        rows.push([
+            quantity.name(),
+            quantity.symbol(),
+            quantity.unit(),
+            quantity.meaning(),
+        ]);
+    }
+    rows
 }
 
 /// NumPy array that Python code cannot change.

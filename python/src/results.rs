@@ -13,12 +13,14 @@ use asperity::study::{
     compute_with_measured,
 };
 use asperity::surface::lines::MeasuredRoughness;
+use asperity_plot::{pdf_of_svg, png_of_svg};
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, Report as Reported, ReversalReport,
-    RunReport, scene_provenance,
+    RunReport, missing_form, scene_provenance,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -79,7 +81,42 @@ impl Report {
             .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
         written.map_err(|error| PyValueError::new_err(error.to_string()))
     }
+
+    /// Returns the result in each format that it has, for its copies and for other processes. PNG
+    /// and PDF follow from SVG.
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (Forms,))> {
+        let mut forms = Forms::new();
+        for format in Format::ALL {
+            if !matches!(format, Format::Png | Format::Pdf)
+                && let Ok(written) = self.write(py, format.name())
+            {
+                forms.insert(format.name().to_owned(), written);
+            }
+        }
+        let restored = py.get_type::<Report>().getattr("restored")?;
+        Ok((restored.unbind(), (forms,)))
+    }
+
+    /// Returns the result whose forms [`Self::__reduce__`] has returned.
+    #[staticmethod]
+    fn restored(forms: Forms) -> Report {
+        Report::new(move |format| {
+            if let Some(written) = forms.get(format.name()) {
+                return Ok(written.clone());
+            }
+            let svg = forms.get(Format::Svg.name()).map(Vec::as_slice);
+            let svg = str::from_utf8(svg.unwrap_or_default()).map_err(io::Error::other)?;
+            match format {
+                Format::Png if !svg.is_empty() => png_of_svg(svg),
+                Format::Pdf if !svg.is_empty() => pdf_of_svg(svg),
+                _ => Err(missing_form(format)),
+            }
+        })
+    }
 }
+
+/// Bytes of a result by the names of the formats in which it was written.
+type Forms = BTreeMap<String, Vec<u8>>;
 
 fn done_of_ensemble(ensemble: &Ensemble) -> Option<u64> {
     Some(ensemble.computed())
@@ -103,6 +140,7 @@ fn done(parts: &u64) -> Option<u64> {
 /// to the usual ones.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let scene = case.document.scene();
+    case.check_profiles()?;
     case.watched(case.profiles, done_of_ensemble, |control| {
         Ensemble::of(
             scene,
@@ -126,7 +164,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         .outcome
         .clone()
         .ok_or_else(|| PyValueError::new_err("no scene"))?;
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let scene = case.document.scene();
         let folder = case.document.resolve("");
         let mut ensemble = None;
@@ -159,7 +197,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
 /// Computes a scene on random profiles.
 #[pyfunction]
 pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let ensemble = on_profiles(&case, &Ensemble::FURTHER)?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &ensemble, format)
@@ -172,22 +210,26 @@ pub fn ensemble(py: Python<'_>, call: Call) -> PyResult<Report> {
 pub fn find(
     py: Python<'_>,
     call: Call,
-    field: &str,
-    value: &str,
-    range: Option<&str>,
+    field: String,
+    value: String,
+    range: Option<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
+        case.check_profiles()?;
         let scene = case.document.scene();
         let mut simulation = case.simulation();
         let mut question = Question::new(
             scene,
-            field,
-            Question::parse_condition(value)?,
+            &field,
+            Question::parse_condition(&value)
+                .map_err(|error| Failure::of_argument("where", &value, &error))?,
             case.profiles,
             &mut simulation,
-        )?;
+        )
+        .map_err(|error| Failure::of_refusal("field", &field, error))?;
         if let Some(range) = range {
-            question.searched = Axis::parse_range(range, question.axis.unit)?;
+            question.searched = Axis::parse_range(&range, question.axis.unit)
+                .map_err(|error| Failure::of_argument("range", &range, &error))?;
         }
         let found = case.watched(case.profiles, done, |control| {
             Found::of(question, &mut simulation, control)
@@ -206,10 +248,12 @@ pub fn find(
 /// Computes the pull-off force of a scene as a function of the preload. `preloads` is a text in the
 /// notation of `asperity run --preloads`.
 #[pyfunction]
-pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
-    call.computed(py, |case| {
+pub fn preloads(py: Python<'_>, call: Call, preloads: String) -> PyResult<Report> {
+    call.computed(py, move |case| {
+        case.check_profiles()?;
         let scene = case.document.scene();
-        let axis = Axis::parse_preloads(preloads)?;
+        let axis = Axis::parse_preloads(&preloads)
+            .map_err(|error| Failure::of_argument("between", &preloads, &error))?;
         let mut simulation = case.simulation();
         let staircase = case.watched(case.profiles, unchanged, |control| {
             Staircase::of(scene, &axis, &mut simulation, control)
@@ -242,13 +286,16 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
 pub fn reversals(
     py: Python<'_>,
     call: Call,
-    range: Option<&str>,
+    range: Option<String>,
     count: usize,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let mut ends = None;
         if let Some(range) = range {
-            ends = Some(Axis::parse_range(range, "N")?);
+            ends = Some(
+                Axis::parse_range(&range, "N")
+                    .map_err(|error| Failure::of_argument("between", &range, &error))?,
+            );
         }
         let mut simulation = case.simulation().for_one_scene();
         let map =
@@ -279,7 +326,7 @@ pub fn reference(
     surfaces: Option<u64>,
 ) -> PyResult<Report> {
     let lines = call.1;
-    call.computed(py, |case| {
+    call.computed(py, move |case| {
         let scene = case.document.scene();
         let usual = ReferenceOptions::of(scene, surfaces);
         let options = ReferenceOptions {
@@ -319,13 +366,15 @@ pub enum AxisValue {
 }
 
 /// Path of the field that varies along an axis, and the values on the axis.
-type GivenAxis = (String, Vec<AxisValue>);
+pub type GivenAxis = (String, Vec<AxisValue>);
 
 fn read_axis(
     scene: &CheckedScene,
     (path, values): &GivenAxis,
 ) -> Result<(String, Vec<f64>), Failure> {
-    let unit = Axis::new(path, Spacing::List, Vec::new(), scene)?.unit;
+    let unit = Axis::new(path, Spacing::List, Vec::new(), scene)
+        .map_err(|error| Failure::of_argument("axes", path, &error))?
+        .unit;
     let mut numbers = Vec::with_capacity(values.len());
     for value in values {
         numbers.push(match value {
@@ -346,6 +395,33 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
+/// Returns the plan of a study with these axes and recorded quantities.
+pub fn plan_of_study(
+    case: &Case<'_>,
+    axes: &[GivenAxis],
+    record: &[String],
+) -> Result<Plan, Failure> {
+    case.check_profiles()?;
+    let mut quantities = Vec::with_capacity(record.len());
+    for name in record {
+        quantities.push(
+            Quantity::named(name).map_err(|error| Failure::of_argument("record", name, &error))?,
+        );
+    }
+    let mut read = Vec::new();
+    for axis in axes {
+        read.push(read_axis(case.document.scene(), axis)?);
+    }
+    let mut axes = Vec::with_capacity(read.len());
+    for (path, values) in &read {
+        axes.push((path.as_str(), values.as_slice()));
+    }
+    Plan::new(&case.document, &axes, case.profiles, &quantities).map_err(|error| {
+        let paths: Vec<&str> = axes.iter().map(|axis| axis.0).collect();
+        Failure::of_refusal("axes", &paths.join(", "), error)
+    })
+}
+
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
 /// several random profiles.
 #[pyfunction]
@@ -355,20 +431,8 @@ pub fn study(
     axes: Vec<GivenAxis>,
     record: Vec<String>,
 ) -> PyResult<Report> {
-    call.computed(py, |case| {
-        let mut quantities = Vec::with_capacity(record.len());
-        for name in &record {
-            quantities.push(Quantity::named(name)?);
-        }
-        let mut read = Vec::new();
-        for axis in &axes {
-            read.push(read_axis(case.document.scene(), axis)?);
-        }
-        let mut axes = Vec::with_capacity(read.len());
-        for (path, values) in &read {
-            axes.push((path.as_str(), values.as_slice()));
-        }
-        let plan = Plan::new(&case.document, &axes, case.profiles, &quantities)?;
+    call.computed(py, move |case| {
+        let plan = plan_of_study(&case, &axes, &record)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             match &case.in_memory {
                 Some(measured) => compute_with_measured(&plan, Arc::clone(measured), control),

@@ -11,6 +11,8 @@ use asperity::scene::{
 };
 use asperity::surface::lines::{MeasuredProfile, MeasuredRoughness};
 use pyo3::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::sync::Arc;
 
 /// Name that an equivalent line has in place of a file if it was made from heights in memory.
@@ -166,15 +168,85 @@ impl Scene {
         self.set(vec![("adhesion".to_owned(), text)])
     }
 
+    /// Returns the value of a field as text; `None` if the scene does not state it.
+    fn value(&self, path: &str) -> Option<&str> {
+        self.document.value(path).filter(|value| *value != "None")
+    }
+
     /// Returns the text of the scene, as in a scene file.
     #[getter]
     fn text(&self) -> &str {
         self.document.text()
     }
 
+    /// Returns a scene with the roughness of another one, whose random phases have this seed.
+    fn roughened(&self, like: &Scene, seed: u64) -> Result<Scene, Failure> {
+        let Some(measured) = like.document.scene().measured() else {
+            return Err(Failure::from(
+                "a scene without a measured surface".to_owned(),
+            ));
+        };
+        let mut rough = (**self.document.scene()).clone();
+        rough.roughness = Some(Roughness::Measured(Measured {
+            seed,
+            ..measured.clone()
+        }));
+        Ok(Scene {
+            document: Document::from_scene(&rough, self.document.name())?,
+            in_memory: like.in_memory.clone(),
+        })
+    }
+
+    /// Returns the function and the arguments with which a copy of the scene is made: its text, its
+    /// name, and its roughness in memory as text. The names of its files are made absolute, since a
+    /// copy may be used in another folder.
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<Reduced> {
+        let in_memory = self.in_memory.as_deref().map(written).transpose()?;
+        let mut document = self.document.clone();
+        if in_memory.is_none() {
+            document = document
+                .moved_to(|file| {
+                    let path = self.document.resolve(file);
+                    let absolute = std::path::absolute(&path).unwrap_or(path);
+                    absolute.display().to_string()
+                })
+                .map_err(Failure::from)?;
+        }
+        let restored = py.get_type::<Scene>().getattr("restored")?.unbind();
+        let arguments = (
+            document.text().to_owned(),
+            document.name().to_owned(),
+            in_memory,
+        );
+        Ok((restored, arguments))
+    }
+
+    /// Returns the scene that [`Self::__reduce__`] has described.
+    #[staticmethod]
+    fn restored(text: &str, name: &str, in_memory: Option<&str>) -> Result<Scene, Failure> {
+        let in_memory = in_memory.map(read_again::<MeasuredRoughness>).transpose()?;
+        Ok(Scene {
+            document: Document::parse(text, name)?,
+            in_memory: in_memory.map(Arc::new),
+        })
+    }
+
     fn __repr__(&self) -> String {
         format!("<Scene \"{}\">", shown(self.document.title()))
     }
+}
+
+/// Function that makes a copy of a scene, and its arguments.
+type Reduced = (Py<PyAny>, (String, String, Option<String>));
+
+/// Returns a value as text, from which [`read_again`] makes the same bits in another process.
+pub fn written(value: &impl Serialize) -> Result<String, Failure> {
+    Ok(ron::to_string(value).map_err(|error| error.to_string())?)
+}
+
+/// Reads a text that [`written`] has returned.
+pub fn read_again<T: DeserializeOwned>(text: &str) -> Result<T, Failure> {
+    Ok(ron::from_str(text).map_err(|error| error.to_string())?)
 }
 
 /// Returns the names of the built-in scenes.

@@ -7,10 +7,10 @@ use crate::results::{Report, bytes};
 use crate::scene::Scene;
 use asperity::cli::surface::SurfaceTask;
 use asperity::data::{Control, parallel};
-use asperity::scene::{Document, Roughness};
+use asperity::scene::{Document, Numerics, Scene as SceneValues};
 use asperity::surface::lines::MeasuredRoughness;
 use asperity::surface::{Topography, analyse};
-use asperity_report::{MeasuredFace, SurfaceFile, SurfaceReport};
+use asperity_report::{MeasuredFace, SurfaceFile};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -24,105 +24,69 @@ type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 /// for a number that is not given.
 type Numbers = [Option<f64>; 4];
 
-/// A measured surface with its analysis. Profiles and scenes can be made from it.
-#[pyclass(frozen, module = "asperity._native")]
-pub struct Surface {
-    task: SurfaceTask,
-    report: Arc<SurfaceReport>,
-    /// True if the heights were given as an array, so that a scene cannot name their file.
-    is_array: bool,
-}
-
-#[pymethods]
-impl Surface {
-    /// Analyses the files of the measured roughness of a scene or, if `map` is given, this map with
-    /// the options of the roughness. If the modulus and the work of adhesion are given, also
-    /// computes the adhesion on `profiles` random profiles.
-    #[new]
-    fn new(
-        py: Python<'_>,
-        scene: &Scene,
-        numbers: Numbers,
-        profiles: Option<u32>,
-        jobs: Option<usize>,
-        map: Option<Map<'_>>,
-    ) -> PyResult<Surface> {
-        let Some(measured) = scene.document.scene().measured().cloned() else {
-            return Err(Failure::from("a scene without a measured surface".to_owned()).into());
+/// Analyses the files of the measured roughness of a scene or, if `map` is given, this map with the
+/// options of the roughness. If the modulus and the work of adhesion are given, also computes the
+/// adhesion on `profiles` random profiles. Returns a report on the statistics and the spectra, and
+/// a scene with the equivalent line, with the length in m and the number of springs that it has if
+/// it is as long as the scan. If a map was given, its spectrum exists only in memory.
+#[pyfunction]
+pub fn surface(
+    py: Python<'_>,
+    scene: &Scene,
+    numbers: Numbers,
+    profiles: Option<u32>,
+    jobs: Option<usize>,
+    map: Option<Map<'_>>,
+) -> PyResult<(Report, Scene, (f64, u64))> {
+    let Some(measured) = scene.document.scene().measured().cloned() else {
+        return Err(Failure::from("a scene without a measured surface".to_owned()).into());
+    };
+    let [tip_radius, modulus, work, preload] = numbers;
+    let jobs = jobs.unwrap_or_else(parallel::threads);
+    let task = SurfaceTask {
+        measured,
+        tip_radius,
+        modulus,
+        work,
+        preload,
+        profiles,
+        jobs,
+        wording: argument,
+    };
+    let heights = match &map {
+        Some((map, spacing)) => Some((map.as_slice()?.to_vec(), map.shape()[1], *spacing)),
+        None => None,
+    };
+    computed(py, None, move |watch| {
+        let is_array = heights.is_some();
+        let faces = match heights {
+            None => read_faces(&task)?,
+            Some((heights, columns, spacing)) => faces_of_map(&task, &heights, columns, spacing)?,
         };
-        let [tip_radius, modulus, work, preload] = numbers;
-        let jobs = jobs.unwrap_or_else(parallel::threads);
-        let task = SurfaceTask {
-            measured,
-            tip_radius,
-            modulus,
-            work,
-            preload,
-            profiles,
-            jobs,
-            wording: argument,
+        let stop = || watch.stop();
+        let report = task
+            .report(faces, true, Control::default().stopped_by(&stop))
+            .map_err(|error| error.to_string())?;
+        // The caller gives the modulus later, and also the length, since a scan may be longer or
+        // shorter than a scene allows.
+        let whole = task.scene(1e6, &report.faces, &report.line);
+        let size = (whole.length, whole.numerics.points);
+        let scene = SceneValues {
+            length: 1e-4,
+            numerics: Numerics::default(),
+            ..whole
         };
-        let heights = match &map {
-            Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),
-            None => None,
-        };
-        computed(py, None, |watch| {
-            let faces = match heights {
-                None => read_faces(&task)?,
-                Some((heights, columns, spacing)) => {
-                    faces_of_map(&task, heights, columns, spacing)?
-                }
-            };
-            let stop = || watch.stop();
-            let report = task
-                .report(faces, true, Control::default().stopped_by(&stop))
-                .map_err(|error| error.to_string())?;
-            Ok(Surface {
-                task,
-                report: Arc::new(report),
-                is_array: heights.is_some(),
-            })
-        })
-    }
-
-    /// Returns a report on the statistics and the spectra.
-    #[getter]
-    fn report(&self) -> Report {
-        let report = Arc::clone(&self.report);
-        Report::new(move |format| bytes(None, &*report, format))
-    }
-
-    /// Returns a scene with the roughness of this surface. `seed` is the seed of the random phases.
-    /// If the surface was made from an array, its spectrum exists only in memory.
-    fn roughen(&self, scene: &Scene, seed: u64) -> Result<Scene, Failure> {
-        let mut measured = self.task.measured.clone();
-        measured.seed = seed;
-        let mut rough = (**scene.document.scene()).clone();
-        rough.roughness = Some(Roughness::Measured(measured));
-        Ok(Scene {
-            document: Document::from_scene(&rough, "scene")?,
-            in_memory: self.in_memory(),
-        })
-    }
-
-    /// Returns a scene in which a body with the effective modulus `modulus` (in Pa) has the profile
-    /// of the equivalent line, as long as the scan.
-    fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
-        let scene = self
-            .task
-            .scene(modulus, &self.report.faces, &self.report.line);
-        Ok(Scene {
+        let line = MeasuredRoughness::Equivalent(report.line.clone());
+        let scene = Scene {
             document: Document::from_scene(&scene, "scene")?,
-            in_memory: self.in_memory(),
-        })
-    }
-}
-
-impl Surface {
-    fn in_memory(&self) -> Option<Arc<MeasuredRoughness>> {
-        self.is_array
-            .then(|| Arc::new(MeasuredRoughness::Equivalent(self.report.line.clone())))
-    }
+            in_memory: is_array.then(|| Arc::new(line)),
+        };
+        Ok((
+            Report::new(move |format| bytes(None, &report, format)),
+            scene,
+            size,
+        ))
+    })
 }
 
 fn read_faces(task: &SurfaceTask) -> Result<Vec<MeasuredFace>, Failure> {

@@ -1,6 +1,7 @@
 """Tests of the installed package: `python -m unittest discover python/tests`."""
 
 import doctest
+import inspect
 import json
 import os
 import re
@@ -11,9 +12,11 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
+import reference
 
 import asperity as asp
 
@@ -31,15 +34,15 @@ def sphere(points=4096):
 class Loops(unittest.TestCase):
     def test_a_sphere_is_that_of_johnson_kendall_and_roberts(self):
         loop = asp.load(sphere(), **LOAD)
-        self.assertAlmostEqual(loop.pull_off / (1.5 * np.pi * 0.05 * 1e-4), 1, delta=1e-5)
-        self.assertLess(loop.pull_off_error, 1e-5 * loop.pull_off)
+        self.assertAlmostEqual(loop.pull_off_force / (1.5 * np.pi * 0.05 * 1e-4), 1, delta=1e-5)
+        self.assertLess(loop.pull_off_force_error, 1e-5 * loop.pull_off_force)
         self.assertEqual(loop.regime, "pressure-insensitive")
-        self.assertGreater(loop.tabor, 5)
-        self.assertAlmostEqual(sum(loop.released), loop.dissipated, delta=1e-12 * loop.dissipated)
+        self.assertGreater(loop.tabor_number, 5)
+        self.assertAlmostEqual(sum(loop.released_energy), loop.dissipated_energy, delta=1e-12 * loop.dissipated_energy)
         events = loop.events
         self.assertEqual([str(event["mark"]) for event in events], ["jump-in", "preload", "pull-off", "jump-out"])
         self.assertEqual([str(name) for name in events["event"]], ["touches", "", "", "detaches"])
-        self.assertLess(abs(events["energy"][0] + loop.released[0]), abs(loop.released[0]))
+        self.assertLess(abs(events["energy"][0] + loop.released_energy[0]), abs(loop.released_energy[0]))
         self.assertTrue(np.isnan(events["energy"][1]) and events["force_after"][3] == 0)
 
     def test_heights_are_loaded_as_the_body_they_come_from(self):
@@ -48,10 +51,10 @@ class Loops(unittest.TestCase):
         for stages in ["100 µN, separation", ["200 nm", "10 µN", "touch", "separation"], "zero force, separation"]:
             load = {**LOAD, "stages": stages, "loading_stiffness": "1 kN/m"}
             one, other = asp.load(body, **load), asp.load(heights, **load)
-            for name in ["d", "F", "D", "stage", "length", "patches", "energy", "released"]:
+            for name in ["indentation", "force", "displacement", "stage", "contact_length", "patches", "stored_energy", "released_energy"]:
                 np.testing.assert_array_equal(getattr(one, name), getattr(other, name), name)
-            self.assertEqual((one.pull_off, one.dissipated, one.preload), (other.pull_off, other.dissipated, other.preload))
-            known = (other.regime, other.tabor, other.kappa, other.share, other.pull_off_error)
+            self.assertEqual((one.pull_off_force, one.dissipated_energy, one.preload), (other.pull_off_force, other.dissipated_energy, other.preload))
+            known = (other.regime, other.tabor_number, other.kappa, other.adhesion_share, other.pull_off_force_error)
             self.assertEqual(known, (None,) * 5)
 
     def test_any_array_of_real_numbers_is_taken(self):
@@ -75,17 +78,17 @@ class Loops(unittest.TestCase):
             found = asp.preloads(saved, ("1 µN", "100 µN"), count=2, **fields).to_pandas()
         for preload, force in zip(["1 µN", "100 µN"], found.pull_off_force, strict=True):
             loop = asp.load(asp.Profile(body.heights, body.spacing), **{**LOAD, "stages": f"{preload}, separation"})
-            self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
+            self.assertAlmostEqual(force / loop.pull_off_force, 1, delta=1e-9)
 
     def test_an_array_of_a_result_cannot_be_changed(self):
         with self.assertRaisesRegex(ValueError, "read-only"):
-            asp.load(sphere(), **LOAD).F[0] = 1
+            asp.load(sphere(), **LOAD).force[0] = 1
 
     def test_a_loop_is_a_table_and_a_picture(self):
         loop = asp.load(sphere(256), **LOAD)
         self.assertTrue(loop._repr_svg_().startswith("<svg"))
         self.assertNotIn(">scene<", loop._repr_svg_())
-        self.assertRegex(repr(loop), r"^<Loop: pull_off 23\.\d+ µN, preload 100 µN, dissipated .* pJ>$")
+        self.assertRegex(repr(loop), r"^<Loop: pull_off_force 23\.\d+ µN, preload 100 µN, dissipated_energy .* pJ>$")
 
 
 class Refusals(unittest.TestCase):
@@ -131,17 +134,17 @@ class Refusals(unittest.TestCase):
                 self.refused(asp.FieldError, "=|:", asp.load, body, **{**LOAD, name: value})
 
     def test_scenes(self):
-        self.refused(ValueError, "^nosuch: there is no such file, no such built-in scene", asp.run, "nosuch")
+        self.refused(asp.FieldError, "^nosuch: there is no such file, no such built-in scene", asp.run, "nosuch")
         self.refused(OSError, "^nosuch.ron: cannot be read", asp.run, "nosuch.ron")
-        self.refused(ValueError, "no such field; did you mean adhesion.work", asp.run, SCENE, adhesion__wrk=1)
+        self.refused(asp.FieldError, "no such field; did you mean adhesion.work", asp.run, SCENE, adhesion__wrk=1)
         error = self.refused(asp.FieldError, "roughness.hurst = 1.4: allowed", asp.run, SCENE, roughness__hurst=1.4)
         self.assertEqual((error.field, error.value), ("roughness.hurst", "1.4"))
         self.assertIn("above 0 and below 1", error.allowed)
         for name in ["profiles", "jobs"]:
             self.refused(asp.FieldError, f"^{name} = 0; allowed: a whole number from 1", asp.run, SCENE, **{name: 0})
         self.refused(asp.FieldError, "object; allowed: a number", asp.run, SCENE, roughness__hurst=object())
-        self.refused(ValueError, "no such number", asp.find, "x", SCENE, "F_a = 1 N")
-        self.refused(ValueError, "allowed: a quantity", asp.find, "preload", SCENE, "much")
+        self.refused(asp.FieldError, "no such number", asp.find, "x", SCENE, "F_a = 1 N")
+        self.refused(asp.FieldError, "allowed: a quantity", asp.find, "preload", SCENE, "much")
 
 
 class Computations(unittest.TestCase):
@@ -160,12 +163,12 @@ class Computations(unittest.TestCase):
 
     def test_the_profile_and_the_loop_are_those_of_the_outcome(self):
         outcome = asp.run(SCENE, profiles=1)
-        self.assertEqual([point["force"] for point in outcome.curve], list(outcome.loop.F))
-        self.assertEqual(outcome.line["points"], len(outcome.profile))
-        self.assertEqual(outcome.loop.pull_off, outcome.pull_off_force)
-        again = asp.Profile(outcome.profile.heights, outcome.profile.spacing)
-        loop = asp.load(again, modulus=outcome.modulus, work=outcome.work_of_adhesion, stages="10 µN, separation")
-        self.assertAlmostEqual(loop.pull_off / outcome.pull_off_force, 1, delta=1e-9)
+        self.assertEqual(list(outcome.curve["force"]), list(outcome.loop.force))
+        self.assertEqual(outcome.profile.points, len(outcome.body))
+        self.assertEqual(outcome.loop.pull_off_force, outcome.pull_off_force)
+        again = asp.Profile(outcome.body.heights, outcome.body.spacing)
+        loop = asp.load(again, modulus=outcome.modulus, work=outcome.work, stages="10 µN, separation")
+        self.assertAlmostEqual(loop.pull_off_force / outcome.pull_off_force, 1, delta=1e-9)
 
     def test_a_sphere_in_three_dimensions_is_that_of_hertz(self):
         at = (np.arange(128) + 0.5) / 128 - 0.5
@@ -188,7 +191,7 @@ class Computations(unittest.TestCase):
             (lambda: asp.fit(([1], [1]), SCENE, ["wrk"]), "did you mean work"),
             (lambda: asp.fit(([1], [1]), SCENE, ["work"], options={"noise": "-5 nN"}), "allowed: a standard deviation above 0"),
             (lambda: asp.study(SCENE, {"adhesion.kappa": []}), "no values; allowed: at least one"),
-            (lambda: asp.table([[0, 1], [0, 2]]), r"numpy\.save\('tip\.npy', numpy\.c_\[radii, depths\]\)"),
+            (lambda: asp.table([[0, 1], [0, 2]]), r"asperity\.revolve\(radii, depths\) takes arrays"),
             (lambda: asp.run(asp.Profile([0, 1], 1), modulus=1e6), r"asperity\.measured\('line\.npy', as_line=True\)"),
             (lambda: asp.press(np.zeros((32, 33)), side=1, modulus=1, force=1), "a square map"),
             (lambda: asp.press(np.zeros((31, 31)), side=1, modulus=1, force=1), "31"),
@@ -213,6 +216,32 @@ class Computations(unittest.TestCase):
         while threads() > before and time.monotonic() < end:
             time.sleep(0.01)
         self.assertEqual(threads(), before)
+
+    def test_an_interrupt_does_not_wait_for_a_step_that_takes_long(self):
+        cases = [
+            "asp.profile('1 mm', 20_000_000, roughness=asp.self_affine(0.7, rms_height='1 nm', modes=(4, 5_000_000)))",
+            "asp.surface(1e-9 * np.random.default_rng(1).standard_normal((1024, 1024)), spacing=1e-7, robust=True)",
+            "asp.press(1e-9 * np.random.default_rng(1).standard_normal((1024, 1024)), side=1e-3, modulus=1e6, force=1e-2)",
+        ]
+        for case in cases:
+            code = f"""if True:
+                import asperity as asp, numpy as np
+                print("begin", flush=True)
+                try:
+                    {case}
+                except KeyboardInterrupt:
+                    print("stopped", flush=True)
+                """
+            child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+            self.addCleanup(child.kill)
+            self.assertEqual(child.stdout.readline(), "begin\n")
+            time.sleep(0.4)
+            clock = time.monotonic()
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.communicate(timeout=60)[0], "stopped\n", case)
+            # The limit leaves room for a busy machine.
+            self.assertLess(time.monotonic() - clock, 1.0, case)
+            self.assertEqual(child.returncode, 0)
 
     def test_other_threads_run_meanwhile(self):
         counted, ended = [0], threading.Event()
@@ -298,6 +327,32 @@ class Documentation(unittest.TestCase):
                 os.chdir(here)
         self.assertGreater(len(test.examples), 10)
         self.assertEqual(failed, 0)
+
+    def test_the_examples_of_the_functions_print_what_they_say(self):
+        finder, count = doctest.DocTestFinder(recurse=False), 0
+        functions = {name: getattr(asp, name) for name in asp.__all__ if inspect.isfunction(getattr(asp, name))}
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            here = os.getcwd()
+            os.chdir(folder)
+            try:
+                for name, function in functions.items():
+                    for test in finder.find(function, name, globs={"asp": asp, "np": np}):
+                        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test)
+                        self.assertEqual((result.failed, result.attempted > 0), (0, True), name)
+                        count += 1
+            finally:
+                os.chdir(here)
+        self.assertEqual(count, len(functions))
+
+    def test_the_reference_is_that_of_the_package(self):
+        page = HERE.parent / "docs" / "python.md"
+        expected = reference.page()
+        if os.environ.get("UPDATE_DOCS"):
+            page.write_text(expected, encoding="utf-8")
+        self.assertEqual(page.read_text(encoding="utf-8"), expected, "UPDATE_DOCS=1 renews the page")
+        listed = {name for names in reference.FUNCTIONS.values() for name in names}
+        self.assertEqual(listed, {name for name in asp.__all__ if inspect.isfunction(getattr(asp, name))})
 
     def test_the_code_of_the_root_readme_runs(self):
         text = (HERE.parent / "README.md").read_text(encoding="utf-8")

@@ -43,6 +43,7 @@ pub struct FitArguments {
     /// A scene file or a built-in scene: form, roughness and all values that are known.
     #[arg(value_name = "CURVE... SCENE", required = true)]
     pub files: Vec<PathBuf>,
+    /// Changed fields of the scene.
     #[command(flatten)]
     pub overrides: Overrides,
     /// Parameters to be found, with ranges if known: work=1m..1,offset
@@ -58,8 +59,10 @@ pub struct FitArguments {
         num_args = 1
     )]
     pub free: Vec<Free>,
+    /// How curves are read.
     #[command(flatten)]
     pub reading: CurveOptions,
+    /// Comparison with many random profiles.
     #[command(flatten)]
     pub ensemble: EnsembleArguments,
     /// Threads that share curves or profiles; default: one for each core
@@ -73,6 +76,7 @@ pub struct FitArguments {
     /// Write the scene with the values found to FILE
     #[arg(long, value_name = "FILE", group = "written")]
     pub scene: Option<PathBuf>,
+    /// Output file.
     #[command(flatten)]
     pub output: OutputArguments,
 }

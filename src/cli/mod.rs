@@ -15,7 +15,7 @@ mod ensemble;
 mod error;
 mod explore;
 mod find;
-mod fit;
+pub mod fit;
 mod fits;
 mod output;
 mod plan;

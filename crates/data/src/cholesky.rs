@@ -11,6 +11,7 @@
 /// assert_eq!(Cholesky::new(vec![1.0, 0.0, 2.0, 1.0], 2), None);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cholesky {
     size: usize,
     /// Matrix L as a full square matrix, stored row by row. Only its lower triangle is used.

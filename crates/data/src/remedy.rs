@@ -8,6 +8,7 @@ use std::fmt;
 /// step without words. The command line, the explorer and Python express the step each in their own
 /// words: as an option, as a row or as a keyword argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub enum Remedy {
     /// State the name of one of the surfaces in an archive with several surfaces.
     SurfaceName,
@@ -167,11 +168,13 @@ fn joined(remedies: &[Remedy], wording: Wording) -> Option<String> {
 /// assert_eq!(words, "A drift remains: take it off. Noise 1 nN.");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub struct Note {
     sentences: Vec<Sentence>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 struct Sentence {
     text: String,
     remedies: Vec<Remedy>,
@@ -244,12 +247,5 @@ impl From<String> for Note {
 impl From<&str> for Note {
     fn from(text: &str) -> Note {
         Note::new(text)
-    }
-}
-
-#[cfg(feature = "files")]
-impl serde::Serialize for Note {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }

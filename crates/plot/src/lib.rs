@@ -28,6 +28,8 @@ pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stre
 pub use colour::{Ink, Rgb, Shades};
 pub use label::{Label, prefixed, statement, value_label};
 pub use palette::{Background, ColourRole, Colours, Palette};
+pub use pdf::pdf_of_svg;
+pub use png::png_of_svg;
 pub use scale::Span;
 pub use screen::ascii::to_ascii;
 pub use screen::screen_text;

@@ -39,6 +39,14 @@ impl Figure {
     }
 }
 
+/// Returns the content of a PDF file of a figure that was written as SVG, without its title.
+///
+/// # Errors
+/// Returns an error if the text is no SVG.
+pub fn pdf_of_svg(svg: &str) -> io::Result<Vec<u8>> {
+    pdf(&tree(svg)?, "")
+}
+
 fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     let width = POINTS * tree.size().width();
     let height = POINTS * tree.size().height();

@@ -40,6 +40,15 @@ impl Figure {
     }
 }
 
+/// Returns the content of a PNG file of a figure that was written as SVG, as [`Figure::png`] does
+/// for a figure without a width.
+///
+/// # Errors
+/// Returns an error if the text is no SVG, or if the picture would have too many pixels.
+pub fn png_of_svg(svg: &str) -> io::Result<Vec<u8>> {
+    png(svg, SCALE)
+}
+
 /// Converts an SVG document to a tree of outlines, with lengths in px (1/96 inch).
 pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();

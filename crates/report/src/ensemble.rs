@@ -104,11 +104,11 @@ pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
 #[derive(Serialize)]
 pub(crate) struct EnsembleJson<'a> {
     profiles: u64,
-    pull_off_force: Option<StatisticsJson>,
-    adhesion_share: Option<StatisticsJson>,
-    first_touch_pull_off_force: Option<StatisticsJson>,
-    zero_force_pull_off_force: Option<StatisticsJson>,
-    dissipated_energy: Option<StatisticsJson>,
+    pull_off_force: Option<Statistics>,
+    adhesion_share: Option<Statistics>,
+    first_touch_pull_off_force: Option<Statistics>,
+    zero_force_pull_off_force: Option<Statistics>,
+    dissipated_energy: Option<Statistics>,
     warnings: Vec<String>,
     /// Number of profiles in each regime that occurs.
     regimes: BTreeMap<&'static str, usize>,
@@ -116,25 +116,9 @@ pub(crate) struct EnsembleJson<'a> {
     per_profile: Option<Table<'a>>,
 }
 
-/// Statistics of one quantity over random profiles.
-#[derive(Serialize)]
-struct StatisticsJson {
-    count: usize,
-    median: f64,
-    quartiles: [f64; 2],
-    range: (f64, f64),
-    median_interval: Option<(f64, f64)>,
-    mean: f64,
-    standard_deviation: Option<f64>,
-    confidence_interval: Option<(f64, f64)>,
-}
-
 impl<'a> EnsembleJson<'a> {
     pub(crate) fn new(ensemble: &'a Ensemble) -> Self {
-        let numbers = Ensemble::NUMBERS.map(|quantity| {
-            let statistics = ensemble.statistics(quantity)?;
-            Some(StatisticsJson::new(&statistics))
-        });
+        let numbers = Ensemble::NUMBERS.map(|quantity| ensemble.statistics(quantity));
         let [force, share, first_touch_force, zero_force_force, energy] = numbers;
         let [from_touch, after_zero_force] = ensemble.regimes();
         EnsembleJson {
@@ -148,22 +132,6 @@ impl<'a> EnsembleJson<'a> {
             regimes: from_touch.present().collect(),
             regimes_after_zero_force: after_zero_force.present().collect(),
             per_profile: ensemble.table(),
-        }
-    }
-}
-
-impl StatisticsJson {
-    fn new(statistics: &Statistics) -> Self {
-        let [lower, median, upper] = statistics.quartiles;
-        StatisticsJson {
-            count: statistics.count,
-            median,
-            quartiles: [lower, upper],
-            range: statistics.range,
-            median_interval: statistics.median_interval,
-            mean: statistics.mean,
-            standard_deviation: statistics.spread.map(|spread| spread.standard_deviation),
-            confidence_interval: statistics.confidence_interval(),
         }
     }
 }
@@ -206,6 +174,8 @@ struct ResultsJson<'a> {
     /// axis.
     axes: BTreeMap<&'a str, &'a [f64]>,
     profiles: u64,
+    /// Unit of each axis and of each recorded quantity, by its column in the table of records.
+    units: BTreeMap<&'a str, &'static str>,
     /// Premises of the model that some of the profiles do not meet, over all cells of the study.
     warnings: Vec<String>,
     records: Table<'a>,
@@ -221,13 +191,19 @@ impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let plan = self.plan();
         let mut axes = BTreeMap::new();
+        let mut units = BTreeMap::new();
         for axis in &plan.axes {
             axes.insert(axis.path.as_str(), axis.values.as_slice());
+            units.insert(axis.path.as_str(), axis.unit);
+        }
+        for quantity in plan.record.iter().filter(|quantity| !quantity.is_regime()) {
+            units.insert(quantity.name(), quantity.unit());
         }
         Some(Box::new(ResultsJson {
             scene: &plan.scene,
             axes,
             profiles: plan.lines,
+            units,
             warnings: Report::warnings(self),
             records: Results::table(self),
         }))

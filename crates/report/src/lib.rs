@@ -60,7 +60,7 @@ pub use provenance::{
     scenes_provenance, with_warnings,
 };
 pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
-pub use report::{Format, Json, Report, alternatives, check_extension, write};
+pub use report::{Format, Json, Report, alternatives, check_extension, missing_form, write};
 pub use reversals::ReversalReport;
 pub use run::{PathReport, RunReport};
 pub use scene_figure::ContactSets;

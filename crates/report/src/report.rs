@@ -115,7 +115,7 @@ pub fn write(
     format: Format,
     provenance: &str,
 ) -> io::Result<()> {
-    let missing = || io::Error::other(format!("this result has no {} form", format.name()));
+    let missing = || missing_form(format);
     match format {
         Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
         Format::Json => report
@@ -137,6 +137,11 @@ pub fn write(
         Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
         Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
     }
+}
+
+/// Returns the error of a result that lacks the form of a format.
+pub fn missing_form(format: Format) -> io::Error {
+    io::Error::other(format!("this result has no {} form", format.name()))
 }
 
 /// Format in which a result is written into a file.

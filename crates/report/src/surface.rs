@@ -19,6 +19,7 @@ use asperity_study::trust::{MeasuredAdhesion, ProfileAdhesion};
 use asperity_surface::spectra::{Bin, End, Node};
 use asperity_surface::{Analysis, EquivalentLine, Moment, PointStatistics, ValueWithError};
 use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
 
@@ -504,8 +505,9 @@ struct AdhesionJson<'a> {
     preload: Option<f64>,
     pull_off_force: Option<asperity_study::Statistics>,
     fit_deviation: Option<f64>,
-    regimes: RegimeCounts,
-    regimes_after_zero_force: RegimeCounts,
+    /// Number of profiles in each regime that occurs.
+    regimes: BTreeMap<&'static str, usize>,
+    regimes_after_zero_force: BTreeMap<&'static str, usize>,
     per_profile: &'a [ProfileAdhesion],
 }
 
@@ -525,8 +527,8 @@ impl<'a> AdhesionJson<'a> {
                 .pull_off_force()
                 .filter(|forces| forces.spread.is_some()),
             fit_deviation: computed.fit_deviation(),
-            regimes,
-            regimes_after_zero_force,
+            regimes: regimes.present().collect(),
+            regimes_after_zero_force: regimes_after_zero_force.present().collect(),
             per_profile: &computed.profiles,
         }
     }

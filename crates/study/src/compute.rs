@@ -4,6 +4,7 @@
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
 use super::measured::profile;
+use super::part::StudyPart;
 use super::plan::Plan;
 use super::recorder::{Recorded, Recorder};
 use super::results::Results;
@@ -11,6 +12,7 @@ use asperity_contact::ContactError;
 use asperity_data::{Control, Warning, on_threads};
 use asperity_scene::{RunError, Simulation};
 use asperity_surface::lines::MeasuredRoughness;
+use std::ops::Range;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -146,6 +148,13 @@ pub fn compute_with_measured(
     control: Control<'_>,
 ) -> Result<Results, StudyError> {
     check(plan, &control)?;
+    check_axes_in_memory(plan)?;
+    compute_on(plan, Some(measured), control)
+}
+
+/// Returns an error if an axis varies a field of the roughness, which has no files to be read
+/// again.
+fn check_axes_in_memory(plan: &Plan) -> Result<(), StudyError> {
     for axis in &plan.axes {
         if axis.path.starts_with("roughness.") {
             let found = format!("an axis {} of a surface in memory", axis.path);
@@ -153,7 +162,7 @@ pub fn compute_with_measured(
             return Err(StudyError::refused(None, found, allowed));
         }
     }
-    compute_on(plan, Some(measured), control)
+    Ok(())
 }
 
 /// Returns an error if the threads or the memory do not suffice.
@@ -168,8 +177,73 @@ fn check(plan: &Plan, control: &Control<'_>) -> Result<(), StudyError> {
 fn compute_on(
     plan: &Plan,
     measured: Option<Arc<MeasuredRoughness>>,
-    mut control: Control<'_>,
+    control: Control<'_>,
 ) -> Result<Results, StudyError> {
+    let mut results = Results::empty(plan.clone())?;
+    compute_profiles(plan, measured, 0..plan.lines, control, &mut |solved| {
+        for (cell, record) in solved.streak.cells.zip(solved.records) {
+            results.set_record(cell * plan.lines + solved.streak.line, record);
+        }
+        results.set_warnings(solved.streak.line, solved.warnings);
+    })?;
+    Ok(results)
+}
+
+/// Computes some of the random profiles of a plan, for another process that gathers the parts by
+/// [`Results::of_parts`]. `lines` are the indices of the profiles. `measured` is the measured
+/// roughness of the plan, if it has one that only exists in memory.
+///
+/// # Errors
+/// Returns the same errors as [`compute`] and [`compute_with_measured`].
+///
+/// ```
+/// use asperity_data::Control;
+/// use asperity_study::{Plan, Quantity, Results, compute, compute_part};
+///
+/// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "1024")?;
+/// let plan = Plan::new(&scene, &[], 5, &[Quantity::PullOffForce])?;
+/// let parts = [
+///     compute_part(&plan, None, 0..3, Control::default())?,
+///     compute_part(&plan, None, 3..5, Control::default())?,
+/// ];
+/// assert_eq!(Results::of_parts(&plan, parts)?, compute(&plan, Control::default())?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn compute_part(
+    plan: &Plan,
+    measured: Option<Arc<MeasuredRoughness>>,
+    lines: Range<u64>,
+    control: Control<'_>,
+) -> Result<StudyPart, StudyError> {
+    check(plan, &control)?;
+    let measured = match measured {
+        Some(measured) => {
+            check_axes_in_memory(plan)?;
+            Some(measured)
+        }
+        None => profile(plan, Path::new(""))?,
+    };
+    let mut part = StudyPart::default();
+    compute_profiles(plan, measured, lines, control, &mut |solved| {
+        for (cell, record) in solved.streak.cells.zip(solved.records) {
+            part.records.push((cell, solved.streak.line, record));
+        }
+        for (cell, warnings) in solved.warnings {
+            part.warnings.push((cell, solved.streak.line, warnings));
+        }
+    })?;
+    Ok(part)
+}
+
+/// Computes the profiles `lines` of a plan. `receive` is called on the calling thread with each
+/// streak, which has the cells that differ only in the preload.
+fn compute_profiles(
+    plan: &Plan,
+    measured: Option<Arc<MeasuredRoughness>>,
+    lines: Range<u64>,
+    mut control: Control<'_>,
+    receive: &mut dyn FnMut(SolvedStreak),
+) -> Result<(), StudyError> {
     let threads = control.threads();
     let stop = control.stop();
     let cells = Cells::of(plan);
@@ -177,10 +251,9 @@ fn compute_on(
     let streaks = Streaks {
         cells: &cells,
         units: &units,
-        is_missing: &|_| true,
+        is_missing: &|streak| lines.contains(&streak.line),
         profile: measured.as_ref(),
     };
-    let mut results = Results::empty(plan.clone())?;
     let (sender, receiver) = channel();
     let work = move || {
         // Sending fails only if the receiver has been dropped. The value false then ends the
@@ -194,26 +267,18 @@ fn compute_on(
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
         for solved in receiver.iter() {
-            let SolvedStreak {
-                streak,
-                records,
-                warnings,
-            } = solved;
-            done += records.len() as u64;
-            for (cell, record) in streak.cells.zip(records) {
-                results.set_record(cell * plan.lines + streak.line, record);
-            }
-            results.set_warnings(streak.line, warnings);
+            done += solved.records.len() as u64;
+            receive(solved);
             control.report(done);
         }
         computing
             .join()
             .unwrap_or_else(|panic| resume_unwind(panic))
     })?;
-    if done < plan.records_in_all() {
+    if done < plan.cells() * (lines.end - lines.start) {
         return Err(RunError::from(ContactError::Interrupted).into());
     }
-    Ok(results)
+    Ok(())
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 use super::error::StudyError;
 use super::missing_profiles::Failures;
+use super::part::StudyPart;
+use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::{RegimeCounts, Statistics};
@@ -82,7 +84,7 @@ impl Ensemble {
     ) -> Result<Ensemble, StudyError> {
         let threads = control.threads();
         StudyError::check_threads(threads)?;
-        let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
+        let record = Ensemble::recorded(further);
         let mut ensemble = Ensemble {
             results: Results::begin(scene, &record, profiles, None)?,
         };
@@ -92,6 +94,33 @@ impl Ensemble {
             control.report(&ensemble);
         })?;
         Ok(ensemble)
+    }
+
+    /// Returns the plan of an ensemble, whose parts [`compute_part`](crate::compute_part) computes
+    /// in other processes. The arguments are those of [`Ensemble::of`].
+    ///
+    /// # Errors
+    /// Returns an error if zero profiles are requested, or several of a fixed profile.
+    pub fn plan(scene: &Scene, further: &[Quantity], profiles: u64) -> Result<Plan, StudyError> {
+        StudyError::check_profiles(scene, profiles)?;
+        let record = Ensemble::recorded(further);
+        Ok(Plan::of_scene(scene, profiles, &record))
+    }
+
+    /// Gathers an ensemble from the parts of its [plan](Ensemble::plan).
+    ///
+    /// # Errors
+    /// Returns the errors of [`Results::of_parts`].
+    pub fn of_parts(
+        plan: &Plan,
+        parts: impl IntoIterator<Item = StudyPart>,
+    ) -> Result<Ensemble, StudyError> {
+        let results = Results::of_parts(plan, parts)?;
+        Ok(Ensemble { results })
+    }
+
+    fn recorded(further: &[Quantity]) -> Vec<Quantity> {
+        [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat()
     }
 
     /// Returns the number of profiles that the ensemble has once all its profiles are computed.
@@ -232,6 +261,20 @@ mod tests {
             parts.starts_with(&[1, 2, 3]) && parts.len() < 400,
             "{parts:?}"
         );
+    }
+
+    #[test]
+    fn an_ensemble_of_parts_is_that_of_one_computation() {
+        let scene = scene("pressure-sensitive");
+        let plan = Ensemble::plan(&scene, &[], 5).unwrap();
+        let mut parts = Vec::new();
+        for lines in [3..5, 0..3] {
+            parts.push(crate::compute_part(&plan, None, lines, Control::default()).unwrap());
+        }
+        let whole = ensemble(&scene, 5, 2).unwrap();
+        assert_eq!(Ensemble::of_parts(&plan, parts.clone()).unwrap(), whole);
+        let shorter = Ensemble::plan(&scene, &[], 2).unwrap();
+        assert!(Ensemble::of_parts(&shorter, parts).is_err());
     }
 
     #[test]

@@ -8,7 +8,8 @@
 //!   and a [`StiffnessRange`]. [`Changes`] are made to a plan when it is read.
 //! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of
 //!   a plan, a [`Shard`], in a [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes
-//!   the tables from all parts.
+//!   the tables from all parts. [`compute_part`] computes some profiles without a folder, as a
+//!   [`StudyPart`] that other processes can send.
 //! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and
 //!   [`RegimeCounts`].
 //! * One scene on many profiles: an [`Ensemble`]. [`Found`] answers a [`Question`], with an
@@ -49,6 +50,7 @@ mod measured;
 mod measured_adhesion;
 mod memory;
 mod missing_profiles;
+mod part;
 mod place;
 mod plan;
 mod plan_text;
@@ -82,10 +84,11 @@ mod study_map;
 mod tables;
 
 pub use axis::{Axis, Spacing};
-pub use compute::{compute, compute_with_measured};
+pub use compute::{compute, compute_part, compute_with_measured};
 pub use ensemble::Ensemble;
 pub use error::StudyError;
 pub use find::Found;
+pub use part::StudyPart;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_text::Changes;
 pub use preload_curve::PreloadCurve;

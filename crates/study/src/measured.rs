@@ -63,13 +63,11 @@ fn read(
         return Ok((None, None));
     };
     let faces = read_faces(&plan.scene.measured_paths(Path::new("")))?;
-    let table = match &plan.scene.form {
-        Some(Form::Table { file, .. }) => {
-            let file = Path::new(file);
-            Some(sha256_of(file).map_err(|error| StudyError::folder(file, error))?)
-        }
-        _ => None,
-    };
+    let mut table = None;
+    if let Some(file) = plan.scene.form.as_ref().and_then(Form::table_file) {
+        let file = Path::new(file);
+        table = Some(sha256_of(file).map_err(|error| StudyError::folder(file, error))?);
+    }
     let found = match table {
         Some(table) if faces.is_empty() => table,
         table => {

@@ -29,6 +29,7 @@ const MOST_OF_ONE: f64 = 0.5;
 
 /// Statistics over random profiles of one quantity, in the SI unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(into = "StatisticsJson")]
 pub struct Statistics {
     /// Number of profiles on which the quantity has a value. Only these profiles enter the
     /// statistics.
@@ -46,13 +47,43 @@ pub struct Statistics {
     pub median_interval: Option<(f64, f64)>,
     /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single
     /// value.
-    #[serde(flatten)]
     pub spread: Option<Spread>,
+}
+
+/// JSON object of [`Statistics`]. The spread is `null` for a single value.
+#[derive(Serialize)]
+struct StatisticsJson {
+    count: usize,
+    median: f64,
+    quartiles: [f64; 2],
+    range: (f64, f64),
+    median_interval: Option<(f64, f64)>,
+    mean: f64,
+    standard_deviation: Option<f64>,
+    standard_error: Option<f64>,
+    confidence_interval: Option<(f64, f64)>,
+}
+
+impl From<Statistics> for StatisticsJson {
+    fn from(statistics: Statistics) -> Self {
+        let [lower, median, upper] = statistics.quartiles;
+        StatisticsJson {
+            count: statistics.count,
+            median,
+            quartiles: [lower, upper],
+            range: statistics.range,
+            median_interval: statistics.median_interval,
+            mean: statistics.mean,
+            standard_deviation: statistics.spread.map(|spread| spread.standard_deviation),
+            standard_error: statistics.spread.map(|spread| spread.standard_error),
+            confidence_interval: statistics.confidence_interval(),
+        }
+    }
 }
 
 /// Spread of the values of a quantity over several random profiles, and confidence interval of
 /// their mean.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor `count − 1`.
     pub standard_deviation: f64,

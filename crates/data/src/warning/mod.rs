@@ -26,6 +26,7 @@ use std::fmt::{Display, Formatter, Result};
 /// assert!(coarse.to_string().ends_with(&coarse.remedy()));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Warning {
     /// An outermost spring of the profile of a curved body was in contact during the loading.
@@ -254,6 +255,7 @@ pub enum Warning {
 
 /// Name and rms height of a surface.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub struct NamedHeight {
     /// Name of the surface.
     pub name: String,
@@ -263,6 +265,7 @@ pub struct NamedHeight {
 
 /// Polynomial that describes a trend of the heights of a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub enum Trend {
     /// A plane, or a straight line.
     Tilt,
@@ -272,6 +275,7 @@ pub enum Trend {
 
 /// A trend of the heights of a scan, and how much it contributes to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub struct TrendOfScan {
     /// The trend.
     pub trend: Trend,
@@ -362,16 +366,5 @@ impl Warning {
 impl Display for Warning {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         write!(formatter, "{} {}", self.sentence(), self.remedy())
-    }
-}
-
-/// A warning is serialized as its text, not as an object with fields.
-#[cfg(feature = "files")]
-impl serde::Serialize for Warning {
-    fn serialize<S: serde::Serializer>(
-        &self,
-        serializer: S,
-    ) -> std::result::Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }

@@ -120,6 +120,7 @@ pub struct FitResult {
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values. `None` if the curve shows no adhesion, or
     /// if the form has no radius of curvature, such as a cone.
+    #[serde(rename = "tabor_number")]
     pub tabor: Option<f64>,
     /// Reason why the model does not describe the curve within its noise; `None` if the model
     /// describes the curve.

@@ -7,7 +7,7 @@ use std::fmt::Display;
 
 /// Row of a table with one row for each measured curve: the result of the fit to the curve, or the
 /// reason why the curve was not fitted.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
@@ -35,7 +35,7 @@ pub struct CurveRow {
 }
 
 /// A premise of the model that the scene fitted to one curve does not meet.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RowWarning {
     /// [Name](asperity_data::Warning::name) of the premise.
     pub name: String,

@@ -139,10 +139,11 @@ impl Scene {
     /// table must have been read.
     fn improbable_form(&self) -> Option<Warning> {
         let form = self.form.as_ref()?;
-        let (Form::Table { file, .. }, Some(table)) = (form, form.table()) else {
-            return None;
+        let table = form.table()?;
+        let file = match form.table_file() {
+            Some(file) => path_name(Path::new(file)),
+            None => "rows of the form".to_owned(),
         };
-        let file = path_name(Path::new(file));
         Warning::of_reach(&file, table.reach(), self.length)
     }
 

@@ -243,6 +243,13 @@ pub(super) const FILE_NAME: Range = Range::Text {
     lines: false,
 };
 
+/// Name of the file of a table, or the rows of the table in place of the name.
+pub(super) const TABLE: Range = Range::Text {
+    least: 1,
+    most: 500_000,
+    lines: false,
+};
+
 /// Description of the target value of a loading stage [`ToForce`](asperity_contact::Move::ToForce):
 /// the force in N at which the stage ends.
 pub const STAGE_FORCE: Field = row(

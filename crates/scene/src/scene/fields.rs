@@ -5,7 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use super::adhesion::{Adhesion, RoughnessParameter, Strength};
 use super::defaults;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
-use super::field::{FILE_NAME, Field, read_adhesion, read_form, read_roughness, read_stages, row};
+use super::field::{
+    FILE_NAME, Field, TABLE, read_adhesion, read_form, read_roughness, read_stages, row,
+};
 use super::measured::Measured;
 use super::model::{MaterialRelaxation, Roughness, SCENE_VERSION, Solver};
 use super::range::Range;
@@ -225,10 +227,10 @@ pub const FIELDS: &[Field] = &[
     row("form.radius", form!(Punch, radius), Range::above(0.0, 5.0))
         .quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
-    row("form.file", form!(Table, file), FILE_NAME)
+    row("form.file", form!(Table, file), TABLE)
         .name("table of the form")
         .meaning("file with two columns: ascending radii r from 0, and depths f of a body of \
-                  revolution"),
+                  revolution; or the rows in place of a name, data:,0 0;1e-6 2e-8"),
     row("form.unit", form!(Table, unit), UNIT)
         .name("unit of the table").default("\"\"")
         .meaning("unit of the lengths if the table states none; m if empty"),

@@ -301,9 +301,7 @@ impl Scene {
         let mut files = self
             .measured()
             .map_or_else(Vec::new, |measured| measured.faces().concat());
-        if let Some(Form::Table { file, .. }) = &self.form {
-            files.push(file);
-        }
+        files.extend(self.form.as_ref().and_then(Form::table_file));
         files
     }
 
@@ -323,7 +321,9 @@ impl Scene {
     /// table of the form. `rename` receives each name and returns the new name. The files
     /// themselves do not change.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
-        if let Some(Form::Table { file, .. }) = &mut self.form {
+        if let Some(Form::Table { file, .. }) = &mut self.form
+            && !file.starts_with(Form::ROWS_IN_PLACE)
+        {
             *file = rename(file);
         }
         if let Some(Roughness::Measured(Measured {

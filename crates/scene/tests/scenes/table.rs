@@ -351,6 +351,39 @@ fn nasty_tables() -> Vec<(Vec<f64>, Vec<f64>)> {
     tables
 }
 
+/// Rows in place of the name of a file give the same body, and are no file of the scene.
+#[test]
+fn rows_in_place_of_a_name_are_those_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = rows(3e-5, |r| r * r / 2e-5);
+    let mut in_place = Vec::new();
+    let mut file = String::new();
+    for (radius, depth) in table.0.iter().zip(&table.1) {
+        in_place.push(format!("{radius:e} {depth:e}"));
+        writeln!(file, "{radius:e} {depth:e}").unwrap();
+    }
+    std::fs::write(folder.path().join("tip.txt"), file).unwrap();
+    let line = |form: &str| {
+        let scene = scene(form, 5e-5);
+        let mut simulation = Simulation::new(folder.path().to_owned());
+        let (line, _, _) = simulation.make_line(scene.scene()).unwrap();
+        line.gaps.clone()
+    };
+    let form = format!(
+        "Table(file: \"{}{}\")",
+        Form::ROWS_IN_PLACE,
+        in_place.join(";")
+    );
+    assert_eq!(line(&form), line("Table(file: \"tip.txt\", unit: \"m\")"));
+    assert!(scene(&form, 5e-5).scene().measured_files().is_empty());
+    let short = scene("Table(file: \"data:,0 0;1e-6 1e-8\")", 5e-5);
+    let error = Simulation::default().make_line(short.scene()).unwrap_err();
+    assert!(
+        error.to_string().contains("the table ends at r = 1e-6 m"),
+        "{error}"
+    );
+}
+
 /// Depths are those of the stated interpolant, to rounding; between two rows it stays between their
 /// depths, so that no depth leaves what the rows allow.
 #[test]

@@ -39,7 +39,7 @@ const ROUNDING: f64 = 1.0e-9;
 /// assert!((square.sqrt() / line.moments().rms_height.value - 1.0).abs() < 0.05);
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EquivalentLine {
     /// Spectrum of each measured [face](crate::lines::Face). A face is one of the two surfaces that
     /// touch each other in the contact.
@@ -212,7 +212,7 @@ impl EquivalentLine {
 }
 
 /// Roughness of a rigid profile that comes from measured surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum MeasuredRoughness {
     /// Profile in the file that is used unchanged as the rigid profile, because the profile is
     /// already an equivalent line.

@@ -3,11 +3,12 @@
 
 use super::table::{FormTable, Rows};
 use crate::error::{Place, SurfaceError, refused};
+use crate::topography::open::content;
 use asperity_data::gauss_nodes_on_quarter_circle;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
@@ -69,7 +70,8 @@ pub enum Form {
     },
     /// Body of revolution whose radii and depths are in a file.
     Table {
-        /// Path of the file, relative to the scene file.
+        /// Path of the file, relative to the scene file, or the rows themselves after
+        /// [`Form::ROWS_IN_PLACE`], such as `data:,0 0;1e-6 2e-8`.
         file: String,
         /// Unit of the radii and depths if the file states none; empty for m.
         #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -81,6 +83,19 @@ pub enum Form {
 }
 
 impl Form {
+    /// Beginning of the name of a file that is no name but the content, as in the addresses of
+    /// RFC 2397. Each row has the radius and the depth in m, and `;` separates the rows.
+    pub const ROWS_IN_PLACE: &str = "data:,";
+
+    /// Returns the name of the file of a [`Form::Table`], relative to the folder of the scene file;
+    /// `None` for other forms, and for a table whose rows stand in place of the name.
+    pub fn table_file(&self) -> Option<&str> {
+        match self {
+            Form::Table { file, .. } if !file.starts_with(Form::ROWS_IN_PLACE) => Some(file),
+            _ => None,
+        }
+    }
+
     /// Reads the file of a [`Form::Table`], unless the file has been read already. Does nothing for
     /// other forms. `folder` is the folder of the scene file, and `length` is the length of the
     /// profile in m. Returns an error if the file contains no table, or if the table is too short
@@ -89,7 +104,10 @@ impl Form {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
         };
-        let path = folder.join(file);
+        let path = match self.table_file() {
+            Some(file) => folder.join(file),
+            None => PathBuf::from("rows of the form"),
+        };
         let in_file = |error: SurfaceError| error.in_file_of("form.file", &path);
         if rows.0.get().is_none() {
             let unit = if unit.is_empty() {
@@ -97,7 +115,12 @@ impl Form {
             } else {
                 Some(unit.parse().map_err(in_file)?)
             };
-            let table = FormTable::read(&path, unit).map_err(in_file)?;
+            let content = match file.strip_prefix(Form::ROWS_IN_PLACE) {
+                Some(rows) => Ok(rows.replace(';', "\n").into_bytes()),
+                None => content(&path),
+            };
+            let table = content.and_then(|content| FormTable::parse(&content, unit));
+            let table = table.map_err(in_file)?;
             rows.0.get_or_init(|| table);
         }
         let reach = self.table().map_or(0.0, FormTable::reach);

@@ -39,7 +39,7 @@ pub struct MeasuredOptions {
 ///
 /// The profile covers the distance from its first to its last point. If the points are equally
 /// spaced, the profile also covers half a spacing beyond each end.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,

@@ -6,13 +6,12 @@
 //! intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
-use crate::topography::open::{content, parse};
+use crate::topography::open::parse;
 use crate::topography::options::ReadOptions;
 use crate::topography::unit::Unit;
 use asperity_data::{OutOfMemory, emptied, gauss_nodes_on_quarter_circle};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
-use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 /// Number of Chebyshev nodes of the interpolation in [`FarParts`]. With this number the error of
@@ -118,16 +117,16 @@ impl PartialEq for Rows {
 }
 
 impl FormTable {
-    /// Reads a table with two columns, radius and depth. The numbers are in the unit that the file
+    /// Parses a table with two columns, radius and depth. The numbers are in the unit that the file
     /// states. If the file states no unit, they are in `unit`, or in m if `unit` is `None`.
-    pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
+    pub(super) fn parse(content: &[u8], unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,
             convention: Some(Unit::METRE),
             interpolate: true,
             ..ReadOptions::default()
         };
-        let surface = parse(&content(path)?, &options)?;
+        let surface = parse(content, &options)?;
         if let Some(row) = surface.first_missing() {
             let found = "the depth is missing";
             return Err(refused(

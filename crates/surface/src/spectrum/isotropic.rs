@@ -52,7 +52,7 @@ pub struct Node {
 
 /// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. The density is given
 /// at several wave numbers q, the [nodes](Node). Between the nodes, ln C2D is linear in ln q.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
     /// ln C2D at the nodes, the wave numbers at which the spectral density C2D is given.

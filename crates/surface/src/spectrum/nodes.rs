@@ -22,7 +22,7 @@ pub(super) struct WaveRange {
 }
 
 /// Nodes that are equally spaced in ln q. A node is a wave number q at which a spectrum is given.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) struct Nodes {
     /// Natural logarithm of the first wave number in rad/m.
     pub first: f64,

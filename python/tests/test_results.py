@@ -1,0 +1,305 @@
+"""Tests of results as objects: their attributes, copies, forms and types."""
+
+import concurrent.futures
+import copy
+import json
+import os
+import pickle
+import pydoc
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import asperity as asp
+from asperity._attributes import Attribute, Values, unit_of
+
+FEW = {"numerics__points": 1024, "roughness__modes": (4, 200)}
+SCENE = "pressure-sensitive"
+LOAD = {"modulus": "1 MPa", "work": "50 mJ/m²", "stages": "100 µN, separation"}
+
+
+def rough_map():
+    return 1e-9 * np.random.default_rng(2).standard_normal((64, 64))
+
+
+def curve_of(loop, seed=1):
+    away = np.linspace(-1e-6, -1e-9, 100)
+    d = np.r_[away, loop.indentation, loop.indentation[-1] + away[::-1]]
+    force = np.r_[0 * away, loop.force, 0 * away]
+    return d, force + 2e-8 * np.random.default_rng(seed).standard_normal(len(d))
+
+
+def made():
+    """Returns a result of each function, by its name."""
+    ball = asp.profile("100 µm", 1024, form=asp.sphere("100 µm"))
+    loop = asp.load(ball, **LOAD)
+    curve, fields = curve_of(loop), {"numerics__points": 256, "modulus": 1e6, "form__radius": 1e-4}
+    heights = asp.Profile(ball.heights, ball.spacing, nominal_form="curved")
+    rough = {"length": "100 µm", "numerics__points": 1024, "roughness__modes": (1, 4)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return {
+            "loop": loop,
+            "loop of heights": asp.load(heights, **LOAD),
+            "run": asp.run(SCENE, profiles=3, **FEW),
+            "run on one": asp.run("jkr-sphere", numerics__points=512),
+            "ensemble": asp.ensemble(SCENE, profiles=3, **FEW),
+            "find": asp.find("preload", SCENE, "F_a = 1 µN", profiles=3, **FEW),
+            "preloads": asp.preloads(SCENE, (0, "10 µN"), count=3, profiles=2, **FEW),
+            "reversals": asp.reversals(SCENE, count=5, **FEW),
+            "reference": asp.reference("rough-sphere", grid=32, surfaces=2, profiles=3, **rough),
+            "study": asp.study(SCENE, {"adhesion.kappa": [2, 6]}, profiles=3, **FEW),
+            "surface": asp.surface(rough_map(), spacing=1e-7, modulus="1 MPa", work=1e-3, profiles=2),
+            "fit": asp.fit(curve, "jkr-sphere", ["work", "offset"], **fields),
+            "fits": asp.fit([curve, curve_of(loop, 2)], "jkr-sphere", ["work", "offset"], **fields),
+            "press": asp.press(-np.add.outer(*2 * [np.linspace(-1, 1, 32) ** 2]), side=1, modulus=1, force=1e-3),
+        }
+
+
+def task_of(load):
+    """Loads a profile in another process."""
+    return asp.load(load, **LOAD)
+
+
+def all_classes(base=Values):
+    for one in base.__subclasses__():
+        yield one
+        yield from all_classes(one)
+
+
+class Objects(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = made()
+
+    def test_attributes_are_the_keys_of_the_json_object(self):
+        for name, found in self.made.items():
+            names = {one.name for one in found._attributes()}
+            self.assertLessEqual(found.to_dict().keys() - {"version"}, names, name)
+            for attribute in found._attributes():
+                if not (name == "fit" and attribute.unit and not hasattr(found, attribute.name)):
+                    getattr(found, attribute.name)
+            self.assertFalse(hasattr(found, "typo"), name)
+            with self.assertRaises(AttributeError):
+                found.warnings = []
+
+    def test_copies_have_the_same_forms(self):
+        for name, found in self.made.items():
+            for other in [pickle.loads(pickle.dumps(found)), copy.deepcopy(found), copy.copy(found)]:
+                self.assertEqual(repr(other), repr(found), name)
+                for method in ["to_json", "_repr_svg_", "_repr_html_"]:
+                    if hasattr(found, method):
+                        self.assertEqual(getattr(other, method)(), getattr(found, method)(), f"{name} {method}")
+        loop = pickle.loads(pickle.dumps(self.made["loop"]))
+        self.assertEqual(loop.pull_off_force_error, self.made["loop"].pull_off_force_error)
+        self.assertEqual(repr(list(loop.events)), repr(list(self.made["loop"].events)))
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            loop.force[0] = 1
+        with tempfile.TemporaryDirectory() as folder:
+            again = pickle.loads(pickle.dumps(self.made["run"]))
+            for ending in ["json", "csv", "npy", "txt", "svg", "png"]:
+                written = []
+                for number, outcome in enumerate([self.made["run"], again]):
+                    outcome.save(Path(folder) / f"{number}.{ending}")
+                    written.append((Path(folder) / f"{number}.{ending}").read_bytes())
+                self.assertEqual(*written, ending)
+            again.save(Path(folder) / "run.pdf")
+            for ending in ["json", "csv", "npy", "svg", "png", "pdf"]:
+                loop.save(Path(folder) / f"loop.{ending}")
+            self.assertEqual(json.loads((Path(folder) / "loop.json").read_text())["force"], list(loop.force))
+            np.testing.assert_array_equal(np.load(Path(folder) / "loop.npy")["force"], loop.force)
+            np.testing.assert_array_equal(
+                np.genfromtxt(Path(folder) / "loop.csv", delimiter=",", names=True)["force"], loop.force
+            )
+
+    def test_profiles_scenes_and_surfaces_are_copied_with_the_same_bits(self):
+        rough = asp.self_affine(0.7, rms_height="50 nm", modes=(4, 100))
+        surface = self.made["surface"]
+        x = np.linspace(-1, 1, 64)
+        bodies = [
+            asp.profile("100 µm", 512, form=asp.sphere("1 mm"), roughness=rough),
+            asp.profile("100 µm", form=asp.punch("10 µm"), roughness=1e-9 * x),
+            asp.Profile(-1e-6 * x**2, "1 µm", nominal_form="curved"),
+            surface.profile("6 µm", 256, seed=3),
+        ]
+        for body in bodies:
+            for other in [pickle.loads(pickle.dumps(body)), copy.deepcopy(body)]:
+                self.assertEqual(repr(other), repr(body))
+                np.testing.assert_array_equal(other.gaps, body.gaps)
+                np.testing.assert_array_equal(other.x, body.x)
+        scene = surface.scene(modulus="1 MPa", work=1e-3, stages="1 µN, separation")
+        copied = pickle.loads(pickle.dumps(scene))
+        self.assertEqual(copied.text, scene.text)
+        np.testing.assert_array_equal(asp.ensemble(copied, profiles=2).values(), asp.ensemble(scene, profiles=2).values())
+        with tempfile.TemporaryDirectory() as folder:
+            # The scene names a file beside it, and its copy is used elsewhere.
+            np.savetxt(Path(folder) / "map.txt", rough_map())
+            text = """(version: 1, material: (modulus: 1.0e6), length: 6.0e-6, adhesion: (work: 0.001),
+                roughness: Measured(file: "map.txt", unit: "m", spacing: 1.0e-7, seed: 1), numerics: (points: 512))"""
+            (Path(folder) / "scene.ron").write_text(text, encoding="utf-8")
+            here = os.getcwd()
+            os.chdir(folder)
+            try:
+                opened = asp.scene("scene.ron")
+                sent = pickle.dumps(opened)
+                expected = asp.ensemble(opened, profiles=2).values()
+            finally:
+                os.chdir(here)
+            np.testing.assert_array_equal(asp.ensemble(pickle.loads(sent), profiles=2).values(), expected)
+        form = pickle.loads(pickle.dumps(asp.sphere("1 mm")))
+        self.assertEqual(repr(form), repr(asp.sphere("1 mm")))
+        for error in [asp.FieldError("a", "b", "c", "d"), asp.LoadingError("a", 1, None)]:
+            self.assertEqual(vars(pickle.loads(pickle.dumps(error))), vars(error))
+
+    def test_a_pool_of_processes_computes_what_one_process_computes(self):
+        balls = [asp.profile("100 µm", points, form=asp.sphere("100 µm")) for points in (256, 512)]
+        with concurrent.futures.ProcessPoolExecutor(2) as executor:
+            for ball, loop in zip(balls, executor.map(task_of, balls), strict=True):
+                self.assertEqual(loop.to_json(), asp.load(ball, **LOAD).to_json())
+            seen = []
+            ensemble = asp.ensemble(SCENE, profiles=5, executor=executor, progress=lambda *done: seen.append(done), **FEW)
+            self.assertEqual(ensemble.to_json(), asp.ensemble(SCENE, profiles=5, **FEW).to_json())
+            self.assertEqual(seen[-1], (5, 5))
+            axes = {"adhesion.kappa": [2, 6], "preload_in_N": ["1 µN", "2 µN"]}
+            study = asp.study(SCENE, axes, profiles=3, executor=executor, **FEW)
+            self.assertEqual(study.to_json(), asp.study(SCENE, axes, profiles=3, **FEW).to_json())
+            curves = [curve_of(self.made["loop"], seed) for seed in range(3)]
+            fields = {"numerics__points": 256, "modulus": 1e6, "form__radius": 1e-4}
+            fits = asp.fit(curves, "jkr-sphere", ["work", "offset"], executor=executor, **fields)
+            self.assertEqual(fits.to_json(), asp.fit(curves, "jkr-sphere", ["work", "offset"], **fields).to_json())
+            scene = self.made["surface"].scene(modulus=1e6, work=1e-3, stages="1 µN, separation")
+            in_memory = asp.ensemble(scene, profiles=2, executor=executor)
+            self.assertEqual(in_memory.to_json(), asp.ensemble(scene, profiles=2).to_json())
+            with self.assertRaisesRegex(ValueError, "profile of this scene is fixed"):
+                asp.ensemble("jkr-sphere", profiles=20, executor=executor)
+        with self.assertRaises(asp.FieldError) as raised:
+            asp.ensemble(SCENE, executor="processes")
+        self.assertEqual(raised.exception.field, "executor")
+
+    def test_tables_have_units(self):
+        self.assertEqual(self.made["loop"].to_pandas().attrs["units"]["force"], "N")
+        study = self.made["study"].to_pandas()
+        self.assertEqual(study.attrs["units"], {"cell": "1", "adhesion.kappa": "1", "seed": "1", "pull_off_force": "N"})
+        for name in ["run", "preloads", "reversals", "ensemble", "surface"]:
+            frame = self.made[name].to_pandas()
+            texts = {column for column in frame if frame[column].dtype.kind not in "fiu"}
+            self.assertEqual(set(frame.columns) - texts, set(frame.attrs["units"]), name)
+        fits = self.made["fits"].to_pandas()
+        self.assertEqual((len(fits), fits.attrs["units"]["work_low"]), (2, "J/m²"))
+        table = self.made["run"].ensemble.per_profile
+        self.assertEqual(list(table["seed"]), [row["seed"] for row in table])
+        self.assertEqual(len(table[1:]), 2)
+        with self.assertRaisesRegex(KeyError, "no column 'F'; columns: "):
+            table["F"]
+
+    def test_a_study_has_the_axes_of_a_dataset(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.skipTest("no xarray")
+        axes = {"roughness.hurst": [0.5, 0.8], "preload_in_N": ["1 µN", "2 µN", "5 µN"]}
+        study = asp.study(SCENE, axes, profiles=3, record=["pull_off_force", "regime"], **FEW)
+        data = study.to_xarray()
+        self.assertEqual(dict(data.sizes), {"preload_in_N": 3, "roughness.hurst": 2, "profile": 3})
+        self.assertEqual((data.pull_off_force.attrs["units"], data["preload_in_N"].attrs["units"]), ("N", "N"))
+        for row in study.records:
+            place = {"roughness.hurst": row["roughness.hurst"], "preload_in_N": row["preload"]}
+            one = data.pull_off_force.sel(place, method="nearest").values[list(data.seed.values).index(row["seed"])]
+            self.assertEqual(one, row["pull_off_force"])
+
+    def test_a_loop_is_drawn_on_axes(self):
+        try:
+            import matplotlib
+        except ImportError:
+            with self.assertRaisesRegex(ImportError, "pip install matplotlib"):
+                self.made["loop"].plot()
+            return
+        matplotlib.use("Agg")
+        axes = self.made["loop"].plot(label="one")
+        self.assertIs(self.made["loop of heights"].plot(axes), axes)
+        self.assertEqual(len(axes.lines), 2)
+        np.testing.assert_array_equal(axes.lines[0].get_ydata(), self.made["loop"].force)
+
+    def test_a_name_has_one_unit(self):
+        units = {}
+        # A ratio has the name of its quantity, and the residual of a solver is counted in rms heights.
+        others = (asp.Ratios, asp.Pressed)
+        for one in set(all_classes()) - set(others):
+            for attribute in one._attributes():
+                if attribute.unit not in ("", "=") and not isinstance(attribute.type, type(dict[str, int])):
+                    units.setdefault(attribute.name, set()).add(attribute.unit)
+                for column in attribute.columns:
+                    self.assertTrue(unit_of(column) or column in asp._columns.COLUMNS or "regime" in column, column)
+        for name, found in units.items():
+            if unit_of(name):
+                found.add(unit_of(name))
+        self.assertEqual({name: found for name, found in units.items() if len(found) > 1}, {})
+
+    def test_help_has_types_units_and_meanings(self):
+        text = pydoc.render_doc(asp.Outcome, renderer=pydoc.plaintext)
+        self.assertIn("float | None, N: pull-off force F_a, minus the smallest force of the last unloading.", text)
+        for one in all_classes():
+            self.assertTrue(one.__doc__, one)
+            for attribute in one._attributes():
+                self.assertIsInstance(attribute, Attribute)
+                self.assertNotIn("Any", attribute.type_in_words())
+                self.assertRegex(attribute.meaning, r"^\S.*[^.]$")
+
+    def test_notebooks_show_tables_and_figures(self):
+        for name, found in self.made.items():
+            self.assertIn("<table", found._repr_html_(), name)
+            self.assertNotIn("object at 0x", repr(found), name)
+            self.assertLess(len(repr(found)), 300, repr(found))
+        self.assertIn("<svg", asp.profile("1 mm", 64, form=asp.cone("1°"))._repr_svg_())
+
+    def test_a_misspelt_attribute_is_found_before_a_program_runs(self):
+        functions = {
+            "asp.load(body, modulus=1)": "Loop",
+            "asp.run('x')": "Outcome",
+            "asp.ensemble('x')": "Ensemble",
+            "asp.find('x', 'x', 'x')": "Found",
+            "asp.preloads('x', (0, 1))": "Preloads",
+            "asp.reversals('x')": "Reversals",
+            "asp.reference('x')": "Reference",
+            "asp.study('x', {'a': [1]})": "Study",
+            "asp.surface('x')": "Surface",
+            "asp.criteria('x')[0]": "Criterion",
+            "asp.press([[1.0]], side=1, modulus=1, force=1)": "Pressed",
+            "asp.fit('x', 'x', 'work')": "Fit",
+            "asp.fit(['x', 'y'], 'x', 'work')": "Fits",
+            "asp.fit('x', 'x', 'work', profiles=8)": "EnsembleFit",
+            "asp.run('x').profile": "ProfileFacts",
+            "asp.fit('x', 'x', 'work').work": "FittedParameter",
+            "body": "Profile",
+            "asp.scene('x')": "Scene",
+        }
+        program = ["import asperity as asp", "body = asp.profile(1)"]
+        for expression in functions:
+            program.append(f"{expression}.typo")
+        program += ["x: float = asp.surface('x').equivalent_line.rms_height.value", "y = asp.load(body, modulus=1).force + 1.0"]
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "program.py"
+            file.write_text("\n".join(program) + "\n")
+            interpreter = ["--pythonpath", sys.executable]
+            for checker in (["mypy", "--strict"], ["basedpyright", "--level", "error", *interpreter], ["pyright", *interpreter]):
+                try:
+                    command = [sys.executable, "-m", *checker, str(file)]
+                    said = subprocess.run(command, capture_output=True, text=True, cwd=folder)
+                except OSError:
+                    continue
+                if "No module named" in said.stderr:
+                    self.assertNotEqual(checker[0], "mypy", "mypy is needed")
+                    continue
+                for line, (expression, name) in enumerate(functions.items(), 3):
+                    self.assertRegex(said.stdout, rf'program\.py:{line}:.*"typo".*', f"{checker[0]}: {expression}")
+                    self.assertRegex(said.stdout, rf'program\.py:{line}:.*"{name}', f"{checker[0]}: {expression}")
+                self.assertNotRegex(said.stdout, rf"program\.py:({len(functions) + 3}|{len(functions) + 4}):", said.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
