@@ -3,7 +3,7 @@
 use super::action::Task;
 use super::config::Config;
 use super::editor::Editor;
-use super::events::ListedEvents;
+use super::events::{LeastShare, ListedEvents};
 use super::ghost::Ghost;
 use super::keys::bindings::{Context, KeyCommand};
 use super::manual_path::ManualPath;
@@ -79,6 +79,8 @@ pub struct View {
     pub zoomed: bool,
     /// True if the list of events takes the place of the results.
     pub lists_events: bool,
+    /// Smallest energy of a jump in the list of events, as a share of the largest one.
+    pub least_share: LeastShare,
     /// Index of the shown page of a pane that has several pages in a small window. An index beyond
     /// the last page means the last page.
     pub page: usize,
@@ -146,6 +148,7 @@ pub(super) struct Awaited {
     pub generation: u64,
     pub snapshot: SnapshotRequest,
     pub path: Option<Arc<ManualPath>>,
+    pub least_share: LeastShare,
 }
 
 #[derive(Clone, Debug)]
@@ -200,6 +203,7 @@ impl App {
                 large: None,
                 zoomed: false,
                 lists_events: false,
+                least_share: LeastShare::default(),
                 page: 0,
                 size,
                 appearance,

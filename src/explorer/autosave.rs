@@ -2,6 +2,7 @@
 //! changes. Each session has its own file, which is locked while the session runs. Files of the
 //! user are never changed.
 
+use super::manual_path::ManualPath;
 use asperity_data::{into_text, open_regular, path_name, read_limited};
 use asperity_scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
@@ -26,6 +27,36 @@ struct Copy {
     opened: String,
     text: String,
     overrides: Vec<(String, String)>,
+    /// Path along which the user has moved the body by hand. Only the first scene has one.
+    path: Option<ManualPath>,
+}
+
+/// What a session keeps for another session.
+#[derive(Clone, Debug, Default)]
+pub struct Unsaved<'a> {
+    /// Scenes with unsaved changes. If there is a path, the first one is the scene of the path,
+    /// which may itself have no changes.
+    pub documents: Vec<&'a Document>,
+    /// Path by hand in the first scene; `None` if the user has not moved the body.
+    pub path: Option<&'a ManualPath>,
+}
+
+impl Unsaved<'_> {
+    pub fn is_empty(&self) -> bool {
+        self.documents.is_empty()
+    }
+
+    fn copies(&self) -> Vec<Copy> {
+        let mut copies: Vec<Copy> = self
+            .documents
+            .iter()
+            .map(|document| Copy::of(document))
+            .collect();
+        if let Some(first) = copies.first_mut() {
+            first.path = self.path.cloned();
+        }
+        copies
+    }
 }
 
 impl Copy {
@@ -39,6 +70,7 @@ impl Copy {
             opened: document.opened().to_owned(),
             text: document.text().to_owned(),
             overrides: document.overrides().to_vec(),
+            path: None,
         }
     }
 }
@@ -64,6 +96,14 @@ pub struct Kept {
     path: PathBuf,
     lock: File,
     pub documents: Vec<Document>,
+    /// Path along which the user had moved the body by hand in the first document.
+    pub by_hand: Option<ManualPath>,
+}
+
+/// Content of a file with unsaved changes.
+struct Content {
+    documents: Vec<Document>,
+    by_hand: Option<ManualPath>,
 }
 
 /// Result of a search for the unsaved changes of ended sessions.
@@ -111,7 +151,7 @@ fn open(path: PathBuf) -> Result<Option<Kept>, String> {
     if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
         return Ok(None);
     }
-    let documents = read(&lock)?;
+    let Content { documents, by_hand } = read(&lock)?;
     if documents.is_empty() {
         return Err("there is no scene in it".to_owned());
     }
@@ -119,6 +159,7 @@ fn open(path: PathBuf) -> Result<Option<Kept>, String> {
         path,
         lock,
         documents,
+        by_hand,
     }))
 }
 
@@ -137,19 +178,24 @@ pub fn offer(folder: &Path) -> Option<String> {
     ))
 }
 
-/// Reads the scenes in a file. The first scene is the one that the user was exploring.
-fn read(file: &File) -> Result<Vec<Document>, String> {
+/// Reads the scenes in a file, and the path by hand. The first scene is the one that the user was
+/// exploring.
+fn read(file: &File) -> Result<Content, String> {
     let text = read_limited(file, LONGEST)
         .and_then(into_text)
         .map_err(|error| error.to_string())?;
     let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| error.to_string())?;
     let mut documents = Vec::new();
+    let mut by_hand = None;
     for copy in copies {
+        if documents.is_empty() {
+            by_hand = copy.path;
+        }
         let document = Document::parse(&copy.text, &copy.name);
         let document = document.map_err(|errors| errors.to_string())?;
         documents.push(document.resumed(copy.opened, copy.overrides));
     }
-    Ok(documents)
+    Ok(Content { documents, by_hand })
 }
 
 impl Autosave {
@@ -178,21 +224,17 @@ impl Autosave {
         self.own.is_some()
     }
 
-    /// Writes these scenes to the file of this session, in place of the scenes that it contains. If
-    /// there are no scenes, the file is removed. Even if the process is killed meanwhile, the file
+    /// Writes these changes to the file of this session, in place of those that it contains. If
+    /// there are no changes, the file is removed. Even if the process is killed meanwhile, the file
     /// has either its complete old content or its complete new content.
-    pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
-        if documents.is_empty() {
+    pub fn keep(&mut self, unsaved: &Unsaved<'_>) -> io::Result<()> {
+        if unsaved.is_empty() {
             return match self.own.take() {
                 Some(_) => fs::remove_file(&self.path),
                 None => Ok(()),
             };
         }
-        let copies: Vec<Copy> = documents
-            .iter()
-            .map(|document| Copy::of(document))
-            .collect();
-        let text = ron::to_string(&copies).map_err(io::Error::other)?;
+        let text = ron::to_string(&unsaved.copies()).map_err(io::Error::other)?;
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
@@ -211,8 +253,18 @@ impl Autosave {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explorer::manual_path::PathStart;
+    use crate::explorer::player::At;
+    use asperity_contact::Move;
     use asperity_scene::open as open_scene;
     use std::time::Duration;
+
+    fn of<'a>(documents: &[&'a Document]) -> Unsaved<'a> {
+        Unsaved {
+            documents: documents.to_vec(),
+            path: None,
+        }
+    }
 
     #[test]
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
@@ -229,8 +281,8 @@ mod tests {
             .set("length", "2.0e-4")
             .unwrap();
         let mut session = Autosave::new(&folder, None);
-        session.keep(&[&changed]).unwrap();
-        session.keep(&[&changed, &other]).unwrap();
+        session.keep(&of(&[&changed])).unwrap();
+        session.keep(&of(&[&changed, &other])).unwrap();
         assert!(kept().is_none(), "the session runs");
         drop(session);
         let restored = kept().unwrap();
@@ -241,17 +293,56 @@ mod tests {
             "another process that restores at the same time has nothing left to open"
         );
         let mut next = Autosave::new(&folder, Some(restored));
-        next.keep(&[&changed]).unwrap();
+        next.keep(&of(&[&changed])).unwrap();
         assert!(
             kept().is_none(),
             "the session that opened the scenes continues their file"
         );
-        next.keep(&[]).unwrap();
+        next.keep(&Unsaved::default()).unwrap();
         assert_eq!(
             fs::read_dir(&folder).unwrap().count(),
             0,
             "nothing is unsaved any more"
         );
+    }
+
+    #[test]
+    fn a_path_by_hand_is_read_back_bit_for_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = open_scene("pressure-sensitive").unwrap();
+        for (at, indentation) in [
+            (At::Start, 1.0 / 3.0 * 1e-6),
+            (At::Indentation(-0.1 * f64::EPSILON), -5e-324),
+            (At::PullOff, -0.0),
+            (At::End, 0.1 + 0.2),
+        ] {
+            let path = ManualPath {
+                start: PathStart { stage: 1, at },
+                moves: vec![
+                    Move::ToIndentation(indentation),
+                    Move::ToForce(-indentation),
+                    Move::ToDisplacement(indentation),
+                    Move::ToTouch,
+                    Move::ToZeroForce,
+                    Move::ToSeparation,
+                ],
+            };
+            let mut session = Autosave::new(folder.path(), None);
+            session
+                .keep(&Unsaved {
+                    documents: vec![&scene],
+                    path: Some(&path),
+                })
+                .unwrap();
+            drop(session);
+            let mut restored = newest(folder.path()).kept.unwrap();
+            assert_eq!(restored.documents, std::slice::from_ref(&scene));
+            // The formatted numbers also differ for 0 and -0, which are equal.
+            let read = restored.by_hand.take().unwrap();
+            assert_eq!(format!("{read:?}"), format!("{path:?}"));
+            let mut next = Autosave::new(folder.path(), Some(restored));
+            next.keep(&Unsaved::default()).unwrap();
+        }
     }
 
     /// A file that cannot be read is reported by its name, and does not hide an older file that can
@@ -266,7 +357,7 @@ mod tests {
             .set("adhesion.kappa", "3.0")
             .unwrap();
         let mut session = Autosave::new(folder, None);
-        session.keep(&[&changed]).unwrap();
+        session.keep(&of(&[&changed])).unwrap();
         drop(session);
         // The clock of files is coarse, so a file written at once may have the same time.
         let an_hour_ago = SystemTime::now() - Duration::from_secs(3600);

@@ -429,9 +429,16 @@ impl Editor {
         unsaved
     }
 
+    /// Returns the path of manual loading if the user has moved the body along it. It has no file of
+    /// its own, so it is unsaved until it becomes the loading of the scene.
+    pub fn unsaved_path(&self) -> Option<&Arc<ManualPath>> {
+        self.path.as_ref().filter(|path| !path.moves.is_empty())
+    }
+
     /// Restores the unsaved changes of another session. The first document becomes the explored
-    /// scene.
-    pub fn restore(&mut self, documents: &[Document]) {
+    /// scene, and `path` is the path along which the user has moved its body.
+    pub fn restore(&mut self, documents: &[Document], path: Option<&ManualPath>) {
+        self.path = path.cloned().map(Arc::new);
         for (number, document) in documents.iter().enumerate() {
             let name = document.name().to_owned();
             match Document::parse(document.opened(), document.name()) {

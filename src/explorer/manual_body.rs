@@ -1,7 +1,7 @@
 //! The body under manual loading. It follows the stages of a path one after the other, each in one
 //! exact motion, just as a scene with these stages as its loading does.
 
-use super::events::{LEAST_SHARE, MOST_LISTED};
+use super::events::{LeastShare, MOST_LISTED};
 use asperity_contact::motion::{Body, JumpCollector, MovingBody, Stage};
 use asperity_contact::{Contact, ContactError, CurvePoint, Events, Move, StageRecord};
 use asperity_data::format_quantity;
@@ -49,8 +49,9 @@ impl ManualBody {
     }
 
     /// Lists the events of all stages.
-    pub fn events(&self) -> Result<Events, ContactError> {
-        self.jumps.events(&self.records, LEAST_SHARE, MOST_LISTED)
+    pub fn events(&self, least_share: LeastShare) -> Result<Events, ContactError> {
+        self.jumps
+            .events(&self.records, least_share.value(), MOST_LISTED)
     }
 
     pub fn point(&self) -> CurvePoint {

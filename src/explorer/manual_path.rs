@@ -6,11 +6,13 @@ use super::player::{At, Player};
 use asperity_contact::{Move, StageRecord};
 use asperity_data::format_rounded;
 use asperity_scene::loading::loading_text;
+use serde::{Deserialize, Serialize};
 
 /// Largest number of moves of a path. Each move has a force curve of its own in memory.
 pub const MOST_MOVES: usize = 1000;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ManualPath {
     pub start: PathStart,
     /// Targets of the moves, which stay the same when the scene changes.
@@ -18,7 +20,8 @@ pub struct ManualPath {
 }
 
 /// State of the scene's own loading at which a path starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PathStart {
     /// Index of the loading stage.
     pub stage: usize,

@@ -1,13 +1,14 @@
 //! State of the animation of the loading, and the indentation that the animation shows now.
 
 use asperity_contact::{Branch, StageRecord};
+use serde::{Deserialize, Serialize};
 
 /// Distance above first touch at which the animation begins, as a share of the range of
 /// indentations.
 const LIFT: f64 = 0.12;
 
 /// Position of the animation within a loading stage.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum At {
     Start,
     Indentation(f64),

@@ -2,6 +2,7 @@
 //! the scene or, under manual loading, over the path.
 
 use super::app::App;
+use super::events::LeastShare;
 use super::player::{At, Player};
 use super::request::Drive;
 use super::snapshot::{ContactSnapshot, FollowedPath};
@@ -35,7 +36,8 @@ impl App {
     }
 
     /// Returns the events of the loading over which the animation moves, or the reason why there
-    /// are none; `None` until the solver has listed the events.
+    /// are none; `None` until the solver has listed the events. If the user wants more or fewer
+    /// jumps, the former events stay until the solver has listed the new ones.
     pub fn listed_events(&self) -> Option<Result<&Events, &str>> {
         let listed = self.events.as_deref()?;
         let is_present = listed.generation == self.edit.generation && listed.path == self.edit.path;
@@ -43,6 +45,12 @@ impl App {
             return None;
         }
         Some(listed.events.as_ref().map_err(String::as_str))
+    }
+
+    /// Returns the share with which the events of [`Self::listed_events`] were chosen.
+    pub fn listed_share(&self) -> LeastShare {
+        let listed = self.events.as_deref();
+        listed.map_or(self.view.least_share, |listed| listed.least_share)
     }
 
     /// Returns the loading stages over which the animation moves: those of the path of manual

@@ -1,5 +1,6 @@
 //! Requests from the explorer to the solver for a state of the contact.
 
+use super::events::LeastShare;
 use super::manual_path::ManualPath;
 use super::player::At;
 use asperity_scene::CheckedScene;
@@ -14,6 +15,8 @@ pub struct Request {
     pub scene: Arc<CheckedScene>,
     /// Path along which the user has moved the body; `None` without manual loading.
     pub path: Option<Arc<ManualPath>>,
+    /// Smallest energy of a listed jump, as a share of the largest one.
+    pub least_share: LeastShare,
     pub snapshot: SnapshotRequest,
 }
 

@@ -106,7 +106,9 @@ impl Runtime {
     /// Returns true while the solver has not answered the last request, or has not listed the
     /// events after its answer.
     pub fn awaits_answer(&self) -> bool {
-        let awaits_events = self.app.is_current() && self.app.listed_events().is_none();
+        let wanted = self.app.view.least_share;
+        let is_listed = self.app.listed_events().is_some() && self.app.listed_share() == wanted;
+        let awaits_events = self.app.is_current() && !is_listed;
         self.engine.is_waiting || awaits_events
     }
 

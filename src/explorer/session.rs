@@ -3,10 +3,12 @@
 
 use super::action::{Action, Task};
 use super::app::App;
-use super::autosave::{Autosave, Kept};
+use super::autosave::{Autosave, Kept, Unsaved};
 use super::cell_writer::{CellWriter, remove_ink_of_blanks};
 use super::commands::opening::begin;
 use super::config::Config;
+use super::editor::Editor;
+use super::manual_path::ManualPath;
 use super::opening::Opening;
 use super::runtime::{Engine, Runtime};
 use super::signals::{SystemSignal, watch_for_signals};
@@ -178,7 +180,7 @@ pub fn open(
         inbox,
         waiting,
         autosave,
-        kept: (0, 0),
+        kept: StateOfChanges::default(),
         touched: now,
     };
     let end = catch_unwind(AssertUnwindSafe(|| session.run()));
@@ -199,7 +201,7 @@ fn restore_or_offer(
     unsaved: Option<&Path>,
 ) -> Option<String> {
     if let Some(kept) = restored {
-        app.edit.restore(&kept.documents);
+        app.edit.restore(&kept.documents, kept.by_hand.as_ref());
         return None;
     }
     autosave::offer(unsaved?)
@@ -304,11 +306,42 @@ struct Session<'a> {
     /// One entry for each input event that waits in the inbox.
     waiting: Receiver<()>,
     autosave: Option<Autosave>,
-    /// Generation of the scene and number of saves at the time when unsaved changes were last
-    /// written.
-    kept: (u64, u64),
+    /// State at the time when unsaved changes were last written.
+    kept: StateOfChanges,
     /// Time of the last input.
     touched: Instant,
+}
+
+/// Every edit, every move of the body by hand and every save changes at least one of these values.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct StateOfChanges {
+    /// Generation of the scene.
+    generation: u64,
+    /// Number of saves.
+    saves: u64,
+    /// Path along which the user has moved the body by hand.
+    path: Option<Arc<ManualPath>>,
+}
+
+impl StateOfChanges {
+    fn of(edit: &Editor) -> Self {
+        StateOfChanges {
+            generation: edit.generation,
+            saves: edit.saves,
+            path: edit.unsaved_path().cloned(),
+        }
+    }
+}
+
+/// Returns what another session can restore: the scenes with unsaved changes and the path by hand,
+/// with its scene even if this scene has no changes.
+fn unsaved(edit: &Editor) -> Unsaved<'_> {
+    let path = edit.unsaved_path().map(Arc::as_ref);
+    let mut documents = edit.unsaved();
+    if path.is_some() && !edit.is_unsaved() {
+        documents.insert(0, &edit.document);
+    }
+    Unsaved { documents, path }
 }
 
 /// What has changed since the last frame, from the least to the most urgent.
@@ -375,7 +408,7 @@ impl Session<'_> {
             && let Some(mut autosave) = self.autosave
         {
             // The user has already decided about the unsaved changes, so their copy is removed.
-            let _ = autosave.keep(&[]);
+            let _ = autosave.keep(&Unsaved::default());
         }
         let computed = app.current().cloned();
         SessionEnd {
@@ -546,23 +579,16 @@ impl Session<'_> {
     /// Returns the time at which unsaved changes are written to their file. `None` if they have not
     /// changed since they were last written, or if there are none and no file has to be removed.
     fn next_keeping(&mut self) -> Option<Instant> {
-        let state = self.state_of_changes();
+        let state = StateOfChanges::of(&self.runtime.app.edit);
         if state == self.kept {
             return None;
         }
         let autosave = self.autosave.as_ref()?;
-        if !autosave.has_file() && self.runtime.app.edit.unsaved().is_empty() {
+        if !autosave.has_file() && unsaved(&self.runtime.app.edit).is_empty() {
             self.kept = state;
             return None;
         }
         Some(self.touched + KEEPING_PAUSE)
-    }
-
-    /// Returns the generation of the scene and the number of saves. Every edit and every save
-    /// changes at least one of these numbers.
-    fn state_of_changes(&self) -> (u64, u64) {
-        let edit = &self.runtime.app.edit;
-        (edit.generation, edit.saves)
     }
 
     /// Writes the unsaved changes to a file for another session, if they have changed since they
@@ -570,7 +596,7 @@ impl Session<'_> {
     /// ends or is stopped. If the process is killed, or gets a signal while the terminal accepts no
     /// output, the changes of the last second may be lost.
     fn keep_unsaved(&mut self) {
-        let state = self.state_of_changes();
+        let state = StateOfChanges::of(&self.runtime.app.edit);
         if state == self.kept {
             return;
         }
@@ -579,7 +605,7 @@ impl Session<'_> {
         };
         self.kept = state;
         let app = &mut self.runtime.app;
-        if let Err(error) = autosave.keep(&app.edit.unsaved()) {
+        if let Err(error) = autosave.keep(&unsaved(&app.edit)) {
             self.autosave = None;
             self.change = Change::Other;
             app.set_error(format!(

@@ -3,7 +3,7 @@
 //! solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
-use super::events::{LEAST_SHARE, ListedEvents, MOST_LISTED};
+use super::events::{LeastShare, ListedEvents, MOST_LISTED};
 use super::manual_body::ManualBody;
 use super::manual_path::ManualPath;
 use super::player::{At, Player};
@@ -140,6 +140,7 @@ impl Solver {
             generation,
             scene,
             path,
+            least_share,
             snapshot,
         } = request;
         let is_new = generation != self.newest.generation;
@@ -177,36 +178,42 @@ impl Solver {
             report(Reply::Shown(shown));
         }
         // The events follow the answer, because to list them takes part of the time of the loop.
-        if let Some(events) = self.list_events() {
+        if let Some(events) = self.list_events(least_share) {
             self.newest.listed = Some(Arc::clone(&events));
             report(Reply::Listed(events));
         }
     }
 
     /// Lists the events of the newest scene or, under manual loading, of the path. Returns `None`
-    /// if they are listed already, or if the explorer waits for a newer scene.
-    fn list_events(&self) -> Option<Arc<ListedEvents>> {
+    /// if they are listed already with this share, or if the explorer waits for a newer scene.
+    fn list_events(&self, least_share: LeastShare) -> Option<Arc<ListedEvents>> {
         let solved = self.newest.solved.as_deref()?;
         let manual = self.newest.manual.as_ref();
         let path = manual.map(|manual| Arc::clone(&manual.followed.path));
-        let is_listed = |listed: &Arc<ListedEvents>| listed.path == path;
+        let is_listed =
+            |listed: &Arc<ListedEvents>| listed.path == path && listed.least_share == least_share;
         if self.newest.listed.as_ref().is_some_and(is_listed) {
             return None;
         }
         let events = match manual {
-            Some(manual) => manual.body.events().map_err(why_no_events),
-            None => self.events_of_loading(solved)?,
+            Some(manual) => manual.body.events(least_share).map_err(why_no_events),
+            None => self.events_of_loading(solved, least_share)?,
         };
         Some(Arc::new(ListedEvents {
             generation: self.newest.generation,
             path,
+            least_share,
             events,
         }))
     }
 
     /// Lists the events of the loading of a scene, or returns the reason why they cannot be listed.
     /// Returns `None` if the explorer waits for a newer scene.
-    fn events_of_loading(&self, solved: &SolvedScene) -> Option<Result<Events, String>> {
+    fn events_of_loading(
+        &self,
+        solved: &SolvedScene,
+        least_share: LeastShare,
+    ) -> Option<Result<Events, String>> {
         let records = &solved.outcome.history.stages;
         let mut jumps = JumpCollector::default();
         for (record, motion) in records.iter().zip(&self.newest.stages) {
@@ -222,7 +229,7 @@ impl Solver {
                 return Some(Err(why_no_events(error)));
             }
         }
-        let events = jumps.events(records, LEAST_SHARE, MOST_LISTED);
+        let events = jumps.events(records, least_share.value(), MOST_LISTED);
         Some(events.map_err(why_no_events))
     }
 

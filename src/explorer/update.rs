@@ -117,6 +117,7 @@ pub fn request(app: &mut App) -> Request {
         generation: wanted.generation,
         scene: Arc::clone(&app.edit.scene),
         path: wanted.path,
+        least_share: wanted.least_share,
         snapshot: wanted.snapshot,
     }
 }
@@ -127,6 +128,7 @@ fn awaited(app: &App) -> Awaited {
         generation: app.edit.generation,
         snapshot: snapshot_request(app),
         path: app.edit.path.clone(),
+        least_share: app.view.least_share,
     }
 }
 

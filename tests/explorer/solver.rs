@@ -4,6 +4,7 @@
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use asperity::contact::{ContactError, CurvePoint, Move, Patch};
+use asperity::explorer::events::LeastShare;
 use asperity::explorer::manual_path::{ManualPath, PathStart};
 use asperity::explorer::player::At;
 use asperity::explorer::request::{Drive, Focus, LineView, Request, SnapshotRequest};
@@ -113,6 +114,7 @@ fn compute(generation: u64, document: &Document) -> Request {
         generation,
         scene,
         path: None,
+        least_share: LeastShare::default(),
         snapshot: SNAPSHOT,
     }
 }

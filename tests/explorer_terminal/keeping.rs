@@ -92,6 +92,44 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
     }
 }
 
+/// The force at the body, and the point of the path, are those of the killed explorer.
+#[test]
+fn a_path_by_hand_outlives_a_killed_explorer() {
+    let (program, folder) = explorer();
+    let home = folder.path();
+    let mut terminal = paused(program);
+    let shown = |rows: &[String]| {
+        let row = rows.iter().find(|row| row.contains("Force F"))?;
+        let (_, after) = row.split_once('◆')?;
+        Some(after.to_owned())
+    };
+    terminal.send("d");
+    terminal.send("LLLHHHl");
+    terminal.settle_for(Duration::from_millis(300));
+    let before = shown(&terminal.rows());
+    assert!(before.is_some(), "{}", terminal.text());
+    terminal.wait_until("file of the path", || !kept(home).is_empty());
+    let text = fs::read_to_string(&kept(home)[0]).unwrap();
+    assert!(text.contains("ToIndentation"), "{text}");
+    let pid = terminal.pid().to_string();
+    let status = Command::new("kill").args(["-KILL", &pid]).status();
+    assert!(status.unwrap().success());
+    terminal.wait_process();
+    let mut terminal = again(home, "--restore").start();
+    terminal.wait("the same point", |rows| shown(rows) == before);
+    assert!(
+        !terminal.rows()[0].contains("[changed]"),
+        "{}",
+        terminal.text()
+    );
+    terminal.wait_until("own file", || kept(home).len() == 1);
+    assert_eq!(fs::read_to_string(&kept(home)[0]).unwrap(), text);
+    // Without the path, nothing is unsaved.
+    terminal.send("\x1b");
+    terminal.wait_until("no file", || kept(home).is_empty());
+    quit(&mut terminal);
+}
+
 /// Writing a file waits for the disk, so a held key must not write one for each of its edits.
 #[test]
 fn unsaved_changes_are_written_once_when_the_keys_rest() {

@@ -96,9 +96,16 @@ const ROWS: &[Context] = &[
     Context::Timeline,
     Context::Parameters,
 ];
-/// All contexts of panes except those in which the characters of these keys begin a value.
-const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
-/// Contexts in which `+` zooms into the profile. With the timeline selected, it changes the speed.
+/// Contexts in which `-` zooms out, or lists fewer events. In the other panes, it begins a value or
+/// makes the animation slower.
+const ZOOMED_OUT: &[Context] = &[
+    Context::Explore,
+    Context::Map,
+    Context::Crosshair,
+    Context::Events,
+];
+/// Contexts in which `+` zooms in, or lists more events. With the timeline selected, it changes the
+/// speed.
 const OUTSIDE_TIMELINE: &[Context] = &[
     Context::Explore,
     Context::Map,
@@ -199,6 +206,10 @@ fn is_manual(app: &App) -> bool {
     app.edit.path.is_some()
 }
 
+fn lists_events(app: &App) -> bool {
+    app.view.pane == Pane::Events
+}
+
 fn is_stage(app: &App) -> bool {
     app.edit
         .parameter()
@@ -266,8 +277,8 @@ static TABLE: &[Entry] = &[
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "show forces in units of F_a,max, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous patch", LOOK),
-    row("+ =", OUTSIDE_TIMELINE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom into the profile if it is selected, else into the patch", LOOK),
-    row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
+    row("+ =", OUTSIDE_TIMELINE, "zoom-in", Do(|app| view::zoom(app, 1)), "more/fewer", "zoom into the selected profile, list more of the selected events, else zoom into the patch", LOOK).words("jumps smaller energy share").rank(2).shown_if(lists_events),
+    row("-", ZOOMED_OUT, "zoom-out", Do(|app| view::zoom(app, -1)), "more/fewer", "zoom out; list fewer of the selected events", LOOK).words("jumps larger energy share").rank(2).shown_if(lists_events),
     row("( )", EXPLORE, "pan", Key(view::pan), "", "pan left or right along the profile", LOOK).unlisted(),
     row("A", EXPLORE, "toggle-trust", Do(|app| app.toggle(Pane::Trust)), "trust", "show how far F_a can be trusted", LOOK).words("accuracy error uncertainty budget theories criteria Persson Tabor JKR convergence cost time"),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number", LOOK).words("spectrum power spectral density PSD roughness"),

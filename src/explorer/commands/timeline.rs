@@ -176,6 +176,21 @@ pub fn toggle_repeat(app: &mut App) {
     app.set_done(text);
 }
 
+/// Lists smaller jumps as well or, if `more` is false, only larger ones.
+pub fn change_listed(app: &mut App, more: bool) {
+    let share = app.view.least_share;
+    let changed = if more {
+        share.smaller()
+    } else {
+        share.larger()
+    };
+    match changed {
+        Some(changed) => app.view.least_share = changed,
+        None if more => app.set_done("all jumps are listed already"),
+        None => app.set_done("the jumps from 10 % of the largest energy are the fewest"),
+    }
+}
+
 /// Shows the list of events in place of the results, or the results again.
 pub fn toggle_events(app: &mut App) {
     let shows = app.view.pane == Pane::Events || app.view.lists_events;

@@ -1,6 +1,7 @@
 //! Commands that change what is shown: panes, close-up, visible part of the profile, units and
 //! colours.
 
+use super::timeline::change_listed;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::pane::Pane;
@@ -59,8 +60,12 @@ fn close_up_springs(app: &App) -> usize {
     }
 }
 
-/// Zooms the profile if its pane is selected, otherwise the close-up. Positive steps zoom in.
+/// Zooms the profile if its pane is selected, otherwise the close-up. Positive steps zoom in. If the
+/// list of events is selected, lists more jumps instead, or fewer ones.
 pub fn zoom(app: &mut App, steps: i32) {
+    if app.view.pane == Pane::Events {
+        return change_listed(app, steps > 0);
+    }
     let most = springs(app);
     if app.view.pane == Pane::Profile {
         let least = (FEWEST_SPRINGS as f64 / most as f64).min(1.0);

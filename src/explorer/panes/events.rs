@@ -5,7 +5,6 @@ use super::force;
 use super::row::{Exported, PaneRow, outcome, run_report};
 use super::timeline::{ink_of, symbol_of};
 use crate::explorer::app::App;
-use crate::explorer::events::LEAST_SHARE;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
@@ -23,7 +22,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Events",
         "key e: the jumps of the loading with at least 1 % of the largest energy, and its marks. A positive energy is \
-         gained by springs, a negative one released. With the pane selected, ↑ ↓ or a click move the animation to an event",
+         gained by springs, a negative one released. With the pane selected, ↑ ↓ or a click move the animation to an \
+         event; + lists smaller jumps as well, from 0.1 % or all, - only those from 10 %",
     )],
     ..PaneRow::EMPTY
 };
@@ -38,9 +38,10 @@ fn report(app: &App) -> Exported<'_> {
     let report = EventsReport {
         run: run_report(app)?,
         events,
-        least_share: LEAST_SHARE,
+        least_share: app.listed_share().value(),
     };
-    Some(("asperity run --events".into(), Box::new(report)))
+    let command = format!("asperity run --events={}", app.listed_share().argument());
+    Some((command.into(), Box::new(report)))
 }
 
 /// Width in columns from which a row also states the forces.
@@ -49,14 +50,15 @@ const WITH_FORCES: u16 = 56;
 const NUMBER_COLUMNS: usize = 9;
 
 fn panel(app: &App, size: Size) -> Panel {
+    let title = format!("Events · {}", app.listed_share().in_words());
     let listed = match app.listed_events() {
-        None => return Panel::of_text("Events".to_owned(), "listing the jumps…"),
-        Some(Err(why)) => return Panel::of_text("Events".to_owned(), why),
+        None => return Panel::of_text(title, "listing the jumps…"),
+        Some(Err(why)) => return Panel::of_text(title, why),
         Some(Ok(listed)) => listed,
     };
     if listed.list.is_empty() {
         return Panel::of_text(
-            "Events".to_owned(),
+            title,
             "nothing happens at once: no jump and no mark on this loading",
         );
     }
@@ -65,7 +67,7 @@ fn panel(app: &App, size: Size) -> Panel {
     for (index, event) in listed.list.iter().enumerate() {
         rows.push(row(app, event, selected == Some(index), size.width));
     }
-    let mut panel = Panel::of_text("Events".to_owned(), "");
+    let mut panel = Panel::of_text(title, "");
     panel.edge = vec![vec![Span::raw(count_in_words(listed))]];
     panel.body = Body::Rows {
         rows,

@@ -1,6 +1,7 @@
 //! The timeline, the list of events, and the results beside them.
 
 use super::*;
+use asperity::explorer::events::MOST_LISTED;
 use asperity::explorer::player::At;
 use asperity::explorer::theme::Marker;
 use asperity_contact::{Direction, Event, StageRecord};
@@ -156,6 +157,50 @@ fn the_list_follows_the_playhead_and_moves_it() {
     );
     driver.press("e");
     assert!(!driver.app.view.lists_events);
+}
+
+#[test]
+fn keys_list_more_or_fewer_jumps() {
+    let mut driver = at_beginning(open("pressure-sensitive").unwrap());
+    driver.resize((160, 45));
+    let close_up = driver.app.view.close_up;
+    let jumps = |driver: &Driver| listed(driver).iter().filter_map(|event| event.jump).count();
+    let usual = jumps(&driver);
+    driver.press("e");
+    driver.shows_all(["Events · from 1 %", "more/fewer"]);
+    let mut counts = vec![usual];
+    for title in ["from 0.1 %", "all jumps"] {
+        driver.press("+");
+        driver.shows_all([&*format!("Events · {title}")]);
+        counts.push(jumps(&driver));
+    }
+    assert!(counts.is_sorted() && counts[0] < counts[2], "{counts:?}");
+    let Some(Ok(events)) = driver.app.listed_events() else {
+        panic!("no events");
+    };
+    assert_eq!(counts[2], events.jumps.min(MOST_LISTED));
+    driver.press("=");
+    driver.states("all jumps are listed already");
+    driver.press("E Ctrl+u `events.csv` Enter");
+    let text = driver.file("events.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(rows, 1 + listed(&driver).len());
+    driver.press("- -");
+    assert_eq!(jumps(&driver), usual);
+    driver.press("-");
+    driver.shows_all(["Events · from 10 %"]);
+    let fewest = jumps(&driver);
+    assert!(0 < fewest && fewest < usual, "{fewest} of {usual}");
+    driver.press("-");
+    driver.states("the fewest");
+    // The list of a path by hand has the same share, and other panes still zoom.
+    driver.press("d L H");
+    driver.shows_all(["Events · from 10 %"]);
+    assert_eq!(driver.app.view.close_up, close_up);
+    driver.app.view.pane = Pane::CloseUp;
+    driver.press("+");
+    driver.shows_all(["Events · from 10 %"]);
+    assert_ne!(driver.app.view.close_up, close_up);
 }
 
 #[test]
