@@ -6,8 +6,12 @@ use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
+use crate::fit::scene::pause_of;
 use asperity_contact::motion::Stage;
-use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
+use asperity_contact::{
+    Contact, ContactError, CurvePoint, Direction, LoadOptions, Modulus, Move, Relaxation,
+    StageRecord,
+};
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::Range;
@@ -98,8 +102,17 @@ impl<'a> Model<'a> {
             values[Parameter::Work as usize],
         ];
         let modulus = Modulus::effective(values[Parameter::Modulus as usize])?;
-        let contact = bare.contact.with(modulus);
-        Ok(contact.works_of_adhesion(works).build()?)
+        let contact = bare.contact.with(modulus).works_of_adhesion(works);
+        let share = values[Parameter::RelaxationShare as usize];
+        let Some(speed) = self.scene.loading_speed.filter(|_| share > 0.0) else {
+            return Ok(contact.build()?);
+        };
+        let time = values[Parameter::RelaxationTime as usize];
+        let contact = contact
+            .relaxation(Relaxation::new(share, time)?)
+            .loading_speed(speed)
+            .loading_stiffness(values[Parameter::Stiffness as usize]);
+        Ok(contact.build()?)
     }
 
     /// Makes the contact of the scene with other lengths of its form.
@@ -218,6 +231,9 @@ impl<'a> Model<'a> {
         mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
     ) -> Result<(), ExperimentError> {
         let contact = self.contact(values)?;
+        if contact.relaxation().is_some() {
+            return self.each_relaxing_segment(&contact, values, take);
+        }
         let offset = values[Parameter::Offset as usize];
         let stiffness = values[Parameter::Stiffness as usize];
         let sampling = Sampling {
@@ -250,6 +266,52 @@ impl<'a> Model<'a> {
             let indentation = nearest(&curve, to).map_or(0.0, |point| point.indentation);
             body = stage.and_then(|stage| BodyOnStage::new(stage, indentation));
         }
+        Ok(())
+    }
+}
+
+impl Model<'_> {
+    /// Computes the curves of the approach and of the retraction if the half-space relaxes. Between
+    /// them the instrument rests for as long as the loading of the scene rests.
+    fn each_relaxing_segment(
+        &self,
+        contact: &Contact,
+        values: &Values,
+        mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
+    ) -> Result<(), ExperimentError> {
+        let offset = values[Parameter::Offset as usize];
+        let stiffness = values[Parameter::Stiffness as usize];
+        let segments = &self.curve.segment;
+        let end_of_approach = segments.partition_point(|segment| *segment == 0);
+        let apart = DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness);
+        let deepest = self.curve.turns[0] - offset;
+        if deepest <= 0.0 {
+            take(&apart, 0..end_of_approach, offset);
+            take(&apart, end_of_approach..segments.len(), offset);
+            return Ok(());
+        }
+        let press = if stiffness.is_finite() {
+            Move::ToDisplacement(deepest)
+        } else {
+            Move::ToIndentation(deepest)
+        };
+        let mut stages = vec![press];
+        let pause = pause_of(&self.scene);
+        if pause > 0.0 {
+            stages.push(Move::Hold(pause));
+        }
+        stages.push(Move::ToSeparation);
+        let samples = if self.noise > 1.0 { FEW } else { SAMPLES };
+        let cycle = contact.load_with(&stages, LoadOptions::default().samples(samples as u64))?;
+        let records = cycle.stages();
+        let curve = |direction, record: Option<&StageRecord>| {
+            let points = record.map_or(&[][..], |record| &record.curve);
+            DisplacementCurve::new(direction, points, stiffness)
+        };
+        let approach = curve(Direction::Loading, records.first());
+        take(&approach, 0..end_of_approach, offset);
+        let retraction = curve(Direction::Unloading, records.last());
+        take(&retraction, end_of_approach..segments.len(), offset);
         Ok(())
     }
 }
@@ -460,7 +522,9 @@ mod tests {
         let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
         let radius = radius_of(&made.scene).unwrap();
         let stiffness = stiffness(&made.scene);
-        let values = [work, work, modulus, 0.0, 0.0, stiffness, radius, 0.0, 0.0];
+        let values = [
+            work, work, modulus, 0.0, 0.0, stiffness, radius, 0.0, 0.0, 0.0, 0.0,
+        ];
         let mut simulation = Simulation::default();
         let mut model = Model::new(
             &curve,
@@ -490,14 +554,14 @@ mod tests {
             .each_mut()
             .map(|simulation| Model::new(&curve, document.scene(), simulation));
         let mut forces = |radius| {
-            one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius, 0.0, 0.0])
+            one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius, 0.0, 0.0, 0.0, 0.0])
                 .unwrap()
         };
         let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
         assert!(wide == again && wide != narrow);
         assert_eq!(
             fresh
-                .forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6, 0.0, 0.0])
+                .forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6, 0.0, 0.0, 0.0, 0.0])
                 .unwrap(),
             narrow
         );

@@ -32,6 +32,10 @@ pub enum Parameter {
     /// Distance b in m between the apexes of two spheres on one probe, in the direction of motion.
     /// The apex of the second sphere is behind the apex of the first sphere.
     Behind,
+    /// Share s of the modulus that relaxes. The effective modulus is then the modulus at once.
+    RelaxationShare,
+    /// Relaxation time τ in s.
+    RelaxationTime,
 }
 
 impl Serialize for Parameter {
@@ -41,7 +45,7 @@ impl Serialize for Parameter {
 }
 
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
-pub(crate) type Values = [f64; 9];
+pub(crate) type Values = [f64; Parameter::ALL.len()];
 
 /// Names, symbol and SI unit of a [`Parameter`].
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +62,7 @@ pub struct ParameterRow {
 
 impl Parameter {
     /// All parameters, in the order in which tables list them.
-    pub const ALL: [Parameter; 9] = [
+    pub const ALL: [Parameter; 11] = [
         Parameter::Work,
         Parameter::ClosingWork,
         Parameter::Modulus,
@@ -68,6 +72,8 @@ impl Parameter {
         Parameter::Radius,
         Parameter::SecondRadius,
         Parameter::Behind,
+        Parameter::RelaxationShare,
+        Parameter::RelaxationTime,
     ];
 
     /// Returns names, symbol and SI unit of the parameter.
@@ -99,6 +105,13 @@ impl Parameter {
                 row("second_radius", "radius of the second sphere", "R₂", "m")
             }
             Parameter::Behind => row("behind", "distance of the second sphere behind", "b", "m"),
+            Parameter::RelaxationShare => row(
+                "relaxation_share",
+                "share of the modulus that relaxes",
+                "s",
+                "1",
+            ),
+            Parameter::RelaxationTime => row("relaxation_time", "relaxation time", "τ", "s"),
         }
     }
 
@@ -117,12 +130,19 @@ impl Parameter {
         matches!(self, Parameter::SecondRadius | Parameter::Behind)
     }
 
+    /// Returns true for a parameter that only a body on a half-space that relaxes has.
+    pub(crate) fn is_of_relaxation(self) -> bool {
+        matches!(self, Parameter::RelaxationShare | Parameter::RelaxationTime)
+    }
+
     /// Returns the smallest and the largest value, in SI units, that a scene allows for the
     /// parameter. `None` if scenes have no such limits, or if no search comes close to the limits.
     pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
         let path = match self {
             Parameter::Modulus => "material.youngs_modulus",
             Parameter::Stiffness => "loading_stiffness",
+            Parameter::RelaxationShare => "material.relaxation.share",
+            Parameter::RelaxationTime => "material.relaxation.time",
             _ => return None,
         };
         let (least, most) = field(path, None)?.range.ends()?;
@@ -140,13 +160,16 @@ impl Parameter {
     fn may_be_zero(self) -> bool {
         matches!(
             self,
-            Parameter::Work | Parameter::ClosingWork | Parameter::Behind
+            Parameter::Work
+                | Parameter::ClosingWork
+                | Parameter::Behind
+                | Parameter::RelaxationShare
         )
     }
 
     /// Returns true for a parameter whose coordinate is its value in a unit.
     fn is_linear(self) -> bool {
-        self.is_signed() || self == Parameter::Behind
+        self.is_signed() || matches!(self, Parameter::Behind | Parameter::RelaxationShare)
     }
 
     /// Returns true if the parameter can be searched in the range from `low` to `high`.
@@ -385,7 +408,7 @@ impl Coordinate {
             return (0.0, 1.0);
         }
         // No other coordinate depends on other parameters.
-        let values = [1.0; 9];
+        let values = [1.0; Parameter::ALL.len()];
         (
             self.of(self.range.0, &values),
             self.of(self.range.1, &values),
@@ -413,7 +436,7 @@ mod tests {
 
     #[test]
     fn values_come_back_from_their_coordinates() {
-        let mut values = [1.0; 9];
+        let mut values = [1.0; Parameter::ALL.len()];
         values[Parameter::Work as usize] = 4.0;
         for (parameter, range, value, at) in [
             (Parameter::Work, (0.0, 10.0), 0.0, 0.0),
@@ -440,7 +463,10 @@ mod tests {
             (1.0, 4.0)
         );
         assert_eq!(
-            (closing.of(0.0, &[0.0; 9]), closing.value(0.5, &[0.0; 9])),
+            (
+                closing.of(0.0, &[0.0; Parameter::ALL.len()]),
+                closing.value(0.5, &[0.0; Parameter::ALL.len()])
+            ),
             (1.0, 0.0)
         );
         assert_eq!(closing.ends(), (0.0, 1.0));

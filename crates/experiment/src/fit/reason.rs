@@ -497,6 +497,7 @@ impl<'a> Misfit<'a> {
                 self.curve.turns[0] - self.values[Parameter::Offset as usize]
             }
             Parameter::Zero => range,
+            Parameter::RelaxationShare => -1.0,
             _ => -self.values[parameter as usize],
         };
         moved[parameter as usize] += STEP * unit;

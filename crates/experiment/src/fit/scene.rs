@@ -5,6 +5,7 @@ use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
+use asperity_contact::Move;
 use asperity_data::{format_quantity, round_to};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};
@@ -24,15 +25,31 @@ fn change(path: &str, value: f64) -> Change {
 /// the work of adhesion of the scene.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
-    let mut values = [0.0; 9];
+    let mut values = [0.0; Parameter::ALL.len()];
     values[Parameter::Work as usize] = work;
     values[Parameter::ClosingWork as usize] = governing.closing_work.unwrap_or(work);
     values[Parameter::Modulus as usize] = governing.modulus;
     values[Parameter::Stiffness as usize] = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    if let Some(relaxation) = scene.material.relaxation {
+        values[Parameter::RelaxationShare as usize] = relaxation.share;
+        values[Parameter::RelaxationTime as usize] = relaxation.time;
+    }
     if let Some(form) = &scene.form {
         Lengths::of_form(form).put_into_values(&mut values);
     }
     values
+}
+
+/// Returns the time in s for which the loading of a scene rests. A fit with relaxation assumes this
+/// rest between the approach and the retraction of the curve.
+pub(crate) fn pause_of(scene: &Scene) -> f64 {
+    let mut pause = 0.0;
+    for stage in &scene.loading {
+        if let Move::Hold(seconds) = stage {
+            pause += seconds;
+        }
+    }
+    pause
 }
 
 /// Returns the radius of the form of a scene in m; `None` for a form without a radius.
@@ -102,12 +119,14 @@ pub(crate) fn with_values(
         (Parameter::Radius, "form.radius"),
         (Parameter::SecondRadius, "form.second_radius"),
         (Parameter::Behind, "form.behind"),
+        (Parameter::RelaxationShare, "material.relaxation.share"),
+        (Parameter::RelaxationTime, "material.relaxation.time"),
     ] {
         if is_free(parameter) {
             changes.push(change(path, value(parameter)));
         }
     }
-    changes.push(curve.loading(value(Parameter::Offset)));
+    changes.push(curve.loading(value(Parameter::Offset), pause_of(scene)));
     document.set_all(&changes).map_err(wrong)
 }
 
@@ -194,15 +213,18 @@ impl MeasuredCurve {
     pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
         self.with_instrument(document)?
             .0
-            .set_all(&[self.loading(offset)])
+            .set_all(&[self.loading(offset, pause_of(document.scene()))])
     }
 
-    fn loading(&self, offset: f64) -> Change {
+    fn loading(&self, offset: f64, pause: f64) -> Change {
         let last = self.turns.len() - 1;
         let mut stages = String::new();
         for turn in &self.turns[..last] {
             let displacement = ron_float(round_to(turn - offset, 10));
             stages += &format!("ToDisplacement({displacement}), ");
+            if pause > 0.0 {
+                stages += &format!("Hold({}), ", ron_float(pause));
+            }
         }
         ("loading".to_owned(), format!("[{stages}ToSeparation]"))
     }
@@ -251,8 +273,8 @@ mod tests {
     fn values_found_are_written_where_they_belong() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let document = on_rubber(1e-3, 2e6);
-        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6, 4e-6, 1e-7];
-        let of_sphere = |one: Parameter| !one.is_of_two_spheres();
+        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6, 4e-6, 1e-7, 0.2, 10.0];
+        let of_sphere = |one: Parameter| !one.is_of_two_spheres() && !one.is_of_relaxation();
         let all = with_values(&document, &values, of_sphere, &curve).unwrap();
         let scene = all.scene();
         let adhesion = scene.adhesion.unwrap();
@@ -287,7 +309,7 @@ mod tests {
         );
         let two = "TwoSpheres(radius: 7.5e-6, second_radius: 7.5e-6, behind: 0.0)";
         let two = document.set("form", two).unwrap();
-        let found = with_values(&two, &values, |_| true, &curve).unwrap();
+        let found = with_values(&two, &values, |one| !one.is_of_relaxation(), &curve).unwrap();
         assert!(matches!(
             found.scene().form,
             Some(Form::TwoSpheres {

@@ -23,6 +23,14 @@ const FACTOR: f64 = 30.0;
 const FACTOR_OF_RADII: f64 = 5.0;
 /// Smallest ratio of the ends of a range that the limits of a scene leave.
 const NARROWEST: f64 = 2.0;
+/// Share of the modulus that relaxes at which a search begins, unless the scene states one.
+const RELAXATION_SHARE: f64 = 0.2;
+/// Largest share of the modulus that relaxes in a search. A larger share leaves hardly any modulus.
+const MOST_RELAXATION: f64 = 0.95;
+/// Time of the approach divided by the relaxation time at which a search begins.
+const RELAXATIONS: f64 = 5.0;
+/// Ratio of each end of the range of the relaxation time to this initial value.
+const FACTOR_OF_TIMES: f64 = 300.0;
 /// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
 /// the end counts as the highest point.
 const HIGHEST: f64 = 1e-3;
@@ -167,6 +175,44 @@ fn with_two_spheres(
     Ok((document, contacts))
 }
 
+/// Returns the document with a relaxation at which a search begins, if it is free.
+///
+/// # Errors
+/// Returns an error if the relaxation is free or stated, and the scene states no speed, or the curve
+/// has further segments than an approach and a retraction.
+fn with_relaxation(
+    document: &Document,
+    curve: &MeasuredCurve,
+    free: &[Free],
+) -> Result<Document, ExperimentError> {
+    let scene = document.scene();
+    let is_free = free.iter().any(|free| free.parameter.is_of_relaxation());
+    if !is_free && scene.material.relaxation.is_none() {
+        return Ok(document.clone());
+    }
+    let Some(speed) = scene.loading_speed else {
+        let found = "relaxation without a speed of the instrument";
+        return refused(found, "loading_speed in m/s, such as 1.0e-6");
+    };
+    if curve.turns.len() > 2 {
+        let found = format!("relaxation, and a curve of {} segments", curve.turns.len());
+        return refused(
+            found,
+            "an approach and a retraction, such as segments 1 and 2",
+        );
+    }
+    if scene.material.relaxation.is_some() {
+        return Ok(document.clone());
+    }
+    let way = curve.turns[0] - curve.touch;
+    let time = ron_float(way / speed / RELAXATIONS);
+    let share = ron_float(RELAXATION_SHARE);
+    let relaxation = format!("(share: {share}, time: {time})");
+    document
+        .set("material.relaxation", &relaxation)
+        .map_err(wrong)
+}
+
 /// Data from which the coordinates of the free parameters follow.
 struct Ranges<'a> {
     curve: &'a MeasuredCurve,
@@ -249,6 +295,8 @@ impl Ranges<'_> {
             Parameter::ClosingWork => (0.0, work),
             Parameter::SecondRadius => (start / FACTOR_OF_RADII, start * FACTOR_OF_RADII),
             Parameter::Behind => (0.0, self.starts.way.max(2.0 * start)),
+            Parameter::RelaxationShare => (0.0, MOST_RELAXATION),
+            Parameter::RelaxationTime => (start / FACTOR_OF_TIMES, start * FACTOR_OF_TIMES),
             _ => (start / FACTOR, start * FACTOR),
         }
     }
@@ -260,6 +308,7 @@ impl Ranges<'_> {
         match parameter {
             Parameter::Work => self.starts.least_work,
             Parameter::Zero => 0.1 * self.extent_of_force,
+            Parameter::RelaxationShare => 0.1,
             _ => 0.1 * self.starts.way,
         }
     }
@@ -281,6 +330,7 @@ impl<'a> Space<'a> {
         check_scene(scene, free)?;
         check_turn(curve)?;
         let (document, contacts) = with_two_spheres(&document, curve, free)?;
+        let document = with_relaxation(&document, curve, free)?;
         let scene = document.scene();
         let (contact, governing) = simulation.contact(scene)?;
         check_apex(scene, &contact)?;
@@ -386,6 +436,7 @@ impl<'a> Space<'a> {
         for (index, coordinate) in self.coordinates.iter().enumerate() {
             let parameter = coordinate.parameter;
             let has_own_range = parameter.is_signed()
+                || parameter.is_of_relaxation()
                 || matches!(parameter, Parameter::ClosingWork | Parameter::Behind);
             let is_given = given
                 .iter()
@@ -423,7 +474,8 @@ impl<'a> Space<'a> {
             return Some(RangeEnd::High);
         }
         let is_behind = coordinate.parameter == Parameter::Behind && coordinate.range.0 == 0.0;
-        let may_be_low = is_closing || is_behind || coordinate.is_work_from_zero();
+        let is_elastic = coordinate.parameter == Parameter::RelaxationShare;
+        let may_be_low = is_closing || is_behind || is_elastic || coordinate.is_work_from_zero();
         (value < low + room && !may_be_low).then_some(RangeEnd::Low)
     }
 

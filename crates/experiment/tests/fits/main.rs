@@ -5,6 +5,7 @@ mod common;
 mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
+mod relaxation;
 mod simple_curves;
 mod single_curves;
 mod stiffness;

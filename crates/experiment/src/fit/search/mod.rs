@@ -64,7 +64,7 @@ const LARGE: f64 = 1e6;
 /// Residual, in units of the noise, of a point whose computed force is not finite.
 const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
-const PRIMES: [usize; 9] = [2, 3, 5, 7, 11, 13, 17, 19, 23];
+const PRIMES: [usize; 11] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31];
 
 /// Result of a search.
 pub(crate) struct SearchResult {
