@@ -204,8 +204,7 @@ impl<'p> Recorder<'p> {
         loops: Vec<Vec<Move>>,
     ) -> Result<SolvedLoops, RunError> {
         let turns: Option<Vec<Move>> = loops.iter().map(|loading| turn_of(loading)).collect();
-        if let (Some(turns), Solver::Exact, false) =
-            (turns, scene.numerics.solver, scene.relaxes())
+        if let (Some(turns), Solver::Exact, false) = (turns, scene.numerics.solver, scene.relaxes())
         {
             return self.solve_reversals(scene, governing, &turns);
         }
