@@ -27,7 +27,7 @@ class Pages(unittest.TestCase):
         subprocess.run(["sh", "docs/examples/map.sh"], check=True)
         page = (ROOT / "docs" / "gallery.md").read_text()
         lines = [part.split("```")[0].strip() for part in page.split("```python\n")[1:]]
-        self.assertEqual(len(lines), 10)
+        self.assertEqual(len(lines), 11)
         for line in lines:
             with self.subTest(line):
                 self.assertIsNotNone(eval(line, {"asp": asp}))

@@ -61,6 +61,10 @@ pub(super) fn check(
             "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
+    if scene.material.relaxation.is_some() {
+        let found = "material.relaxation: a comparison with random profiles needs an elastic body";
+        return refused(found, "material.relaxation = None, or a fit of each curve");
+    }
     check_error("error of the rms height", options.height_error)?;
     check_error("error of the Hurst exponent", options.hurst_error)?;
     let states_errors = options.height_error.or(options.hurst_error).is_some();
