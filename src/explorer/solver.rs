@@ -296,6 +296,9 @@ impl Solver {
         let Some(motion) = self.newest.stages.iter().flatten().next() else {
             return Ok(());
         };
+        if motion.contact().relaxation().is_some() {
+            return Err(ContactError::NotElastic);
+        }
         let samples = solved.scene.numerics.samples as usize;
         let body = ManualBody::new(motion.contact(), samples);
         self.continue_path(body, &solved, path)
@@ -498,7 +501,12 @@ fn point_at(player: &Player, records: &[StageRecord], motion: &Stage) -> Option<
     if player.at == At::End && is_separated(record) {
         return record.and_then(|record| record.curve.last().copied());
     }
-    motion.point(player.indentation(records)).ok()
+    let indentation = player.indentation(records);
+    if motion.contact().relaxation().is_some() {
+        // The force also depends on the time, so it is taken from the curve that was computed.
+        return record.and_then(|record| record.recorded_at(indentation));
+    }
+    motion.point(indentation).ok()
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {

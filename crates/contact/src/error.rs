@@ -85,10 +85,10 @@ pub enum ContactError {
         "with relaxation the surface that has detached has not recovered; allowed: one approach and one unloading, or no relaxation"
     )]
     NotRecovered,
-    /// Many turning points of one loading are computed together for an elastic foundation only. With
-    /// [relaxation](crate::Relaxation) each of them needs a loading of its own.
+    /// Many turning points of one loading, the list of jumps and motions by hand exist for an elastic
+    /// foundation only, without [relaxation](crate::Relaxation).
     #[error(
-        "reversals need an elastic foundation; allowed: no relaxation, or one loading for each"
+        "reversals, jumps and motions by hand need an elastic foundation; allowed: no relaxation, or one loading for each turning point"
     )]
     NotElastic,
     /// No finite indentation on this foundation has the target force.

@@ -88,6 +88,23 @@ impl StageRecord {
     /// points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
+    /// Returns the point at an indentation in m, by interpolation between the points of the curve.
+    /// Returns the nearer end of the curve for an indentation beyond it, and `None` for a curve
+    /// without points.
+    pub fn recorded_at(&self, indentation: f64) -> Option<CurvePoint> {
+        let spans = |pair: &&[CurvePoint]| {
+            let [from, to] = [pair[0].indentation, pair[1].indentation];
+            from.min(to) <= indentation && indentation <= from.max(to)
+        };
+        if let Some(pair) = self.curve.windows(2).find(spans) {
+            return Some(pair[0].between(&pair[1], indentation));
+        }
+        let distance = |point: &CurvePoint| (point.indentation - indentation).abs();
+        let ends = [self.curve.first()?, self.curve.last()?];
+        let [first, last] = ends.map(|end| (distance(end), end));
+        Some(if last.0 < first.0 { *last.1 } else { *first.1 })
+    }
+
     /// Creates the record of a motion in which the body stays in place.
     pub fn still(target: Move, here: CurvePoint) -> Self {
         StageRecord {

@@ -111,10 +111,15 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     let stages = app.edit.document.stages();
     let (present, _) = StageKind::of(&stages[selected].1);
     let count = StageKind::ALL.len();
+    // On an elastic half-space a rest changes nothing.
+    let relaxes = app.edit.document.scene().material.relaxation.is_some();
     let mut refused = None;
     for distance in 1..count {
         let step = if forwards { distance } else { count - distance };
         let kind = &StageKind::ALL[(present + step) % count];
+        if kind.unit == "s" && !relaxes {
+            continue;
+        }
         let number = round_to(number_of_kind(app, selected, kind), 4);
         let mut stages = stages.clone();
         stages[selected] = (None, (kind.stage)(number));
@@ -134,6 +139,11 @@ pub fn change_kind(app: &mut App, forwards: bool) {
 fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
     /// Indentation in m for a stage that is not computed.
     const USUAL_INDENTATION: f64 = 1e-7;
+    /// Time in s of a rest.
+    const USUAL_REST: f64 = 10.0;
+    if kind.unit == "s" {
+        return USUAL_REST;
+    }
     let end = app.current().and_then(|solved| {
         let record = solved.outcome.history.stages.get(stage)?;
         record.curve.last()

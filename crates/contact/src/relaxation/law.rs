@@ -14,7 +14,7 @@ use crate::error::{ContactError, check, is_positive};
 /// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
 ///     .work_of_adhesion(0.05)
 ///     .relaxation(Relaxation::new(0.5, 1.0)?)
-///     .loading_speed(1.0e-6)
+///     .loading_speed(1.0e-3)
 ///     .build()?;
 /// // The force falls while the sphere rests, and the sphere then adheres twice as strongly.
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::Hold(100.0), Move::ToSeparation])?;

@@ -59,6 +59,11 @@ pub enum Warning {
         /// ends near its force.
         forces: Option<[f64; 2]>,
     },
+    /// The loading rests on a half-space that does not relax, so that the rest changes nothing.
+    RestWithoutRelaxation {
+        /// Time in s for which the loading rests.
+        seconds: f64,
+    },
     /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`]
     /// springs.
     FewSpringsPerWave {
@@ -293,6 +298,7 @@ impl Warning {
             Warning::EndsInContact { .. } => "ends_in_contact",
             Warning::FewSpringsInContact { .. } => "few_springs_in_contact",
             Warning::CoarseSteps { .. } => "coarse_steps",
+            Warning::RestWithoutRelaxation { .. } => "rest_without_relaxation",
             Warning::FewSpringsPerWave { .. } => "few_springs_per_wave",
             Warning::RoundedWaves { .. } => "rounded_waves",
             Warning::FewLongWaves { .. } => "few_long_waves",

@@ -26,6 +26,9 @@ impl Warning {
                 "A smaller numerics.solver.step helps, or numerics.solver: Exact, which has no \
                  steps."
             }
+            Warning::RestWithoutRelaxation { .. } => {
+                "With material.relaxation and a loading_speed the force falls during a rest."
+            }
             Warning::FewSpringsPerWave { .. } => {
                 "More numerics.points help, or a longer shortest wave."
             }

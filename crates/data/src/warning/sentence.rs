@@ -55,6 +55,10 @@ impl Warning {
                 format_rounded(*steps, 2, "1"),
                 Self::LEAST_STEPS
             ),
+            Warning::RestWithoutRelaxation { seconds } => format!(
+                "The loading rests for {}, but the body is elastic: the rest changes nothing.",
+                format_rounded(*seconds, 3, "s")
+            ),
             Warning::FewSpringsPerWave { springs } => format!(
                 "The shortest wave has {} springs, fewer than {}: the pull-off force of a rough \
                  profile with two springs on its shortest wave is wrong by 2 % as a median, and by \

@@ -89,6 +89,7 @@ impl Scene {
         let adheres = governing.adhesive_work().is_some();
         let mut warnings = Vec::new();
         warnings.extend(self.heights_as_profile());
+        warnings.extend(self.rest_without_relaxation());
         if let Some(number) = governing.tabor_number(self) {
             warnings.extend(Warning::of_tabor_number(number));
         }
@@ -125,6 +126,18 @@ impl Scene {
             warnings.extend(Warning::of_springs_per_wave(springs));
         }
         warnings
+    }
+
+    /// Returns a warning if the loading rests and the half-space does not relax.
+    fn rest_without_relaxation(&self) -> Option<Warning> {
+        let mut seconds = 0.0;
+        for stage in &self.loading {
+            if let Move::Hold(time) = stage {
+                seconds += time;
+            }
+        }
+        let is_without_effect = seconds > 0.0 && self.material.relaxation.is_none();
+        is_without_effect.then_some(Warning::RestWithoutRelaxation { seconds })
     }
 
     /// Returns a warning if measured heights are the profile itself and the scene also has a form.

@@ -7,7 +7,7 @@
 
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
-use super::field::{FILE_NAME, Field, STAGE_INDENTATION, target_field};
+use super::field::{FILE_NAME, Field, STAGE_INDENTATION, TABLE, target_field};
 use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
@@ -47,10 +47,11 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
 
 /// Returns the invalid part of a text and the allowed values; `None` if the text is valid.
 fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
-    let range = if let Range::Text { .. } = field.range {
-        field.range
-    } else {
-        FILE_NAME
+    // Only the rows of a table in place of its name are longer than a name.
+    let is_name = field.range == TABLE && !text.starts_with(Form::ROWS_IN_PLACE);
+    let range = match field.range {
+        Range::Text { .. } if !is_name => field.range,
+        _ => FILE_NAME,
     };
     let Range::Text { least, most, lines } = range else {
         return None;

@@ -412,7 +412,8 @@ fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
 
 /// Reads a text with or without quotes.
 fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    let is_omitted = field.range == FILE_NAME && (typed.is_empty() || typed == "None");
+    let is_file = field.range == FILE_NAME || field.range == TABLE;
+    let is_omitted = is_file && (typed.is_empty() || typed == "None");
     let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
     Ok(if is_omitted || is_quoted {
         typed.to_owned()

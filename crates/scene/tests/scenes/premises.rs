@@ -11,11 +11,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Premises of which scenes of this test break one each.
-const PREMISES: [&str; 16] = [
+const PREMISES: [&str; 17] = [
     "contact_at_ends",
     "ends_in_contact",
     "few_springs_in_contact",
     "coarse_steps",
+    "rest_without_relaxation",
     "few_springs_per_wave",
     "rounded_waves",
     "few_long_waves",
@@ -150,6 +151,11 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             broken.loading[1] = Move::ToForce(-pull_off * (0.95 * random.share()));
         }
         "few_springs_in_contact" => broken.numerics.points = random.whole(16, 44),
+        "rest_without_relaxation" => {
+            broken
+                .loading
+                .insert(1, Move::Hold(random.between(0.1, 9.0)));
+        }
         "coarse_steps" => {
             let radius = whole.form.as_ref().and_then(Form::sphere_radius).unwrap();
             let depth = contact_radius.powi(2) / radius;

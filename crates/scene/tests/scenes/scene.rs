@@ -67,7 +67,7 @@ fn nesting_does_not_overflow_the_stack() {
         let _ = Document::parse(&deep, "scene.ron");
         let _ = Document::parse(&with_line(&format!("form: {deep},")), "scene.ron");
         let _ = locate(&with_line(&format!("form: {deep},")), "form.0.0.0.0");
-        assert!(open_default().set("form", &deep).is_err());
+        assert!(open_default().set("form", &deep).is_err(), "{open}");
     }
 }
 

@@ -162,12 +162,6 @@ fn deviation(compared: &Compared) -> f64 {
             let low = forces.clone().fold(f64::INFINITY, f64::min);
             let high = forces.fold(f64::NEG_INFINITY, f64::max);
             let beyond = (low - point.force).max(point.force - high) / scale;
-            if beyond > 1e-3 && beyond > worst && std::env::var("SHOW").is_ok() {
-                println!(
-                    "    {:?} t {seconds} d {} F {} not in {low} {high} of {scale}",
-                    record.target, point.indentation, point.force
-                );
-            }
             worst = worst.max(beyond);
         }
     }
@@ -191,15 +185,6 @@ fn judge(numbers: impl Iterator<Item = u64>) {
         let compared = compared(number, 500, 1e-3);
         let deviation = deviation(&compared);
         let energies = energy_deviations(&compared);
-        if std::env::var("SHOW").is_ok() {
-            println!(
-                "{number} {deviation:.1e} {energies:.1?}",
-                energies = energies.map(|e| 1e3 * e)
-            );
-        }
-        if std::env::var("SHOW").is_ok() {
-            continue;
-        }
         assert!(deviation <= ALLOWED, "case {number}: {deviation}");
         let is_balanced = energies
             .iter()
@@ -213,8 +198,11 @@ fn a_few_rough_lines_agree_with_brute_force() {
     judge((0..40).step_by(16));
 }
 
+/// 40 of the 200 lines times `TEST_EFFORT`, spread evenly over their numbers.
 #[test]
-#[ignore = "slow: 200 lines by brute force, some minutes"]
+#[ignore = "slow: lines by brute force, some minutes"]
 fn two_hundred_rough_lines_agree_with_brute_force() {
-    judge(0..200);
+    let effort = std::env::var("TEST_EFFORT").ok();
+    let effort: usize = effort.and_then(|text| text.parse().ok()).unwrap_or(1);
+    judge((0..200).step_by(5 / effort.clamp(1, 5)));
 }
