@@ -316,8 +316,8 @@ pub fn reversals(
 }
 
 /// Compares the results of a scene on profiles (lines) with the results on square surfaces in three
-/// dimensions. `cells` is the number of grid cells along the side of a square surface, and `surfaces`
-/// is the number of random square surfaces.
+/// dimensions. `cells` is the number of grid cells along the side of a square surface, and
+/// `surfaces` is the number of random square surfaces.
 #[pyfunction]
 pub fn reference(
     py: Python<'_>,

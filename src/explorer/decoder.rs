@@ -21,8 +21,8 @@ const ANSWER_PAUSE: Duration = Duration::from_millis(400);
 /// the rest of the text would be read as keys.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
-/// Largest number of parameter bytes that are stored for a sequence or an answer. All known sequences are
-/// shorter.
+/// Largest number of parameter bytes that are stored for a sequence or an answer. All known
+/// sequences are shorter.
 const LONGEST_SEQUENCE: usize = 64;
 
 const ESCAPE: u8 = 0x1b;

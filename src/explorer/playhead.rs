@@ -1,5 +1,5 @@
-//! The loading over which the animation moves, and the position of the animation: over the stages of
-//! the scene or, under manual loading, over the path.
+//! The loading over which the animation moves, and the position of the animation: over the stages
+//! of the scene or, under manual loading, over the path.
 
 use super::app::App;
 use super::events::LeastShare;

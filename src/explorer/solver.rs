@@ -1,6 +1,6 @@
 //! The solver of the explorer, which answers the newest request. It holds the simulation of the
-//! newest scene and the stages of its loading (a stage is a motion of the body in one direction). The
-//! solver runs on a thread of its own or, in tests and demos, answers at once.
+//! newest scene and the stages of its loading (a stage is a motion of the body in one direction).
+//! The solver runs on a thread of its own or, in tests and demos, answers at once.
 
 use super::close_up::close_up;
 use super::events::{LeastShare, ListedEvents, MOST_LISTED};
@@ -24,8 +24,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Largest memory in bytes for the stages of a scene. Stages beyond this limit are computed again when
-/// the animation reaches them.
+/// Largest memory in bytes for the stages of a scene. Stages beyond this limit are computed again
+/// when the animation reaches them.
 const BYTES_KEPT: usize = 1 << 29;
 
 /// Function that computes a scene, as [`Simulation::run`] does.

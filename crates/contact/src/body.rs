@@ -43,8 +43,8 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Stage`] of
-/// the motion. The stage gives the contact at each indentation of this range.
+/// Result of [`Body::move_to`]: the range of indentations that the body passed, and the [`Stage`]
+/// of the motion. The stage gives the contact at each indentation of this range.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -201,8 +201,8 @@ impl Body {
         Ok(stage)
     }
 
-    /// Finds the stage of the motion to a target and the indentations between which the motion lies.
-    /// Returns `None` if the body is already at the target.
+    /// Finds the stage of the motion to a target and the indentations between which the motion
+    /// lies. Returns `None` if the body is already at the target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.stage.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {

@@ -35,11 +35,11 @@
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n),
 //!   unless its gap is closed.
 //!
-//! A [`Stage`](motion::Stage) describes a motion in one direction: which springs are in contact at each
-//! indentation. A [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise) is the
-//! stepwise solver: it moves by small steps and relaxes to equilibrium after each step, as Popov
-//! and Filippov (2012) do. Any function that allocates may return [`ContactError::OutOfMemory`];
-//! the documentation of a function lists all other errors.
+//! A [`Stage`](motion::Stage) describes a motion in one direction: which springs are in contact at
+//! each indentation. A [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise)
+//! is the stepwise solver: it moves by small steps and relaxes to equilibrium after each step, as
+//! Popov and Filippov (2012) do. Any function that allocates may return
+//! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;
 mod body;

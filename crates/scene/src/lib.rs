@@ -20,7 +20,7 @@
 //! The modules are for programs with special tasks. Editors of scenes use [`fields`], [`text`],
 //! [`loading`] and [`library`]. The number of springs is chosen with [`discretisation`]. Results
 //! are compared with [`instrument`] and [`theory`]. The progress of a computation is shown with
-//! [`stages`].
+//! [`workload`].
 
 mod accuracy;
 mod analysis;

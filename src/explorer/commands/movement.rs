@@ -54,8 +54,8 @@ pub fn restart(app: &mut App) {
 }
 
 /// Moves the animation to the start of another loading stage, which is `stages` stages after the
-/// present stage. If `stages` is negative and the animation is inside a stage, it moves to the start
-/// of this stage instead.
+/// present stage. If `stages` is negative and the animation is inside a stage, it moves to the
+/// start of this stage instead.
 pub fn go_to_stage(app: &mut App, stages: i32) {
     let player = app.playhead();
     // While the animation plays, it moves on between two presses of the key. Therefore a position

@@ -60,8 +60,8 @@ fn close_up_springs(app: &App) -> usize {
     }
 }
 
-/// Zooms the profile if its pane is selected, otherwise the close-up. Positive steps zoom in. If the
-/// list of events is selected, lists more jumps instead, or fewer ones.
+/// Zooms the profile if its pane is selected, otherwise the close-up. Positive steps zoom in. If
+/// the list of events is selected, lists more jumps instead, or fewer ones.
 pub fn zoom(app: &mut App, steps: i32) {
     if app.view.pane == Pane::Events {
         return change_listed(app, steps > 0);

@@ -1,5 +1,5 @@
-//! The curves of the force pane: the loop of the scene, its former loop, ghosts, measured points, the
-//! path of manual loading and the loops of square surfaces.
+//! The curves of the force pane: the loop of the scene, its former loop, ghosts, measured points,
+//! the path of manual loading and the loops of square surfaces.
 
 use crate::explorer::app::App;
 use crate::explorer::ghost::Ghost;

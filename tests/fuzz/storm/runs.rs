@@ -230,8 +230,8 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// An error names a stage, a field or the excessive size, and a refused force comes with the allowed
-/// ones.
+/// An error names a stage, a field or the excessive size, and a refused force comes with the
+/// allowed ones.
 fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> {
     let message = error.to_string();
     prop_assert_eq!(message.lines().count(), 1);

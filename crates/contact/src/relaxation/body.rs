@@ -18,7 +18,7 @@ use crate::target::Move;
 /// Share of the largest force by which forces may deviate because of the steps.
 const TOLERANCE: f64 = 1e-3;
 
-/// A body that moves at a constant speed over a foundation with [`Relaxation`].
+/// A body that moves at a constant speed over a foundation with [`Relaxation`](crate::Relaxation).
 pub struct RelaxingBody {
     drive: Drive,
     /// Division of a coarse profile, over which the drive moves.

@@ -4,9 +4,9 @@
 //! # The law
 //!
 //! The modulus of the foundation falls from E₀ at once to E₀ (1 − s) after a long time: E(t) = E₀
-//! (1 − s + s e^(−t/τ)). s is the share and τ the time of the [`Relaxation`]. All springs in
-//! contact move with the same speed ḋ. A spring with the gap c that attached at the time t₁ with
-//! the compression u₁ = d(t₁) − c therefore bears, for each length of the foundation,
+//! (1 − s + s e^(−t/τ)). s is the share and τ the time of the [`Relaxation`](crate::Relaxation).
+//! All springs in contact move with the same speed ḋ. A spring with the gap c that attached at the
+//! time t₁ with the compression u₁ = d(t₁) − c therefore bears, for each length of the foundation,
 //!
 //! f = E₀ ((1 − s) (d − c) + s (J + m e^(−t/τ))), with dJ/dt = ḋ − J/τ and m = (u₁ − J(t₁))
 //! e^(t₁/τ).

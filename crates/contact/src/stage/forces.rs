@@ -1,6 +1,6 @@
 //! Forces and energies of a stage: on a grid of indentations, at the extremes of the force, and at
-//! the indentation at which the force reaches a value. A stage is the contact at all indentations of
-//! a motion in one direction.
+//! the indentation at which the force reaches a value. A stage is the contact at all indentations
+//! of a motion in one direction.
 //!
 //! An event is an indentation at which springs attach or detach in a jump. While the indentation d
 //! grows, the force does not rise in such a jump, and between two events the force is convex. The
@@ -379,8 +379,8 @@ impl Stage {
     }
 }
 
-/// Returns the smallest indentation in m among the points of a sampled stage at which the compression
-/// is at least `wanted` in m. Returns `None` if no point has this compression.
+/// Returns the smallest indentation in m among the points of a sampled stage at which the
+/// compression is at least `wanted` in m. Returns `None` if no point has this compression.
 fn first_point_at_least(stage: &[ContactState], wanted: f64) -> Option<f64> {
     let first = stage.iter().find(|state| state.compression >= wanted)?;
     Some(first.indentation)

@@ -99,8 +99,9 @@ struct PinnedPatch {
     pin: Option<f64>,
 }
 
-/// Evaluates an expression with the runs of a stage, the patches over ranges of indentations in which
-/// their edges do not jump. The place where edges may lie becomes a constant of the compiled code.
+/// Evaluates an expression with the runs of a stage, the patches over ranges of indentations in
+/// which their edges do not jump. The place where edges may lie becomes a constant of the compiled
+/// code.
 macro_rules! along_runs {
     ($stage:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $stage.contact.edges {
@@ -120,8 +121,8 @@ pub(crate) mod forces;
 pub(crate) mod jumps;
 
 impl Stage {
-    /// Adds the computing work for this stage to the counts in `work`: the pass over the contact tree
-    /// and the evaluations of the rule of Hess.
+    /// Adds the computing work for this stage to the counts in `work`: the pass over the contact
+    /// tree and the evaluations of the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -208,8 +209,8 @@ impl Stage {
         }
     }
 
-    /// Lists the runs of this stage. `held` are the patches in contact where the stage begins, at the
-    /// indentation `from` in m.
+    /// Lists the runs of this stage. `held` are the patches in contact where the stage begins, at
+    /// the indentation `from` in m.
     fn list(
         self,
         tree: &Arc<ContactTree>,
@@ -243,8 +244,8 @@ impl Stage {
         self.contact.has_adhesion() && !thresholds.is_empty()
     }
 
-    /// Returns an error if the stage belongs to the stepwise solver, because such a stage is known only
-    /// at its steps.
+    /// Returns an error if the stage belongs to the stepwise solver, because such a stage is known
+    /// only at its steps.
     pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
         if self.is_stepwise() {
             Err(ContactError::Stepwise)

@@ -1,11 +1,11 @@
-//! The work of the force is the stored energy and the dissipated one on each stage, and no loop gains
-//! energy.
+//! The work of the force is the stored energy and the dissipated one on each stage, and no loop
+//! gains energy.
 
 use super::all_segments::Segments;
 use super::*;
 
-/// ∫F dd of a stage that was recorded, J: over all segments of whole springs; else over the points of
-/// the curve, with a jump anywhere between two of them.
+/// ∫F dd of a stage that was recorded, J: over all segments of whole springs; else over the points
+/// of the curve, with a jump anywhere between two of them.
 fn work_done(body: &Body, record: &StageRecord, stage: &Stage) -> f64 {
     if body.edges == Edges::SubCell {
         let trapezium = |pair: &[CurvePoint]| {

@@ -1,5 +1,5 @@
-//! Impossible stages are errors with their reason, and leave the body in place; empty stages are done
-//! at once.
+//! Impossible stages are errors with their reason, and leave the body in place; empty stages are
+//! done at once.
 
 use super::*;
 

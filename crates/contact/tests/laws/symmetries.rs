@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// All numbers of a stage, bit for bit, but for the sign of energies of zero and for the number next
-/// to an indentation of zero.
+/// All numbers of a stage, bit for bit, but for the sign of energies of zero and for the number
+/// next to an indentation of zero.
 fn stage_bits(record: &StageRecord) -> Vec<u64> {
     let of_point = |point: &CurvePoint| {
         let indentation = if point.indentation.abs() < 1e-300 {

@@ -177,9 +177,8 @@ fn with_two_spheres(
 
 /// Returns the document with a relaxation at which a search begins, if it is free.
 ///
-/// # Errors
-/// Returns an error if the relaxation is free or stated, and the scene states no speed, or the curve
-/// has further segments than an approach and a retraction.
+/// # Errors Returns an error if the relaxation is free or stated, and the scene states no speed, or
+/// the curve has further segments than an approach and a retraction.
 fn with_relaxation(
     document: &Document,
     curve: &MeasuredCurve,

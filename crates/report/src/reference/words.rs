@@ -43,8 +43,8 @@ fn error_sentence(reference: &Reference) -> String {
 }
 
 /// Returns in words the relative difference between the results with profiles and in three
-/// dimensions, with its 95 % interval: `profile against three dimensions, +4 ± 45 %`. The results in
-/// three dimensions belong to random square surfaces. If these surfaces lack waves of the scene,
+/// dimensions, with its 95 % interval: `profile against three dimensions, +4 ± 45 %`. The results
+/// in three dimensions belong to random square surfaces. If these surfaces lack waves of the scene,
 /// the words also state which waves are compared. Returns `None` if the difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;

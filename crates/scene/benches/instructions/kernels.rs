@@ -84,8 +84,8 @@ fn rough() -> Line {
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
 
-/// Loads the body with adhesion through the stages `stages`. Also computes the other results that the
-/// scene needs besides the force curve.
+/// Loads the body with adhesion through the stages `stages`. Also computes the other results that
+/// the scene needs besides the force curve.
 fn adhesive(case: &Case, mut body: Body, stages: &[Move]) -> Given {
     let mut patches = Vec::new();
     let history = load_body(&mut body, stages, |record: &StageRecord, stage: &Stage| {

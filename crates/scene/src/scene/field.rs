@@ -289,8 +289,8 @@ pub const STAGE_DISPLACEMENT: Field = row(
 .quantity("displacement of stage", "D", "m")
 .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// Description of the value of a loading stage [`Hold`](asperity_contact::Move::Hold): the time in s
-/// for which the drive of the instrument stays in place.
+/// Description of the value of a loading stage [`Hold`](asperity_contact::Move::Hold): the time in
+/// s for which the drive of the instrument stays in place.
 pub const STAGE_HOLD: Field = row(
     "loading",
     Place::NOWHERE.of("Hold"),
@@ -331,7 +331,7 @@ impl Field {
     /// * A number may have an SI prefix and the unit of the field: `50 mJ/m²`, `16k`.
     /// * The text `none` omits an optional part.
     /// * A loading may be a list of stages in the notation of
-    ///   [`loading_text`](crate::scene::workload::loading_text), such as `10 µN, separation`.
+    ///   [`loading_text`](crate::scene::stages::loading_text), such as `10 µN, separation`.
     ///
     /// # Errors
     /// Returns an error for a number with another unit, a number too large for `f64`, or a choice

@@ -18,7 +18,8 @@ pub fn random(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// A rough line and a motion of the case with this number, and the same line with each cell divided.
+/// A rough line and a motion of the case with this number, and the same line with each cell
+/// divided.
 pub fn case(number: u64) -> (Body, Body, Motion) {
     let mut seed = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1;
     random(&mut seed);
