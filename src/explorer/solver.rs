@@ -214,6 +214,9 @@ impl Solver {
         solved: &SolvedScene,
         least_share: LeastShare,
     ) -> Option<Result<Events, String>> {
+        if solved.scene.material.relaxation.is_some() {
+            return Some(Err(ContactError::NotElastic.to_string()));
+        }
         let records = &solved.outcome.history.stages;
         let mut jumps = JumpCollector::default();
         for (record, motion) in records.iter().zip(&self.newest.stages) {
@@ -296,7 +299,7 @@ impl Solver {
         let Some(motion) = self.newest.stages.iter().flatten().next() else {
             return Ok(());
         };
-        if motion.contact().relaxation().is_some() {
+        if solved.scene.material.relaxation.is_some() {
             return Err(ContactError::NotElastic);
         }
         let samples = solved.scene.numerics.samples as usize;
@@ -391,9 +394,14 @@ impl Solver {
         let records = &solved.outcome.history.stages;
         let player = position(records, number, at);
         let motion = self.stage(player.stage)?;
+        let point = if solved.scene.material.relaxation.is_some() {
+            recorded_point(&player, records)
+        } else {
+            point_at(&player, records, &motion)
+        };
         Some(ShownState {
             drive: Drive::Stage(player.stage),
-            point: point_at(&player, records, &motion)?,
+            point: point?,
             stage: motion,
         })
     }
@@ -491,6 +499,16 @@ fn position(records: &[StageRecord], number: usize, at: At) -> Player {
     player.within(records)
 }
 
+/// Returns the recorded point of the force curve at a position of an animation. On a body that
+/// relaxes the force also depends on the time, so it follows from the curve that was computed.
+fn recorded_point(player: &Player, records: &[StageRecord]) -> Option<CurvePoint> {
+    let record = records.get(player.stage)?;
+    if player.at == At::End {
+        return record.curve.last().copied();
+    }
+    record.recorded_at(player.indentation(records))
+}
+
 /// Returns the point of the force curve at a position of an animation. `stage` is the motion in the
 /// stage of this position.
 fn point_at(player: &Player, records: &[StageRecord], motion: &Stage) -> Option<CurvePoint> {
@@ -502,10 +520,6 @@ fn point_at(player: &Player, records: &[StageRecord], motion: &Stage) -> Option<
         return record.and_then(|record| record.curve.last().copied());
     }
     let indentation = player.indentation(records);
-    if motion.contact().relaxation().is_some() {
-        // The force also depends on the time, so it is taken from the curve that was computed.
-        return record.and_then(|record| record.recorded_at(indentation));
-    }
     motion.point(indentation).ok()
 }
 

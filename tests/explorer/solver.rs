@@ -336,7 +336,16 @@ fn some(curve: &[CurvePoint]) -> impl Iterator<Item = &CurvePoint> {
 #[test]
 fn a_moment_at_a_sample_is_the_sample() {
     within(60, || {
-        for (name, document) in scenes() {
+        let relaxing = [
+            (
+                "material",
+                "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
+            ),
+            ("loading_speed", "1.0e-6"),
+            ("loading", "[ToForce(1.0e-4), Hold(2.0), ToSeparation]"),
+        ];
+        let relaxing = ("relaxing", changed(&smooth(), &relaxing));
+        for (name, document) in scenes().into_iter().chain([relaxing]) {
             let served = Served::start();
             let computed = served.computed(1, &document);
             for (stage, record) in computed.outcome.history.stages.iter().enumerate() {
