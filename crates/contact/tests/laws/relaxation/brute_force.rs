@@ -200,11 +200,16 @@ fn a_few_rough_lines_agree_with_brute_force() {
     judge((0..40).step_by(16));
 }
 
-/// Ten of the 200 lines times `TEST_EFFORT`, spread evenly over their numbers.
+/// Six of the 200 lines; more of them, spread over all numbers, with a `TEST_EFFORT` above 1.
 #[test]
 #[ignore = "slow: lines by brute force, some minutes"]
 fn two_hundred_rough_lines_agree_with_brute_force() {
     let effort = std::env::var("TEST_EFFORT").ok();
     let effort: usize = effort.and_then(|text| text.parse().ok()).unwrap_or(1);
-    judge((0..200).step_by(20 / effort.clamp(1, 20)));
+    let (end, step) = if effort < 2 {
+        (120, 20)
+    } else {
+        (200, 40 / effort.clamp(2, 40))
+    };
+    judge((0..end).step_by(step));
 }
