@@ -20,7 +20,7 @@ impl Spring {
     }
 }
 
-/// What the forces of all springs have in common at one moment.
+/// Part of the force that is the same for all springs at one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Share of the modulus that remains after a long time.

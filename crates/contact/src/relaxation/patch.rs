@@ -55,7 +55,7 @@ struct Receding<'a> {
     peaks: Peaks<'a>,
 }
 
-/// What is left of a patch.
+/// State of a patch after springs have detached at its edges.
 enum Remainder {
     /// The patch bears its tension.
     Holds,

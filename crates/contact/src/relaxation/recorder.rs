@@ -63,7 +63,7 @@ impl<'a> Recorder<'a> {
         recorded.fresh_squares.push(state.load.fresh_squares);
     }
 
-    /// Adds all states but the last one, from which the motion goes on, and removes them.
+    /// Moves all states except the last one to the record. The motion continues from the last one.
     pub fn add_all_but_last(&mut self, states: &mut Vec<State>) {
         let kept = states.len() - 1;
         for state in states.drain(..kept) {

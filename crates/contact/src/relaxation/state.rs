@@ -77,7 +77,7 @@ impl Load {
     }
 }
 
-/// What the body does with its contact.
+/// Part of the motion: separated, at the largest indentation, or after the turn.
 #[derive(Clone, Debug)]
 pub enum Phase {
     /// The body has touched nothing yet.

@@ -1,4 +1,5 @@
-//! What relaxation costs, beside the elastic loop. Times are printed, counts are judged.
+//! Cost of relaxation compared with the elastic loop. Times are printed; counts are compared with
+//! bounds.
 
 use super::*;
 use asperity_contact::LoadOptions;

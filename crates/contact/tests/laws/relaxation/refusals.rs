@@ -1,4 +1,4 @@
-//! What a contact with relaxation refuses, and what it accepts.
+//! Loadings that a contact with relaxation refuses, and loadings that it accepts.
 
 use super::*;
 

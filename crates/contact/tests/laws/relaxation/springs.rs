@@ -17,7 +17,7 @@ struct Vertex {
     memory: f64,
 }
 
-/// How the body moves: a loading, a rest and an unloading, at one speed.
+/// Motion of the body: a loading, a rest and an unloading, all at one speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
     pub deepest: f64,
