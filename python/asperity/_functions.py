@@ -48,6 +48,7 @@ from ._results import (
     Study,
     Surface,
 )
+from ._spectrum import Spectrum
 
 #: Path of a file.
 AnyPath: TypeAlias = str | os.PathLike[str]
@@ -392,6 +393,31 @@ def self_affine(
     )
 
 
+def spectrum(wave_numbers: npt.ArrayLike, c2d: npt.ArrayLike) -> Spectrum:
+    """Returns a measured or computed spectrum of a surface as a roughness.
+
+    `wave_numbers` are q = 2π/λ in rad/m, ascending, and `c2d` is the two-dimensional spectral density C2D in m⁴ at each of them, for
+    a map the mean over all directions. It gives the rms height h by h² = (1/2π) ∫ q C2D dq. Between the wave numbers C2D is a power
+    law, and beyond them there are no waves: warnings call the longest wavelength the length of the scan. Look at `rms_height`, since programs differ by factors of 2π.
+
+    The spectral density of profiles (C1D in m³) does not give C2D point by point; for heights use `asperity.surface`.
+
+    >>> q = np.geomspace(1e5, 3e7, 50)   # rad/m: wavelengths from 63 µm to 0.2 µm
+    >>> rough = asp.spectrum(q, 2.5e-7 * q**-3.6)   # m⁴, for the Hurst exponent 0.8
+    >>> rough
+    <Spectrum: wave_number 50 values, rms_height ... nm, rms_gradient ...>
+    >>> asp.profile("100 µm", 4096, form=asp.sphere("1 mm"), roughness=rough, seed=3)
+    <Profile: 4096 points on 100 µm, height ... µm>
+    """
+    q, densities = numbers(wave_numbers, "wave_numbers").copy(), numbers(c2d, "c2d").copy()
+    if len(q) < 2 or q[0] <= 0 or not (q[1:] > q[:-1]).all():
+        raise refusal("wave_numbers", q, "two or more wave numbers in rad/m that ascend from above 0")
+    if len(densities) != len(q):
+        raise refusal("c2d", f"{len(densities)} densities", f"{len(q)} densities in m⁴, one for each wave number")
+    with naming("c2d", densities):
+        return Spectrum._of(q, densities)
+
+
 def measured(
     file: AnyPath,
     *,
@@ -480,12 +506,12 @@ def profile(
     points: int | None = None,
     *,
     form: Form | None = None,
-    roughness: Form | Surface | tuple[npt.ArrayLike, Quantity] | npt.ArrayLike | None = None,
+    roughness: Form | Surface | Spectrum | tuple[npt.ArrayLike, Quantity] | npt.ArrayLike | None = None,
     seed: int = 1,
 ) -> Profile:
     """Makes the profile of a body with a form and a roughness, with `points` points along a length in m, by default 16384.
 
-    A `roughness` is made by `self_affine` or `measured`, or it is a `Surface`, whose spectrum the profile gets. A pair of measured
+    A `roughness` is made by `self_affine`, `measured` or `spectrum`, or it is a `Surface`, whose spectrum the profile gets. A pair of measured
     heights in m and the distance between their points in m counts as the surface `asperity.surface(heights, spacing=...)`. An
     array alone has the heights in m of the roughness at each point, those of an equivalent line as in `asperity.Profile`. The axis
     of the form is at the point with the index `points // 2`. A seed gives the same random phases on any machine and for any number of points.
@@ -502,7 +528,7 @@ def profile(
         measured_heights, distance = roughness
         roughness = surface(measured_heights, spacing=distance)
     heights = None
-    if roughness is not None and not isinstance(roughness, (Form, str, Surface)):
+    if roughness is not None and not isinstance(roughness, (Form, str, Surface, Spectrum)):
         heights = numbers(cast("npt.ArrayLike", roughness), "roughness")
     count = whole(points, "points", 2, 2**28) if points is not None else 16384 if heights is None else len(heights)
     number = whole(seed, "seed", 0, 2**64 - 1)
@@ -513,10 +539,11 @@ def profile(
             raise refusal("roughness", f"{len(heights)} heights", f"{count} heights, one for each point")
         with naming("form", form):
             return Profile._of_roughness(plain, heights)
-    if isinstance(roughness, Surface):
+    if isinstance(roughness, (Surface, Spectrum)):
         with naming("roughness", roughness):
             return Profile._of_scene(plain.roughened(roughness._scene, number))
-    _check_kind(roughness, _ROUGHNESS, "roughness", "asperity.self_affine(...), asperity.measured(...), a Surface or an array")
+    roughness_allowed = "asperity.self_affine(...), asperity.measured(...), asperity.spectrum(...), a Surface or an array"
+    _check_kind(roughness, _ROUGHNESS, "roughness", roughness_allowed)
     if isinstance(roughness, Form) and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": number})
     with naming("form" if roughness is None else "roughness", form if roughness is None else roughness):

@@ -12,6 +12,7 @@ from . import _native
 from ._attributes import Attribute, Table, Values, unit_of
 from ._notation import path as file_path
 from ._notation import refusal
+from ._rows import Event
 
 if TYPE_CHECKING:
     import numpy as np
@@ -114,7 +115,7 @@ class Loop(Values):
         return error
 
     @cached_property
-    def events(self) -> Table:
+    def events(self) -> Table[Event]:
         """Table of the jumps and marks of the loading in the order of the motion, with the columns of `asperity run --events`.
 
         The first access computes the loop once more. `energy` is the elastic energy in J that springs gain (positive) or release
@@ -129,7 +130,9 @@ class Loop(Values):
             table = _native.Loop.events_of_heights(profile._native, load)
         events: npt.NDArray[np.void] = np.load(io.BytesIO(table))
         names = events.dtype.names or ()
-        return Table([dict(zip(names, event, strict=True)) for event in events.tolist()])
+        rows = [dict(zip(names, event, strict=True)) for event in events.tolist()]
+        # A number that does not exist is NaN in the array.
+        return Table([{name: None if value != value else value for name, value in row.items()} for row in rows], Event)
 
     def to_dict(self) -> dict[str, Any]:
         """Returns the values as a dictionary of numbers, texts, lists and dictionaries."""
