@@ -348,7 +348,7 @@ class Reversals(Drawn):
 
     scene = Attribute[dict[str, object]]("", "scene, with the fields of docs/scene-file.md")
     preloads = Attribute[Table[PreloadResults]](
-        "", "pull-off force over the preload, one row for each turning point that presses"
+        "", "pull-off force over the preload, at preloads with equal distances"
     )
     reversals = Attribute[Table[TurningPoint]]("", "one row for each turning point")
     indentations = Attribute[list[float]]("m", "indentations of the map")

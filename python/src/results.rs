@@ -4,7 +4,7 @@ use crate::advice::argument;
 use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use asperity::data::parse_quantity;
+use asperity::data::{AxisScale, parse_quantity};
 use asperity::scene::{CheckedScene, Document, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::{MeasuredAdhesion, warnings_of_reversals};
@@ -300,15 +300,41 @@ pub fn reversals(
         let mut simulation = case.simulation().for_one_scene();
         let map =
             simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
-        let warnings = warnings_of_reversals(&map, case.document.scene(), &mut simulation)?;
+        let scene = case.document.scene();
+        let warnings = warnings_of_reversals(&map, scene, &mut simulation)?;
+        let largest = map
+            .reversals
+            .iter()
+            .map(|reversal| reversal.turn.force)
+            .fold(0.0, f64::max);
+        let mut preloads = None;
+        let mut staircase = None;
+        // There is no axis if no turning point presses the bodies together.
+        if let Ok(axis) =
+            Axis::of_preloads(ends.unwrap_or((0.0, largest)), count, AxisScale::Linear)
+        {
+            preloads = Some(case.watched(1, unchanged, |control| {
+                Results::of_scene(
+                    scene,
+                    &Results::OF_PRELOADS,
+                    1,
+                    Some(&axis),
+                    &mut case.simulation(),
+                    control,
+                )
+            })?);
+            staircase = Some(case.watched(1, unchanged, |control| {
+                Staircase::of(scene, &axis, &mut simulation, control)
+            })?);
+        }
         Ok(Report::new(move |format| {
             let report = ReversalReport {
                 title: case.document.title(),
                 scene: case.document.scene(),
                 map: &map,
                 warnings: &warnings,
-                preloads: None,
-                staircase: None,
+                preloads: preloads.as_ref(),
+                staircase: staircase.as_ref(),
             };
             bytes(named(&case.document, &case.in_memory), &report, format)
         }))

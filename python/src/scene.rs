@@ -151,10 +151,10 @@ impl Scene {
     ) -> PyResult<(Scene, [f64; 2])> {
         let spectrum = IsotropicSpectrum::from_table(wave_numbers.as_slice()?, c2d.as_slice()?)
             .map_err(Failure::from)?;
+        let moments = spectrum.rms_of_height_and_gradient();
         let line = EquivalentLine {
             faces: vec![spectrum],
         };
-        let moments = line.moments();
         let scene = SceneValues {
             roughness: Some(Roughness::Measured(Measured::of_file(SPECTRUM))),
             ..SceneValues::new(Material::effective(1e6), 1e-4)
@@ -163,10 +163,7 @@ impl Scene {
             document: Document::from_scene(&scene, "scene").map_err(Failure::from)?,
             in_memory: Some(Arc::new(MeasuredRoughness::Equivalent(line))),
         };
-        Ok((
-            scene,
-            [moments.rms_height.value, moments.rms_gradient.value],
-        ))
+        Ok((scene, moments))
     }
 
     /// Returns the scene with other values of fields. `fields` has pairs of a path and a value in

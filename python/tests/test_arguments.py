@@ -3,6 +3,7 @@
 import inspect
 import json
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -235,6 +236,8 @@ class Surfaces(InFolder):
             command = [sys.executable, "-m", "asperity", "surface", *words, *contact, "--format", "json"]
             printed = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
             found = asp.surface("map.npy", unit="m", spacing="0.1 µm", detrend="Curvature", tip_radius="10 nm", **options).to_dict()
+            # The command names the fields of a scene, the function its arguments.
+            printed["warnings"] = [text.replace("roughness.", "") for text in printed["warnings"]]
             for key in printed.keys() - {"program", "command"}:
                 self.assertEqual(json.dumps(found[key]), json.dumps(printed[key]), key)
             self.assertEqual(found["adhesion"] is None, "work" not in options)
@@ -247,7 +250,7 @@ class Surfaces(InFolder):
         c2d = 3e-6 * q**-3.8
         spectrum = asp.spectrum(q, c2d)
         height = np.sqrt(np.trapezoid(q**2 * c2d, np.log(q)) / (2 * np.pi))
-        self.assertAlmostEqual(spectrum.rms_height / height, 1, delta=0.2)
+        self.assertAlmostEqual(spectrum.rms_height / height, 1, delta=2e-3)
         form = asp.sphere("1 mm")
         body = asp.profile("60 µm", 4096, form=form, roughness=spectrum, seed=3)
         flat = [asp.profile("60 µm", 4096, roughness=spectrum, seed=seed).heights for seed in range(1, 17)]
@@ -264,7 +267,10 @@ class Surfaces(InFolder):
         # The spectrum that a surface has found.
         surface = asp.surface(rough_map(), spacing=1e-7)
         again = asp.spectrum(surface.spectrum["wave_number"], surface.spectrum["c2d"])
-        self.assertAlmostEqual(again.rms_gradient / surface.equivalent_line.rms_gradient.value, 1, delta=1e-6)
+        self.assertAlmostEqual(again.rms_gradient / surface.equivalent_line.rms_gradient.value, 1, delta=1e-3)
+        np.testing.assert_allclose(
+            again.c2d, asp.spectrum(again.wave_number, again.c2d).c2d, rtol=1e-12
+        )
         for given, field in [
             (([1e5], [1e-30]), "wave_numbers"),
             (([0, 1e5], [1e-30, 1e-30]), "wave_numbers"),
