@@ -41,10 +41,11 @@ _FIGURES = (
 class Loop(Values):
     """Force loop of a loading that begins with separated bodies. All numbers are in SI units.
 
-    Arrays have one value for each point of the curve, except for `released_energy`. Forces are positive in compression, and the
-    indentation is 0 at first touch. A number that does not exist for the loop is None. `kappa`, `tabor_number`, `regime`,
-    `adhesion_share` and `pull_off_force_error` need the form and the roughness of the body. They are None for a profile that is
-    given by its heights.
+    Arrays have one value for each point of the curve, except for `released_energy`. At a jump of the contact the
+    curve has two points with the same indentation. While a soft instrument jumps, its points have the same displacement. Forces
+    are positive in compression, and the indentation is 0 at first touch. A number that does not exist for the loop is None.
+    `kappa`, `tabor_number`, `regime`, `adhesion_share` and `pull_off_force_error` need the form and the roughness of the body.
+    They are None for a profile that is given by its heights.
     """
 
     _shown = ("pull_off_force", "preload", "dissipated_energy")

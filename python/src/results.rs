@@ -392,7 +392,11 @@ pub enum AxisValue {
 }
 
 /// Path of the field that varies along an axis, and the values on the axis.
-pub type GivenAxis = (String, Vec<AxisValue>);
+type GivenAxis = (String, Vec<AxisValue>);
+
+/// What a study varies and what it records: its axes, and the names of the quantities.
+#[derive(FromPyObject)]
+pub struct StudyDesign(Vec<GivenAxis>, Vec<String>);
 
 fn read_axis(
     scene: &CheckedScene,
@@ -421,13 +425,10 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
-/// Returns the plan of a study with these axes and recorded quantities.
-pub fn plan_of_study(
-    case: &Case<'_>,
-    axes: &[GivenAxis],
-    record: &[String],
-) -> Result<Plan, Failure> {
+/// Returns the plan of a study of a scene.
+pub fn plan_of_study(case: &Case<'_>, design: &StudyDesign) -> Result<Plan, Failure> {
     case.check_profiles()?;
+    let StudyDesign(axes, record) = design;
     let mut quantities = Vec::with_capacity(record.len());
     for name in record {
         quantities.push(
@@ -454,11 +455,10 @@ pub fn plan_of_study(
 pub fn study(
     py: Python<'_>,
     call: Call,
-    axes: Vec<GivenAxis>,
-    record: Vec<String>,
+    design: StudyDesign,
 ) -> PyResult<Report> {
     call.computed(py, move |case| {
-        let plan = plan_of_study(&case, &axes, &record)?;
+        let plan = plan_of_study(&case, &design)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             match &case.in_memory {
                 Some(measured) => compute_with_measured(&plan, Arc::clone(measured), control),

@@ -507,6 +507,10 @@ class Premises(InFolder):
         self.assertTrue(any("unit and height_unit state" in text for text in more), more)
         self.assertNotIn("roughness.", surface.to_json() + steep.to_json())
 
+    def test_doubts_about_heights_point_at_the_caller(self):
+        _, said = self.warned(asp.profile, "6 µm", 512, roughness=(1e-3 * rough_map(), 1e-15))
+        self.assertTrue(any("rms gradient" in text for text in said), said)
+
     def test_doubts_about_a_surface_are_warnings(self):
         surface, said = self.warned(asp.surface, 1e-3 * rough_map(), spacing=1e-15)
         self.assertEqual(said, surface.warnings)
