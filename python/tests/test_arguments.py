@@ -508,7 +508,7 @@ class Premises(InFolder):
         self.assertNotIn("roughness.", surface.to_json() + steep.to_json())
 
     def test_doubts_about_heights_point_at_the_caller(self):
-        _, said = self.warned(asp.profile, "6 µm", 512, roughness=(1e-3 * rough_map(), 1e-15))
+        _, said = self.warned(asp.profile, "6 µm", 512, roughness=(1e3 * rough_map(), 1e-7))
         self.assertTrue(any("rms gradient" in text for text in said), said)
 
     def test_doubts_about_a_surface_are_warnings(self):
