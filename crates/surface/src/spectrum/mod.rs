@@ -23,6 +23,7 @@ mod differences;
 mod exact;
 mod fits;
 mod given;
+mod grid_model;
 mod identities;
 mod interlaced;
 pub(crate) mod isotropic;
