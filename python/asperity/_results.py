@@ -335,7 +335,8 @@ class Preloads(Drawn):
         preloads = self.per_profile[0].preloads
         forces = [preloads[0].pull_off_force, preloads[-1].pull_off_force]
         if self.mean is not None:
-            forces = [one.pull_off_force and one.pull_off_force.median for one in (self.mean[0], self.mean[-1])]
+            statistics = [self.mean[0].pull_off_force, self.mean[-1].pull_off_force]
+            forces = [None if one is None else one.median for one in statistics]
         words = " to ".join("none" if force is None else _native.in_words(force, "N") for force in forces)
         ends = " to ".join(_native.in_words(row.preload, "N") for row in (preloads[0], preloads[-1]))
         return f"<Preloads: {len(preloads)} preloads from {ends}, pull_off_force {words}, profiles {len(self.per_profile)}>"
