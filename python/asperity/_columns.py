@@ -1,5 +1,10 @@
 """Names of the columns of tables that are not quantities of a study, with their units and meanings."""
 
+from typing import TypeAlias
+
+#: A value in a cell of a table.
+Cell: TypeAlias = float | int | str | bool | None
+
 #: Unit and meaning of each name. The unit of a number without a unit is "1", that of a text is empty.
 COLUMNS: dict[str, tuple[str, str]] = {
     # Curve of a loop.

@@ -356,7 +356,6 @@ fn replaced_words_are_not_used() {
     let folders = [
         "src",
         "crates",
-        "presets",
         "tests",
         "benches",
         "examples",
