@@ -137,7 +137,7 @@ impl RelaxingBody {
         course.speed = self.speed;
         course.tolerance = self.tolerance;
         course.run(&mut states, &mut recorder)?;
-        let recorded = recorder.finish(&states);
+        let recorded = recorder.finish(&states)?;
         self.finish(target, direction, states, recorded)
     }
 
@@ -182,7 +182,7 @@ impl RelaxingBody {
             self.drive.step(&mut states, step, tolerance)?;
             recorder.add_all_but_last(&mut states);
         }
-        let recorded = recorder.finish(&states);
+        let recorded = recorder.finish(&states)?;
         let falls = states
             .last()
             .is_some_and(|last| last.indentation < self.state.indentation);

@@ -4,6 +4,7 @@ use super::law::Relaxation;
 use super::state::State;
 use super::view::View;
 use crate::contact::Contact;
+use crate::error::ContactError;
 use crate::history::{CurvePoint, Direction, Patch, StageRecord};
 use crate::target::Move;
 
@@ -13,6 +14,8 @@ pub struct Recorder<'a> {
     recorded: Recorded,
     /// Patches at the last point at which the body was above its largest indentation.
     patches: Option<Vec<Patch>>,
+    /// Points of the curve at which the body was at its largest indentation.
+    deepest: Vec<usize>,
 }
 
 /// Points of a stage, and the springs that detached on it.
@@ -40,6 +43,7 @@ impl<'a> Recorder<'a> {
                 detached_at: vec![f64::INFINITY; springs],
             },
             patches: None,
+            deepest: Vec::new(),
         }
     }
 
@@ -54,10 +58,11 @@ impl<'a> Recorder<'a> {
                 }
             }
         }
-        if patches.is_some() {
-            self.patches = patches;
+        match patches {
+            Some(_) => self.patches = patches,
+            None => self.deepest.push(recorded.curve.len()),
         }
-        recorded.curve.push(self.view.point(state));
+        recorded.curve.push(self.view.curve_point(state));
         recorded.seconds.push(state.seconds);
         recorded.drives.push(state.drive);
         recorded.fresh_squares.push(state.load.fresh_squares);
@@ -72,11 +77,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds the last states of a stage, and returns what was recorded.
-    pub fn finish(mut self, states: &[State]) -> Recorded {
+    pub fn finish(mut self, states: &[State]) -> Result<Recorded, ContactError> {
         for state in states {
             self.add(state);
         }
-        self.recorded
+        self.view
+            .count_springs(&mut self.recorded.curve, self.deepest)?;
+        Ok(self.recorded)
     }
 
     /// Returns the smallest force so far in N.

@@ -112,6 +112,9 @@ pub struct State {
     pub memory: f64,
     pub load: Load,
     pub phase: Phase,
+    /// Change of the force in m by jumps on the step to this state. Jumps that cancel leave no
+    /// other trace.
+    pub jump: f64,
 }
 
 impl State {
@@ -125,6 +128,7 @@ impl State {
             memory: 0.0,
             load: Load::default(),
             phase: Phase::Apart,
+            jump: 0.0,
         }
     }
 
