@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Points of the elastic curve.
-const SAMPLES: usize = 400;
+const SAMPLES: u64 = 400;
 const SPHERE_SPRINGS: u32 = 400;
 /// m
 const RADIUS: f64 = 1.0e-4;

@@ -290,7 +290,7 @@ pub struct History {
 
 impl History {
     /// Returns the deviation of the force in N that the steps of a relaxing body may have. Returns
-    /// `None` without [`Relaxation`](crate::Relaxation), where there are no steps in time.
+    /// `None` without [`Relaxation`], where there are no steps in time.
     pub fn step_error(&self) -> Option<f64> {
         let mut largest = None;
         for stage in self.stages.iter().filter(|stage| !stage.seconds.is_empty()) {

@@ -19,7 +19,7 @@ use crate::target::Move;
 /// Never stops a motion.
 static NEVER: fn() -> bool = || false;
 
-/// A body that moves at a constant speed over a foundation with [`Relaxation`](crate::Relaxation).
+/// A body that moves at a constant speed over a foundation with [`Relaxation`].
 pub struct RelaxingBody<'a> {
     drive: Drive,
     /// Returns true if the motion is to be interrupted.
@@ -133,7 +133,7 @@ impl<'a> RelaxingBody<'a> {
         {
             return Ok(StageRecord::free(target, self.state.indentation, end));
         }
-        let mut states = vec![self.state.clone()];
+        let mut states = vec![self.state.at_rest()];
         if self.state.is_separated() {
             self.touch(&mut states)?;
         }
@@ -178,7 +178,7 @@ impl<'a> RelaxingBody<'a> {
         if self.state.is_separated() || seconds == 0.0 {
             return Ok(StageRecord::still(target, self.point()));
         }
-        let mut states = vec![self.state.clone()];
+        let mut states = vec![self.state.at_rest()];
         let step = Step {
             drive: self.state.drive,
             seconds: seconds / STEPS as f64,

@@ -66,20 +66,32 @@ impl Drive {
     ) -> Result<(), ContactError> {
         let moments = self.history.len();
         let half = step.part(from.drive, 0.5);
-        let middle = self.driven(from, half.drive, half.seconds)?;
+        let mut middle = self.driven(from, half.drive, half.seconds)?;
         self.remember(from, &middle);
-        let end = self.driven(&middle, step.drive, step.seconds - half.seconds)?;
+        let mut end = self.driven(&middle, step.drive, step.seconds - half.seconds)?;
         let force = self.force(&end);
         let difference = (force - self.force(&whole)).abs();
         let mean = 0.5 * (self.force(from) + force);
         let bend = (self.force(&middle) - mean).abs();
+        let growths = [(from, &middle), (&middle, &end)].map(|(from, to)| self.growth(from, to));
+        // A force that falls and rises in turn may agree in the middle of a step by chance.
+        let mut kink = 0.0;
+        if let [Some(growth), _] = growths
+            && let Some(growth_before) = from.growth
+        {
+            kink = 0.5 * half.seconds * (growth - growth_before).abs();
+        }
         let is_lost = !from.is_separated() && end.is_separated();
         let jump = middle.jump.max(end.jump);
-        let is_straight = difference.max(bend).max(jump) <= tolerance.max(self.rounding());
+        let is_straight =
+            difference.max(bend).max(kink).max(jump) <= tolerance.max(self.rounding());
         let is_accurate = is_straight && !is_lost
             || self.largest_change(from, &middle, &end) <= LOCATED * tolerance;
         if is_accurate || halvings == 0 {
             self.remember(&middle, &end);
+            if is_straight {
+                [middle.growth, end.growth] = growths;
+            }
             self.largest_force = self.largest_force.max(force.abs());
             states.push(middle);
             states.push(end);
@@ -103,6 +115,13 @@ impl Drive {
             self.driven(&middle, rest.drive, rest.seconds)?
         };
         self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
+    }
+
+    /// Returns the mean growth of the force in m/s from one state to another one.
+    fn growth(&self, from: &State, to: &State) -> Option<f64> {
+        let seconds = to.seconds - from.seconds;
+        let growth = (self.force(to) - self.force(from)) / seconds;
+        growth.is_finite().then_some(growth)
     }
 
     /// Returns the largest change of the force in m on the way from `from` over `middle` to `end`,

@@ -173,6 +173,15 @@ fn deviation(compared: &Compared) -> f64 {
     worst
 }
 
+/// Deviation of the pull-off force, as a share of the largest force.
+fn deviation_of_pull_off(compared: &Compared) -> f64 {
+    let smallest = compared.records.iter().map(|record| record.smallest.force);
+    let smallest = smallest.fold(f64::INFINITY, f64::min);
+    let forces = compared.found.iter().map(|found| found.force);
+    let expected = forces.fold(f64::INFINITY, f64::min);
+    (smallest - expected).abs() / compared.scale
+}
+
 /// Deviations of the energies of dashpots and of detachment, as shares of the work of the loop.
 fn energy_deviations(compared: &Compared) -> [f64; 2] {
     let of = |energy: fn(&StageRecord) -> f64| compared.records.iter().map(energy).sum::<f64>();
@@ -191,8 +200,10 @@ fn judge(numbers: impl Iterator<Item = u64>) {
         let deviation = deviation(&compared);
         let energies = energy_deviations(&compared);
         let [dashpots, released] = energies;
-        println!("case {number}: {deviation:.1e} {dashpots:.1e} {released:.1e}");
+        let pull_off = deviation_of_pull_off(&compared);
+        println!("case {number}: {deviation:.1e} {pull_off:.1e} {dashpots:.1e} {released:.1e}");
         assert!(deviation <= ALLOWED, "case {number}: {deviation}");
+        assert!(pull_off <= ALLOWED, "case {number}: {pull_off}");
         let is_balanced = energies
             .iter()
             .all(|energy| energy.abs() <= ALLOWED_OF_ENERGY);
