@@ -72,6 +72,9 @@ pub struct Event {
     pub stage: usize,
     /// Indentation in m.
     pub indentation: f64,
+    /// Time in s since first touch; `None` without [relaxation](crate::Relaxation), because time
+    /// then has no effect.
+    pub seconds: Option<f64>,
     /// Force of the whole contact in N before and after the event. Both are equal unless the
     /// contact jumps.
     pub forces: [f64; 2],
@@ -90,6 +93,7 @@ impl Event {
         Event {
             stage,
             indentation,
+            seconds: None,
             forces,
             mark: None,
             jump: None,
@@ -99,14 +103,20 @@ impl Event {
 }
 
 impl JumpCollector {
-    /// Adds the jumps of a stage that has just been computed.
+    /// Adds the jumps of a stage that has just been computed. The jumps of a foundation that
+    /// [relaxes](crate::Relaxation) are not known one by one, so it has none here, and its events
+    /// are its marks.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the stage was computed by the [stepwise
-    /// solver](crate::motion::Stepwise), or if the foundation relaxes.
+    /// solver](crate::motion::Stepwise).
     pub fn observe(&mut self, record: &StageRecord, motion: &Stage) -> Result<(), ContactError> {
-        let [low, high] = record.passed();
-        let jumps = motion.jumps(low, high)?;
+        let jumps = if record.times().is_some() {
+            Vec::new()
+        } else {
+            let [low, high] = record.passed();
+            motion.jumps(low, high)?
+        };
         self.stages.push(JumpsOfStage {
             stage: motion.clone(),
             jumps,
@@ -151,7 +161,7 @@ impl JumpCollector {
             events.released -= jump.energy.min(0.0);
         }
         let least = self.least_energy(least_share, most);
-        let marks = Mark::in_stages(records);
+        let marks = Mark::all(records);
         let range = NEAR * range_of(records);
         for (stage, record) in records.iter().enumerate() {
             let mut of_stage = self.listed_jumps(stage, least)?;
@@ -161,7 +171,7 @@ impl JumpCollector {
             }
             events.listed_jumps += of_stage.len();
             for marked in marks.iter().filter(|marked| marked.stage == stage) {
-                add_mark(&mut of_stage, marked, record.direction, range);
+                add_mark(&mut of_stage, marked, record, range);
             }
             if record.jump_energy != 0.0 {
                 let force = record.curve.last().map_or(0.0, |point| point.force);
@@ -228,11 +238,11 @@ fn range_of(records: &[StageRecord]) -> f64 {
 /// Adds a mark to the events of its stage, which are in the order of the motion. The mark is added
 /// to a jump that follows it within the indentation `near` in m; otherwise it becomes an event of
 /// its own.
-fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, direction: Direction, near: f64) {
+fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, record: &StageRecord, near: f64) {
     let point = marked.point;
     let is_before = |event: &Event| {
         let order = event.indentation.total_cmp(&point.indentation);
-        match direction {
+        match record.direction {
             Direction::Loading => order == Ordering::Less,
             Direction::Unloading => order == Ordering::Greater,
         }
@@ -247,6 +257,7 @@ fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, direction: Direction,
     }
     let event = Event {
         mark: Some(marked.mark),
+        seconds: marked.seconds,
         ..Event::new(marked.stage, point.indentation, [point.force; 2])
     };
     events.insert(place, event);

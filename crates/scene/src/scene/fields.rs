@@ -169,7 +169,7 @@ pub const FIELDS: &[Field] = &[
         .words("reduced modulus stiffness")
         .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("material.relaxation", place!(material.relaxation), RELAXATIONS)
-        .default("None")
+        .name("relaxation").default("None")
         .words("viscoelastic viscoelasticity creep time dependent standard linear solid Maxwell dashpot rate")
         .meaning("fall of the modulus with time; elastic if left out"),
     row("material.relaxation.share", RELAXATION_SHARE, Range::closed(0.0, 0.99))

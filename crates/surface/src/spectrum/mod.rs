@@ -22,6 +22,7 @@ mod detrend;
 mod differences;
 mod exact;
 mod fits;
+mod grid_model;
 mod identities;
 mod interlaced;
 pub(crate) mod isotropic;
