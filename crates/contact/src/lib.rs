@@ -94,6 +94,7 @@ pub mod motion {
     pub use crate::events::JumpCollector;
     pub use crate::moving_body::{MovingBody, load_body};
     pub use crate::relaxation::body::RelaxingBody;
+    pub use crate::stage::forces::InstrumentJump;
     pub use crate::stage::jumps::{Jump, JumpKind};
     pub use crate::stage::{PatchState, Stage};
     pub use crate::stepwise::Stepwise;
