@@ -29,7 +29,8 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "last_before": ("1", "last spring of the patch before the jump"),
     "first_after": ("1", "first spring of the patch after the jump"),
     "last_after": ("1", "last spring of the patch after the jump"),
-    "instrument_loss": ("J", "energy that is lost in the jumps of the instrument"),
+    "jumps_to": ("m", "indentation after a jump of the instrument"),
+    "instrument_loss": ("J", "energy that is lost in a jump of the instrument"),
     # Profiles and cells.
     "seed": ("1", "seed of the random phases of the profile"),
     "cell": ("1", "number of the combination of values"),

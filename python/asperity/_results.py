@@ -179,6 +179,7 @@ class Budget(Values):
     """Relative errors of the pull-off force, by their sources. An error that is not known is None."""
 
     grid = Attribute[float | None]("1", "error by the finite number of springs, on the profile of the scene")
+    steps = Attribute[float | None]("1", "error by the steps in time; None without relaxation")
     sample = Attribute[float | None]("1", "error of the median by the finite number of profiles")
     surface = Attribute[float | None]("1", "error of the median by the uncertainty of a measured spectrum")
     model = Attribute[float | None]("1", "lower bound of the error of the model of one-dimensional profiles")

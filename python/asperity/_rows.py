@@ -43,6 +43,7 @@ class Event(Row):
     last_before = Column[int | None]()
     first_after = Column[int | None]()
     last_after = Column[int | None]()
+    jumps_to = Column[float | None]()
     instrument_loss = Column[float | None]()
 
 

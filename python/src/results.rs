@@ -452,11 +452,7 @@ pub fn plan_of_study(case: &Case<'_>, design: &StudyDesign) -> Result<Plan, Fail
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
 /// several random profiles.
 #[pyfunction]
-pub fn study(
-    py: Python<'_>,
-    call: Call,
-    design: StudyDesign,
-) -> PyResult<Report> {
+pub fn study(py: Python<'_>, call: Call, design: StudyDesign) -> PyResult<Report> {
     call.computed(py, move |case| {
         let plan = plan_of_study(&case, &design)?;
         let results = case.watched(plan.records_in_all(), done, |control| {

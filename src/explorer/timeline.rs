@@ -153,7 +153,6 @@ pub fn position_of(records: &[StageRecord], event: &Event) -> Player {
         .is_some_and(|record| record.direction == Direction::Unloading);
     let end = records.get(event.stage).map(StageRecord::end);
     let at = match event.jump {
-        None if event.instrument_loss.is_some() => At::End,
         Some(_) if is_unloading => {
             let after = event.indentation.next_down();
             if end.is_some_and(|end| after < end) {
@@ -191,9 +190,6 @@ fn has_passed(records: &[StageRecord], event: &Event, player: Player) -> bool {
     }
     if let (Some(seconds), Some(shown)) = (event.seconds, player.seconds(records)) {
         return seconds <= shown;
-    }
-    if event.instrument_loss.is_some() {
-        return false;
     }
     let indentation = player.indentation(records);
     let is_unloading = records

@@ -356,6 +356,7 @@ fn replaced_words_are_not_used() {
     let folders = [
         "src",
         "crates",
+        "presets",
         "tests",
         "benches",
         "examples",

@@ -2,6 +2,7 @@
 //! counts of computing work, and the plan of a motion to a target.
 
 use super::error::{ContactError, LARGEST, check};
+use super::relaxation::law::Relaxation;
 use super::target::Move;
 #[cfg(feature = "serde")]
 use serde::Serialize;
@@ -312,6 +313,19 @@ pub struct History {
     pub work: Work,
 }
 
+impl History {
+    /// Returns the deviation of the force in N that the steps of a relaxing body may have. Returns
+    /// `None` without [`Relaxation`], where there are no steps in time.
+    pub fn step_error(&self) -> Option<f64> {
+        let mut largest = None;
+        for stage in self.stages.iter().filter(|stage| !stage.seconds.is_empty()) {
+            let force = stage.largest.force.abs().max(stage.smallest.force.abs());
+            largest = Some(force.max(largest.unwrap_or(0.0)));
+        }
+        largest.map(|force| Relaxation::STEP_ERROR * force)
+    }
+}
+
 /// Counts of computing work. Examples are how often the rule of Hess was evaluated, and how often
 /// the solver passed over the [contact tree](crate::motion::ContactTree). Unlike computing times,
 /// the counts are the same on every machine.
@@ -366,8 +380,8 @@ pub struct Work {
     pub detached: u64,
     /// Number of small steps of the indentation by the [stepwise solver](crate::motion::Stepwise).
     pub steps: u64,
-    /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
-    pub relaxation_sweeps: u64,
+    /// Number of times that the stepwise solver swept over all springs to find equilibrium.
+    pub equilibrium_sweeps: u64,
     /// Number of springs that the stepwise solver visited. A spring counts again at each visit.
     pub spring_updates: u64,
     /// Number of heights of the profile that were sorted into the bins of a histogram.

@@ -40,9 +40,10 @@ struct EventsJson<'a> {
 pub fn event_words(event: &Event) -> String {
     let mark = event.mark.map(|mark| mark.name().to_owned());
     let jump = event.jump.as_ref().map(jump_words);
-    let instrument = event
-        .instrument_loss
-        .map(|_| "the instrument jumps".to_owned());
+    let instrument = event.instrument.map(|jump| {
+        let target = format_rounded(jump.to, DIGITS, "m");
+        format!("the instrument jumps to {target}")
+    });
     let parts: Vec<String> = [mark, jump, instrument].into_iter().flatten().collect();
     parts.join(" · ")
 }
@@ -119,10 +120,10 @@ impl EventsReport<'_> {
             ];
         }
         let [before, after] = event.forces;
-        let energy = match (event.jump, event.instrument_loss) {
+        let energy = match (event.jump, event.instrument) {
             (Some(jump), _) => signed_energy(jump.energy),
             // The springs and the instrument release this energy.
-            (None, Some(loss)) => signed_energy(-loss),
+            (None, Some(jump)) => signed_energy(-jump.energy),
             (None, None) => String::new(),
         };
         vec![
@@ -170,7 +171,7 @@ impl EventsReport<'_> {
         }
         if self.has_instrument() {
             text += " The energy of a jump of the instrument is what the instrument and the body \
-                     lose in all its jumps in the stage.";
+                     lose in it.";
         }
         text
     }
@@ -272,7 +273,11 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
             place(event.jump.and_then(|jump| jump.after), last)
         });
     let table = if has_instrument {
-        table.real("instrument_loss", |event| event.instrument_loss)
+        table
+            .real("jumps_to", |event| event.instrument.map(|jump| jump.to))
+            .real("instrument_loss", |event| {
+                event.instrument.map(|jump| jump.energy)
+            })
     } else {
         table
     };
@@ -283,7 +288,7 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
 
 /// Returns the name of an event in tables; empty for a mark alone.
 fn event_name(event: &Event) -> &'static str {
-    match (event.jump, event.instrument_loss) {
+    match (event.jump, event.instrument) {
         (Some(jump), _) => jump.kind.name(),
         (None, Some(_)) => "instrument",
         (None, None) => "",
@@ -456,7 +461,7 @@ mod tests {
         assert!(
             table
                 .rows()
-                .any(|row| row[3] == "instrument" && row[15].as_f64() > Some(0.0))
+                .any(|row| row[3] == "instrument" && row[16].as_f64() > Some(0.0))
         );
         assert!(report.text().unwrap().contains("the instrument jumps"));
     }

@@ -42,10 +42,11 @@ impl LoopQuantities {
         offered
     }
 
-    /// Returns the pair after this pair in a list of pairs, and the first one after the last one.
+    /// Returns the pair after this pair in a list of pairs, and the first one after the last one. A
+    /// pair that is not in the list counts as the first one.
     pub fn next(self, offered: &[LoopQuantities]) -> Self {
         let present = offered.iter().position(|&quantities| quantities == self);
-        let next = present.map_or(0, |index| index + 1);
+        let next = present.unwrap_or(0) + 1;
         offered.get(next).copied().unwrap_or_default()
     }
 }

@@ -96,9 +96,9 @@ fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static>
         Span::raw(format!("{place:>NUMBER_COLUMNS$} {mark} ")),
         Span::raw(event_words(event)),
     ]);
-    let energy = match (event.jump, event.instrument_loss) {
+    let energy = match (event.jump, event.instrument) {
         (Some(jump), _) => Some(jump.energy),
-        (None, Some(loss)) => Some(-loss),
+        (None, Some(jump)) => Some(-jump.energy),
         (None, None) => None,
     };
     let energy_text = energy.map_or_else(String::new, signed_energy);

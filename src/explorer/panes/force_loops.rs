@@ -10,16 +10,15 @@ use asperity_report::{ForceLoop, LoopCurve, LoopQuantities, LoopUnits, letter, l
 use asperity_scene::Outcome;
 use asperity_study::half_space::SquareLoops;
 
-/// Returns the pair of quantities that the pane shows: the one that the user has chosen, if the
-/// computed scene has it.
+/// Returns the pair of quantities that the pane shows: the one that the user has chosen. Without
+/// relaxation there is no time to show.
 pub fn quantities(app: &App) -> LoopQuantities {
     let chosen = app.view.curve.quantities;
-    match app.outcome() {
-        Some(outcome) if !LoopQuantities::of_scene(outcome).contains(&chosen) => {
-            LoopQuantities::default()
-        }
-        _ => chosen,
+    let is_timed = |outcome| LoopQuantities::of_scene(outcome).contains(&LoopQuantities::ForceTime);
+    if chosen == LoopQuantities::ForceTime && !app.outcome().is_some_and(is_timed) {
+        return LoopQuantities::default();
     }
+    chosen
 }
 
 /// Returns true if the chart contains the area of the dissipated energy: only a closed loop of the

@@ -9,6 +9,7 @@ mod ordered;
 pub(crate) mod points;
 mod prepare;
 pub(crate) mod segments;
+pub(crate) mod sources;
 mod statements;
 #[cfg(test)]
 mod tests;
