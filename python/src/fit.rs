@@ -10,11 +10,12 @@ use asperity::cli::arguments::Command;
 use asperity::cli::fit::FitArguments;
 use asperity::data::{Control, Remedied, counted, on_threads, path_name};
 use asperity::experiment::{
-    CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
+    CurveOptions, CurveSource, EnsembleOptions, ExperimentError, Fit, Free, MeasuredCurve,
+    Parameter, fit_ensemble,
 };
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
 use pyo3::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -24,16 +25,97 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
 impl Curve {
-    fn read(&self, options: &CurveOptions) -> Result<MeasuredCurve, Failure> {
+    /// Returns the curves that this one stands for: those of a folder, and those of a file with
+    /// several.
+    fn sources(&self, options: &CurveOptions) -> Result<Vec<Source<'_>>, Failure> {
         if let Some((displacement, force)) = &self.1 {
-            return Ok(MeasuredCurve::from_columns(displacement, force, options)?);
+            return Ok(vec![Source::Columns {
+                name: &self.0,
+                displacement,
+                force,
+            }]);
         }
         let path = PathBuf::from(&self.0);
-        MeasuredCurve::read(&path, options).map_err(|error| {
-            let message = format!("{}: {}", path_name(&path), error.in_words(argument));
-            Failure::of_files(&[path], message)
-        })
+        let sources = CurveSource::all(std::slice::from_ref(&path), None, options);
+        let sources = sources
+            .map_err(|error| Failure::of_files(&[path], error.in_words(argument)))?
+            .into_iter();
+        Ok(sources.map(Source::File).collect())
     }
+
+    /// Returns the only curve that this one stands for.
+    fn source(&self, options: &CurveOptions) -> Result<Source<'_>, Failure> {
+        if self.1.is_none() {
+            let path = PathBuf::from(&self.0);
+            let source = CurveSource::new(&path, options);
+            return Ok(Source::File(source.map_err(|error| in_file(&path, &error))?));
+        }
+        let mut sources = self.sources(options)?;
+        sources.pop().ok_or_else(|| "no curve".to_owned().into())
+    }
+}
+
+/// A single measured curve.
+enum Source<'a> {
+    Columns {
+        name: &'a str,
+        displacement: &'a [f64],
+        force: &'a [f64],
+    },
+    File(CurveSource),
+}
+
+/// A curve, and the coordinates in m of the place at which it was measured, if they are known.
+struct Placed {
+    curve: MeasuredCurve,
+    position: Option<[f64; 2]>,
+}
+
+impl Source<'_> {
+    fn name(&self) -> String {
+        match self {
+            Source::Columns { name, .. } => (*name).to_owned(),
+            Source::File(source) => source.name(),
+        }
+    }
+
+    fn read(&self, options: &CurveOptions) -> Result<Placed, Failure> {
+        match self {
+            Source::Columns {
+                displacement,
+                force,
+                ..
+            } => Ok(Placed {
+                curve: MeasuredCurve::from_columns(displacement, force, options)?,
+                position: None,
+            }),
+            Source::File(source) => {
+                let placed = source.read(options);
+                let placed = placed.map_err(|error| in_file(source.path(), &error))?;
+                Ok(Placed {
+                    curve: placed.curve,
+                    position: placed.position,
+                })
+            }
+        }
+    }
+}
+
+fn in_file(path: &Path, error: &ExperimentError) -> Failure {
+    let message = format!("{}: {}", path_name(path), error.in_words(argument));
+    Failure::of_files(&[path.to_owned()], message)
+}
+
+/// Returns the curves that these ones stand for.
+fn all_sources<'a>(
+    curves: &'a [Curve],
+    options: &CurveOptions,
+) -> Result<Vec<Source<'a>>, Failure> {
+    let mut sources = Vec::with_capacity(curves.len());
+    for curve in curves {
+        sources.extend(curve.sources(options)?);
+    }
+    Ok(sources)
 }
 
 /// Returns an error if no curve was fitted. The error states the reason for the first curve.
@@ -168,8 +250,8 @@ fn fit_together(
     options: &EnsembleOptions,
 ) -> Result<Report, Failure> {
     let mut measured = Vec::with_capacity(curves.len());
-    for curve in curves {
-        measured.push((curve.0.clone(), curve.read(reading)?));
+    for source in all_sources(curves, reading)? {
+        measured.push((source.name(), source.read(reading)?.curve));
     }
     let document = case.document.clone();
     let simulation = case.simulation();
@@ -196,8 +278,9 @@ fn fit_single(
     curve: &Curve,
     reading: &CurveOptions,
 ) -> Result<Report, Failure> {
-    let title = curve.0.clone();
-    let curve = curve.read(reading)?;
+    let source = curve.source(reading)?;
+    let title = source.name();
+    let curve = source.read(reading)?.curve;
     let result = case.watched(0, computed_curves, |control| fit.run(&curve, control))?;
     let in_memory = case.in_memory.clone();
     Ok(Report::new(move |format| {
@@ -221,12 +304,10 @@ fn fit_each(
     let watch = case.watch;
     let stop = || watch.stop();
     let done = AtomicU64::new(0);
-    let all = curves.len() as u64;
+    let sources = all_sources(curves, reading)?;
+    let all = sources.len() as u64;
     let fit_number = |number: u64| {
-        let given = &curves[number as usize];
-        let curve = given.read(reading).map_err(|failure| failure.message());
-        let control = Control::default().stopped_by(&stop);
-        let row = CurveRow::of(&given.0, curve, fit, control, argument);
+        let row = row_of(&sources[number as usize], fit, reading, &stop);
         watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
         if stop() {
             return Err("stopped".to_owned());
@@ -234,6 +315,33 @@ fn fit_each(
         Ok(row)
     };
     Ok(on_threads(all, case.jobs, || fit_number)?)
+}
+
+/// Fits a scene to a curve, and returns its row in the table of all curves. If the curve cannot be
+/// read or fitted, the row has the reason.
+fn row_of(
+    source: &Source<'_>,
+    fit: &Fit<'_>,
+    reading: &CurveOptions,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> CurveRow {
+    let name = source.name();
+    let Placed { curve, position } = match source.read(reading) {
+        Ok(placed) => placed,
+        Err(failure) => return CurveRow::failed(&name, &failure.message()),
+    };
+    match fit.run(&curve, Control::default().stopped_by(stop)) {
+        Ok(found) => {
+            let report = FitReport {
+                title: &name,
+                curve: &curve,
+                fit: &found,
+                wording: argument,
+            };
+            CurveRow::fitted(&report, position)
+        }
+        Err(error) => CurveRow::failed(&name, &error.in_words(argument)),
+    }
 }
 
 /// Returns the report on several curves, of which at least one must be fitted.

@@ -1,9 +1,8 @@
 //! Row of one of many fitted curves, and the cells of a CSV table in which it is written and read.
 
 use crate::fit::FitReport;
-use asperity_data::{Control, Remedied, Warning, Wording, printable};
-use asperity_experiment::{Fit, MeasuredCurve, RangeEnd};
-use std::fmt::Display;
+use asperity_data::{Warning, printable};
+use asperity_experiment::RangeEnd;
 
 /// Row of a table with one row for each measured curve: the result of the fit to the curve, or the
 /// reason why the curve was not fitted.
@@ -104,34 +103,6 @@ pub const FACTS: [&str; 11] = [
 pub(super) const ENDINGS: [&str; 3] = ["", "_low", "_high"];
 
 impl CurveRow {
-    /// Fits the scene to one curve and returns the row of this curve. If `curve` is an error, or if
-    /// the fit fails, [`Self::error`] of the row states the reason. `title` is the path of the file
-    /// of the curve.
-    pub fn of(
-        title: &str,
-        curve: Result<MeasuredCurve, impl Display>,
-        fit: &Fit<'_>,
-        control: Control<'_>,
-        wording: Wording,
-    ) -> Self {
-        let curve = match curve {
-            Ok(curve) => curve,
-            Err(error) => return CurveRow::failed(title, &error.to_string()),
-        };
-        match fit.run(&curve, control) {
-            Ok(fit) => {
-                let report = FitReport {
-                    title,
-                    curve: &curve,
-                    fit: &fit,
-                    wording,
-                };
-                CurveRow::fitted(&report, None)
-            }
-            Err(error) => CurveRow::failed(title, &error.in_words(wording)),
-        }
-    }
-
     /// Returns the row of a curve that was not read or not fitted.
     pub fn failed(title: &str, error: &str) -> Self {
         CurveRow {
