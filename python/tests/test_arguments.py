@@ -600,6 +600,29 @@ class Words(InFolder):
         both = asp.fit([np.array([d, force]), (d, force), frame], "jkr-sphere", ["work"], **fields)
         self.assertEqual((type(both), list(both.curves["work"])), (asp.Fits, 3 * [expected.work.value]))
 
+    def test_files_with_several_curves_and_folders_give_all_their_curves(self):
+        loop = asp.load(sphere(), modulus=1e6, work=WORK, stages="100 µN, separation", samples=40)
+        away = np.linspace(-1e-6, 0, 100)
+        d = np.r_[away[:-1], loop.indentation, loop.indentation[-1] + away[::-1]]
+        force = np.r_[0 * away[:-1], loop.force, 0 * away]
+        fields = {"form__radius": RADIUS, "modulus": MODULUS, "numerics__points": 256}
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder, "map.txt")
+            lines = ["displacement [m],force [N]"]
+            for x in range(3):
+                noise = 20e-9 * np.random.default_rng(x).standard_normal(len(d))
+                lines += [f"# x: {x} um, y: 2 um"] + [f"{a:.9e},{b:.9e}" for a, b in zip(d, force + noise, strict=True)]
+            place.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            found = asp.fit([place], "jkr-sphere", ["work"], **fields)
+            np.testing.assert_allclose(found.curves["position_x"], [0, 1e-6, 2e-6], atol=1e-15)
+            self.assertEqual([row.file for row in found.curves], [f"{place}#{number}" for number in (1, 2, 3)])
+            second = asp.fit(f"{place}#2", "jkr-sphere", ["work"], **fields)
+            self.assertEqual(second.work.value, found.curves[1].work)
+            in_folder = asp.fit([folder], "jkr-sphere", ["work"], **fields)
+            self.assertEqual(list(in_folder.curves["work"]), list(found.curves["work"]))
+            self.refused(asp.fit, place, "jkr-sphere", ["work"], says="3 curves in one file; allowed: one of them")
+            self.refused(asp.fit, f"{place}#4", "jkr-sphere", ["work"], says="no curve 4; allowed: one of them")
+
     def test_a_fit_of_which_every_curve_fails_is_an_error(self):
         with self.assertRaisesRegex(OSError, "none of 2 curves is fitted; the first one: no1.csv: cannot be read"):
             asp.fit(["no1.csv", "no2.csv"], "jkr-sphere", ["work"])
