@@ -6,6 +6,7 @@ use crate::curve::numerics::Extent;
 use crate::error::{ExperimentError, refused};
 use crate::fit::lines::Lines;
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::relaxation::{other_relaxations, with_relaxation};
 use crate::fit::result::RangeEnd;
 use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::fit::start::{Known, Starts};
@@ -23,12 +24,8 @@ const FACTOR: f64 = 30.0;
 const FACTOR_OF_RADII: f64 = 5.0;
 /// Smallest ratio of the ends of a range that the limits of a scene leave.
 const NARROWEST: f64 = 2.0;
-/// Share of the modulus that relaxes at which a search begins, unless the scene states one.
-const RELAXATION_SHARE: f64 = 0.2;
 /// Largest share of the modulus that relaxes in a search. A larger share leaves hardly any modulus.
 const MOST_RELAXATION: f64 = 0.95;
-/// Time of the approach divided by the relaxation time at which a search begins.
-const RELAXATIONS: f64 = 5.0;
 /// Ratio of each end of the range of the relaxation time to this initial value.
 const FACTOR_OF_TIMES: f64 = 300.0;
 /// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
@@ -49,6 +46,8 @@ pub(crate) struct Space<'a> {
     pub most_on_closing: f64,
     /// Sets of parameter values at which further descents of the fit begin.
     pub other_starts: Vec<Values>,
+    /// Sets of parameter values with other relaxations, at which further descents begin.
+    pub relaxations: Vec<Values>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -173,43 +172,6 @@ fn with_two_spheres(
     }
     let document = document.set_all(&changes).map_err(wrong)?;
     Ok((document, contacts))
-}
-
-/// Returns the document with a relaxation at which a search begins, if it is free.
-///
-/// # Errors Returns an error if the relaxation is free or stated, and the scene states no speed, or
-/// the curve has further segments than an approach and a retraction.
-fn with_relaxation(
-    document: &Document,
-    curve: &MeasuredCurve,
-    free: &[Free],
-) -> Result<Document, ExperimentError> {
-    let scene = document.scene();
-    let is_free = free.iter().any(|free| free.parameter.is_of_relaxation());
-    if !is_free && scene.material.relaxation.is_none() {
-        return Ok(document.clone());
-    }
-    let Some(speed) = scene.loading_speed else {
-        let found = "relaxation without a speed of the instrument";
-        return refused(found, "loading_speed in m/s, such as 1.0e-6");
-    };
-    if curve.turns.len() > 2 {
-        let found = format!("relaxation, and a curve of {} segments", curve.turns.len());
-        return refused(
-            found,
-            "an approach and a retraction, such as segments 1 and 2",
-        );
-    }
-    if scene.material.relaxation.is_some() {
-        return Ok(document.clone());
-    }
-    let way = curve.turns[0] - curve.touch;
-    let time = ron_float(way / speed / RELAXATIONS);
-    let share = ron_float(RELAXATION_SHARE);
-    let relaxation = format!("(share: {share}, time: {time})");
-    document
-        .set("material.relaxation", &relaxation)
-        .map_err(wrong)
 }
 
 /// Data from which the coordinates of the free parameters follow.
@@ -367,15 +329,24 @@ impl<'a> Space<'a> {
         } else {
             Vec::new()
         };
+        let relaxations = other_relaxations(&base, |parameter| is_free(free, parameter));
         let space = Space {
             base,
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
             other_starts,
+            relaxations,
             curve,
             stop,
         };
         Ok((document, space))
+    }
+
+    /// Returns true if the half-space relaxes, or may do so in the search.
+    pub fn relaxes(&self) -> bool {
+        let of_relaxation = |coordinate: &Coordinate| coordinate.parameter.is_of_relaxation();
+        let is_free = self.coordinates.iter().any(of_relaxation);
+        is_free || self.base[Parameter::RelaxationShare as usize] > 0.0
     }
 
     /// Returns the free parameters in the order of the coordinates.
