@@ -10,6 +10,9 @@ use std::ops::Range;
 /// Largest distance of the displacement during a rest from its median, as a share of the range of
 /// displacements.
 const STILL: f64 = 0.002;
+/// Distance from the turn, as a share of the range of displacements, up to which points do not
+/// enter a speed.
+const NEAR: f64 = 0.01;
 /// Smallest share of the points of a pause that have to stay so close to the median.
 const MOST_STAY: f64 = 0.5;
 /// Largest number of points of a rest that a fit uses.
@@ -69,19 +72,26 @@ impl Timing {
             .iter()
             .any(|motion| rests_within(points, motion, touch));
         let speeds = Speeds::of(points, of_motions, touch);
+        // Near the turn, points of a short rest may count as points of the motions.
+        let highest = Extent::of(kept.iter().map(|index| points.displacement[*index])).high;
+        let far = highest - NEAR * Extent::of(points.displacement.iter().copied()).width();
+        let is_far = |index: &&usize| points.displacement[**index] < far;
+        let last_far = approach.iter().rev().find(is_far).copied();
+        let first_far = retraction.iter().find(is_far).copied();
 
         let mut displacements: Vec<f64> = at_rest
             .iter()
             .map(|index| points.displacement[*index])
             .collect();
-        let highest = points.displacement[before].max(points.displacement[after]);
         let place = median(&mut displacements).unwrap_or(highest);
         let mut begin = None;
         let mut rest = None;
         if let Some(speeds) = speeds {
             let way = |index: usize| (place - points.displacement[index]).max(0.0);
-            let arrival = points.seconds[before] + way(before) / speeds.approach;
-            let departure = points.seconds[after] - way(after) / speeds.retraction;
+            let last = last_far.unwrap_or(before);
+            let first = first_far.unwrap_or(after);
+            let arrival = points.seconds[last] + way(last) / speeds.approach;
+            let departure = points.seconds[first] - way(first) / speeds.retraction;
             begin = Some(arrival);
             rest = Some((departure - arrival).max(0.0));
         }
@@ -148,8 +158,10 @@ impl Speeds {
 /// Returns the growth of the displacement over time in m/s, from the points of a motion in contact;
 /// `None` for fewer than two points.
 fn speed(points: &Points, motion: &[usize], touch: f64) -> Option<f64> {
-    let is_in_contact = |index: &usize| points.displacement[*index] > touch;
-    let mut chosen: Vec<usize> = motion.iter().copied().filter(is_in_contact).collect();
+    let extent = Extent::of(points.displacement.iter().copied());
+    let far = extent.high - NEAR * extent.width();
+    let counts = |index: &usize| (touch..far).contains(&points.displacement[*index]);
+    let mut chosen: Vec<usize> = motion.iter().copied().filter(counts).collect();
     if chosen.len() < FEWEST {
         chosen = motion.to_vec();
     }
@@ -201,5 +213,109 @@ impl MeasuredCurve {
             }
         }
         moving
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::common::{from_text, of_spring};
+    use crate::read::options::CurveOptions;
+
+    /// Returns a file of the spring that is pressed at 100 nm/s, rests for 2 s at 50 nm in 100
+    /// points with a force that falls, and is pulled at 200 nm/s. `time` writes the time in s.
+    fn text(header: &str, time: impl Fn(f64) -> String) -> String {
+        let mut text = header.to_owned();
+        let points = of_spring(600);
+        for (index, (displacement, force)) in points.iter().enumerate() {
+            let pressed = (displacement + 100.0) / 100.0;
+            let pulled = 1.5 + 2.0 + (50.0 - displacement) / 200.0;
+            let seconds = if index < 300 { pressed } else { pulled };
+            if index == 300 {
+                for number in 0..100 {
+                    let since = 0.02 * (f64::from(number) + 0.5);
+                    text += &format!("{},50,{}\n", time(1.5 + since), 101.0 - 10.0 * since);
+                }
+            }
+            text += &format!("{},{displacement},{force}\n", time(seconds));
+        }
+        text
+    }
+
+    fn columns(words: &[&str], units: &[&str]) -> CurveOptions {
+        CurveOptions {
+            columns: words.iter().map(ToString::to_string).collect(),
+            units: units.iter().map(ToString::to_string).collect(),
+            ..CurveOptions::default()
+        }
+    }
+
+    #[test]
+    fn speeds_and_rest_follow_from_the_times() {
+        let in_seconds = |seconds: f64| seconds.to_string();
+        let in_milliseconds = |seconds: f64| (1e3 * seconds).to_string();
+        let header = "time [ms],displacement [nm],force [nN]\n";
+        for (text, options) in [
+            (text(header, in_milliseconds), CurveOptions::default()),
+            (
+                text("a,b [nm],c [nN]\n", in_seconds),
+                columns(&["b", "c", "time=a"], &[]),
+            ),
+            (
+                text("Series Time,displacement,force\n", in_milliseconds),
+                columns(&["time=1"], &["nm", "nN", "ms"]),
+            ),
+        ] {
+            let curve = from_text(&text, &options).unwrap();
+            let speeds = curve.timing.speeds.unwrap();
+            assert!((speeds.approach / 1e-7 - 1.0).abs() < 0.01, "{speeds:?}");
+            assert!((speeds.retraction / 2e-7 - 1.0).abs() < 0.01, "{speeds:?}");
+            let rest = curve.timing.rest.unwrap();
+            assert!((rest / 2.0 - 1.0).abs() < 0.01, "{rest}");
+            assert_eq!(curve.timing.points.len(), 100);
+            let with_rest = curve.with_rest(rest).unwrap();
+            let places: Vec<usize> = (0..with_rest.force.len())
+                .filter(|index| with_rest.seconds_at_rest[*index].is_some())
+                .collect();
+            assert_eq!(places.len(), 100);
+            for (number, place) in places.iter().enumerate() {
+                let seconds = with_rest.seconds_at_rest[*place].unwrap();
+                assert!(
+                    (seconds - 0.02 * (number as f64 + 0.5)).abs() < 0.01,
+                    "{seconds}"
+                );
+                let force = 1e-7 - 1e-8 * seconds;
+                assert!((with_rest.force[*place] - force).abs() < 1e-9);
+            }
+            assert_eq!(with_rest.without_rest(&with_rest.force), curve.force);
+            assert_eq!(with_rest.free, curve.free);
+        }
+    }
+
+    /// Without times the points of the rest are evenly spaced over the time that the scene states,
+    /// and times that fall are no times.
+    #[test]
+    fn a_curve_without_times_rests_as_long_as_is_stated() {
+        let unknown = text("a,displacement [nm],force [nN]\n", |_| "0".to_owned());
+        let falls = text("time [s],displacement [nm],force [nN]\n", |seconds| {
+            (-seconds).to_string()
+        });
+        for text in [unknown, falls] {
+            let curve = from_text(&text, &CurveOptions::default()).unwrap();
+            let says = curve
+                .statements
+                .iter()
+                .any(|statement| statement.to_string().contains("times do not grow"));
+            assert_eq!(says, text.starts_with("time"), "{:?}", curve.statements);
+            assert_eq!((curve.timing.speeds, curve.timing.rest), (None, None));
+            let with_rest = curve.with_rest(4.0).unwrap();
+            let times: Vec<f64> = with_rest
+                .seconds_at_rest
+                .iter()
+                .flatten()
+                .copied()
+                .collect();
+            assert_eq!((times.len(), times[0]), (100, 0.02));
+            assert!(curve.with_rest(0.0).is_none());
+        }
     }
 }

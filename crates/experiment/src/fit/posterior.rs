@@ -3,7 +3,7 @@
 
 use crate::curve::numerics::correlated;
 use crate::fit::parameter::{Coordinate, Parameter, Values};
-use crate::fit::result::FittedParameter;
+use crate::fit::result::{FittedParameter, RelaxedModulus};
 use crate::fit::search::SearchResult;
 use crate::fit::space::Space;
 use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
@@ -20,6 +20,12 @@ const ELSEWHERE: f64 = 5.0;
 const OF_SAMPLES: f64 = 1.06;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
+
+/// Returns the modulus in Pa after a long time, for these values of the parameters.
+fn relaxed_modulus(values: &Values) -> f64 {
+    let share = values[Parameter::RelaxationShare as usize];
+    values[Parameter::Modulus as usize] * (1.0 - share)
+}
 
 /// Probability distribution of the parameters after a search, from which their errors follow.
 pub(crate) struct Posterior<'a> {
@@ -116,6 +122,28 @@ impl<'a> Posterior<'a> {
             .iter()
             .map(|place| self.space.values(place)[parameter as usize])
             .collect()
+    }
+
+    /// Returns the modulus after a long time; `None` if the half-space does not relax.
+    pub fn relaxed_modulus(&self) -> Option<RelaxedModulus> {
+        if !self.space.relaxes() {
+            return None;
+        }
+        let value = relaxed_modulus(&self.best);
+        let samples = self.widened.iter();
+        let values = samples.map(|place| relaxed_modulus(&self.space.values(place)));
+        let Spread {
+            standard_deviation,
+            interval: (low, high),
+        } = spread(values.collect()).unwrap_or(Spread::at(value));
+        let half_width = NORMAL * OF_SAMPLES * standard_deviation;
+        Some(RelaxedModulus {
+            value,
+            interval: (
+                low.min(value - half_width).max(0.0),
+                high.max(value + half_width),
+            ),
+        })
     }
 
     /// Returns each pair of free parameters with the correlation of their errors, from −1 to 1.

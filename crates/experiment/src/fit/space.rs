@@ -26,6 +26,8 @@ const FACTOR_OF_RADII: f64 = 5.0;
 const NARROWEST: f64 = 2.0;
 /// Largest share of the modulus that relaxes in a search. A larger share leaves hardly any modulus.
 const MOST_RELAXATION: f64 = 0.95;
+/// Share up to which its coordinate is linear.
+const LINEAR_SHARE: f64 = 0.01;
 /// Ratio of each end of the range of the relaxation time to this initial value.
 const FACTOR_OF_TIMES: f64 = 300.0;
 /// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
@@ -269,7 +271,7 @@ impl Ranges<'_> {
         match parameter {
             Parameter::Work => self.starts.least_work,
             Parameter::Zero => 0.1 * self.extent_of_force,
-            Parameter::RelaxationShare => 0.1,
+            Parameter::RelaxationShare => LINEAR_SHARE,
             _ => 0.1 * self.starts.way,
         }
     }

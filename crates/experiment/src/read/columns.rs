@@ -107,20 +107,12 @@ impl Choice {
             pairs.push(Pair { places, units });
         }
         statements.dedup();
-        let time = table.time(pairs.len())?;
-        if let Some(time) = time {
-            let unit = format_quantity(time.unit, TIME.si_unit);
-            let unit = unit.trim_start_matches(|first: char| first == '1' || first.is_whitespace());
-            descriptions.push(format!("{} ({unit})", table.name(time.place)));
-        }
-
-        let is_beside = pairs.len() > 1;
-        let first = if is_beside { 2 } else { descriptions.len() };
-        let mut assumed = format!("Columns: {}", descriptions[..first].join(", "));
-        if is_beside {
-            let retraction = descriptions[first..].join(", ");
+        let mut assumed = format!("Columns: {}", descriptions[..2].join(", "));
+        if descriptions.len() > 2 {
+            let retraction = descriptions[2..].join(", ");
             assumed += &format!(", the retraction in {retraction}");
         }
+        let time = table.time(pairs.len())?;
         Ok(Choice {
             of_body: table.displacement_of_body(places[0][DISPLACEMENT]),
             pairs,

@@ -8,7 +8,7 @@ use crate::fit::agreement::MISFIT;
 use crate::fit::parameter::Coordinate;
 use crate::fit::population::{Member, Population, drawn};
 use asperity_contact::ContactError;
-use asperity_data::Remedy;
+use asperity_data::{Remedy, mean};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
@@ -30,6 +30,10 @@ const MOVES: usize = 5;
 const ROUNDS: usize = 20;
 
 const GROWN: f64 = 0.05;
+
+/// Growth of the logarithm of the extent of one coordinate in a round, up to which no further round
+/// follows for a half-space that relaxes.
+const GROWN_ALONG_ONE: f64 = 0.15;
 
 /// Number of moves at the end, each of which adds all members to the samples.
 const LAST_MOVES: usize = 32;
@@ -87,9 +91,6 @@ impl Search<'_> {
         } else {
             LAST_MOVES
         };
-        if std::env::var("DBG").is_ok() {
-            eprintln!("sample from {} noise {noise}", self.model.evaluations);
-        }
         for _ in 0..moves {
             self.move_all(&mut population, generator)?;
             for member in &population.members {
@@ -128,14 +129,23 @@ impl Search<'_> {
         population: &mut Population,
         generator: &mut ChaCha8Rng,
     ) -> Result<(), ExperimentError> {
-        let mut extent = population.log_extent();
+        let mut extents = population.log_extents();
         for _ in 0..ROUNDS {
             for _ in 0..MOVES {
                 self.move_all(population, generator)?;
             }
-            let before = extent;
-            extent = population.log_extent();
-            if extent <= before + GROWN {
+            let before = extents;
+            extents = population.log_extents();
+            let grown: Vec<f64> = extents
+                .iter()
+                .zip(&before)
+                .map(|(now, then)| now - then)
+                .collect();
+            let largest = Extent::of(grown.iter().copied()).high;
+            // Share and time of a relaxation may be on a long and narrow ridge, along which the
+            // population grows slowly.
+            let grows_along_one = self.space.relaxes() && largest > GROWN_ALONG_ONE;
+            if mean(&grown) <= GROWN && !grows_along_one {
                 break;
             }
         }

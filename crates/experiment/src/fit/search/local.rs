@@ -118,7 +118,6 @@ impl Search<'_> {
         let mut best = self.member(self.space.inside(&place))?;
         let mut noise = self.misfit(&best, f64::INFINITY).clamp(1.0, LARGE);
         let mut damping = DAMPING;
-        let clock = std::time::Instant::now();
         for _ in 0..STEPS {
             if noise < COARSE && self.model.noise > 1.0 {
                 self.model.noise = 1.0;
@@ -146,16 +145,6 @@ impl Search<'_> {
                     break;
                 }
                 damping *= TIGHTENED;
-            }
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "{} noise {noise:.3e} cost {cost:.4e} fall {fall:.3e} damping {damping:.1e} {:?} {:?}",
-                    self.model.evaluations,
-                    self.space
-                        .values(&best.place)
-                        .map(|v| (v * 1e9).round() / 1e9),
-                    clock.elapsed()
-                );
             }
             let misfit = self.misfit(&best, noise).clamp(1.0, LARGE);
             let least = (misfit / DEEPER).max(1.0);

@@ -384,16 +384,6 @@ impl Search<'_> {
         let residuals = self.beyond_jumps(&member.place, &residuals)?;
         let residuals = member.contact_residuals(&residuals);
         let cost: f64 = residuals.iter().map(|residual| loss(*residual)).sum();
-        if std::env::var("DBG").is_ok() {
-            let mut worst: Vec<(usize, f64)> = residuals.iter().copied().enumerate().collect();
-            worst.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-            eprintln!(
-                "poor? cost {cost} expected {} worst {:?} rms {}",
-                0.5 * residuals.len() as f64,
-                &worst[..6],
-                (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
-            );
-        }
         // The cost of n points with normal noise has the expected value n/2 and about the standard
         // deviation √(n/2).
         let expected = 0.5 * residuals.len() as f64;
