@@ -20,6 +20,8 @@ const SMOOTHING: f64 = 1e-3;
 /// Largest change of the displacement during a pause at a turning point, as a share of the range of
 /// displacements.
 const STILL: f64 = 0.01;
+/// This change for a pause of few points, which is found if they stay at nearly one displacement.
+const SHORT_STILL: f64 = 0.001;
 /// Smallest change of the displacement, as a share of its range, with which a part of the file with
 /// the same label counts as a motion. The part must also be about as fast as other parts.
 const SHORTEST: f64 = 0.002;
@@ -74,27 +76,39 @@ impl Segments {
     /// Marks the points near each turning point as a pause, if there are many more of them than a
     /// motion over the same distance would have.
     fn find_pauses(&mut self, displacement: &[f64]) {
-        let near = STILL * Extent::of(displacement.iter().copied()).width();
+        let range = Extent::of(displacement.iter().copied()).width();
         let last_segment = self.numbers.last().copied().unwrap_or(0);
         for segment in 1..=last_segment {
-            let start = self.start_of(segment - 1);
-            let turn = self.start_of(segment);
-            let end = self.start_of(segment + 1);
-            let distance = |index: usize| (displacement[index] - displacement[turn]).abs();
-            let is_near = |index: &usize| distance(*index) <= near;
-
-            let before = (start..turn).rev().take_while(is_near).last();
-            let after = (turn..end).take_while(is_near).last();
-            let first = before.unwrap_or(turn);
-            let last = after.unwrap_or(turn);
-            let staying = last + 1 - first;
-            let way = distance(start) + distance(end - 1);
-            let passing = 2.0 * near * (end - start - staying) as f64 / way;
-            let is_slow = staying >= FEWEST && staying as f64 > MORE * passing;
-            if is_slow && !is_finely_sampled(&displacement[first..=last], turn - first, near) {
-                self.is_still[first..=last].fill(true);
+            for near in [STILL * range, SHORT_STILL * range] {
+                if self.find_pause(displacement, segment, near) {
+                    break;
+                }
             }
         }
+    }
+
+    /// Marks the points within `near` m of the turning point at the beginning of a segment as a
+    /// pause, and returns true, if there are many more of them than a motion would have.
+    fn find_pause(&mut self, displacement: &[f64], segment: usize, near: f64) -> bool {
+        let start = self.start_of(segment - 1);
+        let turn = self.start_of(segment);
+        let end = self.start_of(segment + 1);
+        let distance = |index: usize| (displacement[index] - displacement[turn]).abs();
+        let is_near = |index: &usize| distance(*index) <= near;
+
+        let before = (start..turn).rev().take_while(is_near).last();
+        let after = (turn..end).take_while(is_near).last();
+        let first = before.unwrap_or(turn);
+        let last = after.unwrap_or(turn);
+        let staying = last + 1 - first;
+        let way = distance(start) + distance(end - 1);
+        let passing = 2.0 * near * (end - start - staying) as f64 / way;
+        let is_slow = staying >= FEWEST && staying as f64 > MORE * passing;
+        if is_slow && !is_finely_sampled(&displacement[first..=last], turn - first, near) {
+            self.is_still[first..=last].fill(true);
+            return true;
+        }
+        false
     }
 }
 

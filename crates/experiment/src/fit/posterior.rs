@@ -1,7 +1,7 @@
 //! The probability distribution of the parameters after a search: their errors, their correlations,
 //! and the parameters that the curve does not determine.
 
-use crate::curve::numerics::correlated;
+use crate::curve::numerics::correlated_few;
 use crate::fit::parameter::{Coordinate, Parameter, Values};
 use crate::fit::result::{FittedParameter, RelaxedModulus};
 use crate::fit::search::SearchResult;
@@ -34,6 +34,8 @@ pub(crate) struct Posterior<'a> {
     /// Samples whose deviations from the mean are increased, because residuals that correlate along
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
+    /// These samples, in which the coordinate of a share that relaxes is that of the whole share.
+    shown: Vec<Vec<f64>>,
     /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,
     /// True if the profile of the specimen differs from the random profile of the scene.
@@ -44,13 +46,15 @@ pub(crate) struct Posterior<'a> {
 
 impl<'a> Posterior<'a> {
     pub fn new(space: &'a Space<'a>, result: &'a SearchResult, has_other_profile: bool) -> Self {
-        let variance_factor = correlated(&result.residuals);
+        let fitted = space.coordinates.len();
+        let variance_factor = correlated_few(&result.residuals, fitted);
         let mut widened = result.samples.clone();
         widen(&mut widened, variance_factor.sqrt());
         let most_extra_cost = 0.5 * NORMAL * NORMAL * variance_factor;
         Posterior {
             space,
             result,
+            shown: space.with_whole_shares(&widened),
             widened,
             best: space.values(&result.best.place),
             has_other_profile,
@@ -152,7 +156,7 @@ impl<'a> Posterior<'a> {
         let mut correlations = Vec::new();
         for first in 0..coordinates.len() {
             for second in first + 1..coordinates.len() {
-                let value = correlation(&self.widened, [first, second]);
+                let value = correlation(&self.shown, [first, second]);
                 let first = coordinates[first].parameter;
                 let second = coordinates[second].parameter;
                 correlations.push((first, second, value));
@@ -188,7 +192,7 @@ impl<'a> Posterior<'a> {
         if coordinate.parameter == Parameter::Work && self.is_without_adhesion {
             return false;
         }
-        let samples = self.widened.iter().map(|place| place[index]).collect();
+        let samples = self.shown.iter().map(|place| place[index]).collect();
         let best = self.result.best.place[index];
         let (from, to) = spread(samples).unwrap_or(Spread::at(best)).interval;
         let width = to - from;

@@ -18,7 +18,7 @@ const SHARES: (f64, f64) = (0.05, 0.8);
 /// Time in contact divided by the relaxation time at which a search begins.
 const RELAXATIONS: f64 = 10.0;
 /// Ratios of further relaxation times to this one.
-const OTHER_TIMES: [f64; 2] = [0.1, 10.0];
+const OTHER_TIMES: [f64; 3] = [0.1, 10.0, 100.0];
 /// Relative difference between two speeds that is worth a sentence.
 const OTHER_SPEED: f64 = 0.02;
 
@@ -55,13 +55,24 @@ pub(crate) fn with_relaxation(
     let rest = curve.timing.rest.unwrap_or(pause_of(scene));
     changes.push(curve.loading(curve.touch, rest));
     if scene.material.relaxation.is_none() {
-        let in_contact = 2.0 * (curve.turns[0] - curve.touch) / speed + rest;
+        let in_contact = seconds_of(curve, speed, rest);
         let share = ron_float(start_share(&curve.features));
         let time = ron_float(in_contact / RELAXATIONS);
         let relaxation = format!("(share: {share}, time: {time})");
         changes.push(("material.relaxation".to_owned(), relaxation));
     }
     document.set_all(&changes).map_err(wrong)
+}
+
+/// Returns the time in s of the motion in contact at a speed in m/s, and of the rest.
+fn seconds_of(curve: &MeasuredCurve, speed: f64, rest: f64) -> f64 {
+    2.0 * (curve.turns[0] - curve.touch) / speed + rest
+}
+
+/// Returns the time in s in contact of a scene that relaxes; `None` if it does not.
+pub(crate) fn seconds_in_contact(curve: &MeasuredCurve, scene: &Scene) -> Option<f64> {
+    scene.material.relaxation?;
+    Some(seconds_of(curve, scene.loading_speed?, pause_of(scene)))
 }
 
 /// Returns the share that relaxes at which a search begins: the fall of the force in a pause, or

@@ -6,7 +6,7 @@ use crate::curve::numerics::Extent;
 use crate::error::{ExperimentError, refused};
 use crate::fit::lines::Lines;
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
-use crate::fit::relaxation::{other_relaxations, with_relaxation};
+use crate::fit::relaxation::{other_relaxations, seconds_in_contact, with_relaxation};
 use crate::fit::result::RangeEnd;
 use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::fit::start::{Known, Starts};
@@ -50,6 +50,10 @@ pub(crate) struct Space<'a> {
     pub other_starts: Vec<Values>,
     /// Sets of parameter values with other relaxations, at which further descents begin.
     pub relaxations: Vec<Values>,
+    /// Time in s of the motion in contact and of the rest, if the half-space relaxes. The coordinate
+    /// of the share is that of the part of the modulus that relaxes in this time, because a curve
+    /// that is short against the relaxation time determines this part alone.
+    pub seconds_in_contact: Option<f64>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -338,6 +342,7 @@ impl<'a> Space<'a> {
             most_on_closing: most_on_closing(document.scene()),
             other_starts,
             relaxations,
+            seconds_in_contact: seconds_in_contact(curve, document.scene()),
             curve,
             stop,
         };
@@ -370,7 +375,47 @@ impl<'a> Space<'a> {
                 values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
             }
         }
+        if let Some(index) = self.share_of_coordinate() {
+            let most = self.coordinates[index].range.1;
+            let share = self.whole_share(&values);
+            values[Parameter::RelaxationShare as usize] = share.min(most);
+        }
         values
+    }
+
+    /// Returns the share that relaxes, if `values` have the part of it that relaxes in contact.
+    fn whole_share(&self, values: &Values) -> f64 {
+        values[Parameter::RelaxationShare as usize] / self.relaxed_part(values)
+    }
+
+    /// Returns the index of the coordinate of the share that relaxes; `None` if the share is not
+    /// free.
+    fn share_of_coordinate(&self) -> Option<usize> {
+        self.coordinates
+            .iter()
+            .position(|coordinate| coordinate.parameter == Parameter::RelaxationShare)
+    }
+
+    /// Returns the part of the relaxation that happens within the time in contact, from 0 to 1.
+    fn relaxed_part(&self, values: &Values) -> f64 {
+        let time = values[Parameter::RelaxationTime as usize];
+        match self.seconds_in_contact {
+            Some(seconds) => -(-seconds / time).exp_m1(),
+            None => 1.0,
+        }
+    }
+
+    /// Returns the coordinates of samples in which that of the share is that of the share itself.
+    pub fn with_whole_shares(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut whole = places.to_vec();
+        if let Some(index) = self.share_of_coordinate() {
+            for place in &mut whole {
+                let values = self.values(place);
+                let share = values[Parameter::RelaxationShare as usize];
+                place[index] = self.coordinates[index].of(share, &values);
+            }
+        }
+        whole
     }
 
     /// Returns the nearest place that lies within the ranges of all coordinates.
@@ -380,18 +425,37 @@ impl<'a> Space<'a> {
             let (low, high) = coordinate.ends();
             position.clamp(low, high)
         });
-        inside.collect()
+        let mut inside: Vec<f64> = inside.collect();
+        if let Some(index) = self.share_of_coordinate() {
+            let values = self.values(&inside);
+            let share = self.coordinates[index];
+            let most = share.range.1 * self.relaxed_part(&values);
+            inside[index] = inside[index].min(share.of(most, &values));
+        }
+        inside
     }
 
     /// Returns true if each coordinate of a place lies within its range.
     pub fn contains(&self, place: &[f64]) -> bool {
-        self.coordinates
+        let are_inside = self
+            .coordinates
             .iter()
             .zip(place)
             .all(|(coordinate, position)| {
                 let (low, high) = coordinate.ends();
                 (low..=high).contains(position)
-            })
+            });
+        let has_share = |index: usize| {
+            let mut values = self.base;
+            for (coordinate, &position) in self.coordinates.iter().zip(place) {
+                if coordinate.parameter.is_of_relaxation() {
+                    let value = coordinate.value(position, &values);
+                    values[coordinate.parameter as usize] = value;
+                }
+            }
+            self.whole_share(&values) <= self.coordinates[index].range.1
+        };
+        are_inside && self.share_of_coordinate().is_none_or(has_share)
     }
 
     /// Returns the free parameters with larger ranges, if a coordinate of `place` lies at an end of
@@ -440,7 +504,12 @@ impl<'a> Space<'a> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
         let room = AT_END * (high - low);
-        let value = place[index];
+        let value = if coordinate.parameter == Parameter::RelaxationShare {
+            let values = self.values(place);
+            coordinate.of(values[Parameter::RelaxationShare as usize], &values)
+        } else {
+            place[index]
+        };
         let is_closing = coordinate.parameter == Parameter::ClosingWork;
         if value > high - room && !is_closing {
             return Some(RangeEnd::High);
@@ -455,15 +524,24 @@ impl<'a> Space<'a> {
     pub fn start(&self) -> Vec<f64> {
         self.coordinates
             .iter()
-            .map(|coordinate| coordinate.of(coordinate.start, &self.base))
+            .map(|coordinate| self.position(coordinate, coordinate.start, &self.base))
             .collect()
+    }
+
+    /// Returns the position of a value along a coordinate. `values` contains the other parameters.
+    fn position(&self, coordinate: &Coordinate, value: f64, values: &Values) -> f64 {
+        if coordinate.parameter == Parameter::RelaxationShare {
+            return coordinate.of(value * self.relaxed_part(values), values);
+        }
+        coordinate.of(value, values)
     }
 
     /// Returns the coordinates that belong to these values of the parameters. A coordinate outside
     /// its range is replaced by the nearer end of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
-        let of =
-            |coordinate: &Coordinate| coordinate.of(values[coordinate.parameter as usize], values);
+        let of = |coordinate: &Coordinate| {
+            self.position(coordinate, values[coordinate.parameter as usize], values)
+        };
         let place: Vec<f64> = self.coordinates.iter().map(of).collect();
         self.inside(&place)
     }

@@ -1,9 +1,10 @@
 //! Search near starts, for a model whose curves take long to compute: least squares from each
 //! start, and a population that is drawn around the best place.
 
-use super::{COARSE, LARGE, MISSED, Search};
+use super::{COARSE, LARGE, Search};
 use crate::curve::numerics::{Extent, dot};
 use crate::error::ExperimentError;
+use crate::fit::agreement::MISFIT;
 use crate::fit::parameter::{Coordinate, Parameter};
 use crate::fit::population::{Member, Population, WRONG_SIDE, drawn};
 use asperity_data::Cholesky;
@@ -23,7 +24,10 @@ const EASED: f64 = 0.2;
 const TIGHTENED: f64 = 5.0;
 /// Fall of the cost in a step below which a descent ends.
 const FLAT: f64 = 0.02;
+/// Further part of this fall, as a share of the cost.
 const SLOW: f64 = 1e-4;
+/// Ratio of the noise to the lowest noise, up to which the noise counts as the lowest.
+const LOWEST: f64 = 1.1;
 /// Residual of the best member divided by the noise at which a descent ends, if the model does not
 /// describe the curve.
 const DEEPER: f64 = 3.0;
@@ -33,6 +37,9 @@ const STEP_OF_RELAXATION: f64 = 0.05;
 /// Change of the force over such a step, as a share of the range of the force, above which a point
 /// lies at a jump.
 const LEAPS: f64 = 0.05;
+/// Largest difference of the cost of another place from that of the best one, up to which members
+/// are drawn around it too.
+const ALSO_GOOD: f64 = 6.0;
 /// Number of places drawn for each member that is wanted.
 const CANDIDATES: f64 = 1.5;
 /// Largest number of draws of a place until it lies inside the ranges.
@@ -60,6 +67,13 @@ impl Slopes {
     }
 }
 
+/// Place that is drawn from a normal distribution.
+struct DrawnPlace {
+    place: Vec<f64>,
+    /// Half of the squared distance from the centre in standard deviations.
+    half_square: f64,
+}
+
 /// Place at which a descent ends.
 struct Descended {
     member: Member,
@@ -68,8 +82,8 @@ struct Descended {
 }
 
 impl Search<'_> {
-    /// Returns a population of `count` members around the best place that descents from the starts
-    /// of the space find. Returns `None` if this place does not describe the curve, and no other
+    /// Returns a population of `count` members around the best places that descents from the starts
+    /// of the space find. Returns `None` if the best place does not describe the curve, and no other
     /// descent has ended as well, so that a better place may exist.
     pub(super) fn near_starts(
         &mut self,
@@ -80,35 +94,26 @@ impl Search<'_> {
         for values in &self.space.relaxations {
             starts.push(self.space.place(values));
         }
-        let mut best: Option<Descended> = None;
-        let mut is_confirmed = false;
+        let mut descents = Vec::with_capacity(starts.len());
         for start in starts {
-            let next = self.least_squares_from(start)?;
-            let Some(known) = &best else {
-                let is_poor = self.is_poor(&next.member)?;
-                best = Some(next);
-                if !is_poor {
-                    is_confirmed = true;
-                    break;
-                }
-                continue;
-            };
-            let noise = known.noise.min(next.noise);
-            let excess = self.cost(&next.member, noise) - self.cost(&known.member, noise);
-            if excess.abs() < MISSED {
-                is_confirmed = true;
-            }
-            if excess < 0.0 {
-                is_confirmed |= !self.is_poor(&next.member)?;
-                best = Some(next);
-            }
+            descents.push(self.least_squares_from(start)?);
         }
-        match best {
-            Some(best) if is_confirmed => {
-                self.drawn_around(best.member, count, generator).map(Some)
-            }
-            _ => Ok(None),
+        let noises = descents.iter().map(|descent| descent.noise);
+        let noise = noises.fold(LARGE, f64::min);
+        let mut members: Vec<(f64, Member)> = descents
+            .into_iter()
+            .map(|descent| (self.cost(&descent.member, noise), descent.member))
+            .collect();
+        members.sort_by(|(cost, _), (next, _)| cost.total_cmp(next));
+        let least = members[0].0;
+        let most = least + ALSO_GOOD;
+        members.retain(|(cost, _)| *cost < most);
+        let is_described = self.misfit(&members[0].1, noise) <= MISFIT;
+        if !is_described && members.len() == 1 {
+            return Ok(None);
         }
+        let centres = members.into_iter().map(|(_, member)| member).collect();
+        self.drawn_around(centres, count, generator).map(Some)
     }
 
     /// Lowers the cost from a place by least squares. The noise that is assumed falls with the
@@ -148,7 +153,7 @@ impl Search<'_> {
             }
             let misfit = self.misfit(&best, noise).clamp(1.0, LARGE);
             let least = (misfit / DEEPER).max(1.0);
-            if fall < FLAT + SLOW * cost && noise <= 1.1 * least {
+            if fall < FLAT + SLOW * cost && noise <= LOWEST * least {
                 break;
             }
             noise = misfit.min(0.5 * noise).max(least).min(noise);
@@ -214,48 +219,39 @@ impl Search<'_> {
         })
     }
 
-    /// Draws a population from the normal distribution that the effects of the coordinates give at
-    /// the place of a member. Each place that is drawn has a weight, so that the members have the
-    /// probability distribution of the parameters.
+    /// Draws a population from the normal distributions that the effects of the coordinates give at
+    /// the places of some members, of which the first one is the best. Each place that is drawn has
+    /// a weight, so that the members have about the probability distribution of the parameters.
+    /// Share and time of a relaxation may lie on a long and bent ridge, on which several descents
+    /// end at different places.
     fn drawn_around(
         &mut self,
-        best: Member,
+        centres: Vec<Member>,
         count: usize,
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
         self.model.noise = 1.0;
+        let best = centres[0].clone();
         let noise = self
             .misfit(&best, self.misfit(&best, 1.0).max(1.0))
             .max(1.0);
-        let slopes = self.slopes(&best, noise)?;
-        let dimensions = best.place.len();
-        let factor = Cholesky::new(slopes.products, dimensions);
         let least = self.cost(&best, noise);
-        let mut members = vec![best.clone()];
-        let mut weights = vec![1.0];
-        for _ in 0..(CANDIDATES * count as f64) as usize {
-            let mut normal = normal_numbers(dimensions, generator);
-            let mut place = best.place.clone();
-            for _ in 0..DRAWS {
-                let mut step = normal.clone();
-                if let Some(factor) = &factor {
-                    step = factor.solve_transposed(step);
-                }
-                place = best
-                    .place
-                    .iter()
-                    .zip(&step)
-                    .map(|(at, by)| at + by)
-                    .collect();
-                if self.space.contains(&place) {
-                    break;
-                }
-                normal = normal_numbers(dimensions, generator);
+        let draws = (CANDIDATES * count as f64) as usize / centres.len();
+        let mut members = Vec::new();
+        let mut weights = Vec::new();
+        for centre in centres {
+            let slopes = self.slopes(&centre, noise)?;
+            let factor = Cholesky::new(slopes.products, centre.place.len());
+            let excess = self.cost(&centre, noise) - least;
+            for _ in 0..draws {
+                let drawn = self.drawn_inside(&centre.place, factor.as_ref(), generator);
+                let member = self.member(self.space.inside(&drawn.place))?;
+                let excess = self.cost(&member, noise) - least;
+                weights.push((drawn.half_square - excess).min(0.0).exp());
+                members.push(member);
             }
-            let member = self.member(self.space.inside(&place))?;
-            let excess = self.cost(&member, noise) - least;
-            weights.push((0.5 * dot(&normal, &normal) - excess).min(0.0).exp());
-            members.push(member);
+            weights.push((-excess).min(0.0).exp());
+            members.push(centre);
         }
         let share = generator.random();
         let members = drawn(&members, &weights, count, share);
@@ -268,6 +264,33 @@ impl Search<'_> {
         };
         self.set_noise(&mut population, noise);
         Ok(population)
+    }
+
+    /// Draws a place from the normal distribution around a place. `factor` is the Cholesky factor of
+    /// the inverse covariance matrix.
+    fn drawn_inside(
+        &self,
+        centre: &[f64],
+        factor: Option<&Cholesky>,
+        generator: &mut ChaCha8Rng,
+    ) -> DrawnPlace {
+        let mut drawn = DrawnPlace {
+            place: centre.to_vec(),
+            half_square: 0.0,
+        };
+        for _ in 0..DRAWS {
+            let normal = normal_numbers(centre.len(), generator);
+            drawn.half_square = 0.5 * dot(&normal, &normal);
+            let step = match factor {
+                Some(factor) => factor.solve_transposed(normal),
+                None => normal,
+            };
+            drawn.place = centre.iter().zip(&step).map(|(at, by)| at + by).collect();
+            if self.space.contains(&drawn.place) {
+                break;
+            }
+        }
+        drawn
     }
 }
 
