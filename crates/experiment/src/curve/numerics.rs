@@ -200,30 +200,24 @@ pub(crate) fn correlated(residuals: &[f64]) -> f64 {
 
 /// Returns the factor of [`correlated`], and for few residuals at least the factor of a first-order
 /// autoregression, in which the correlation falls by the same ratio ρ from point to point: (1 +
-/// ρ)/(1 − ρ). `fitted` is the number of parameters that were fitted to the residuals.
+/// ρ)/(1 − ρ). Few residuals have too few parts for the sum of [`correlated`] over many lags.
 ///
-/// Few residuals show the correlation of neighbours alone, and too small a one: fitted parameters
-/// take its long waves away, so that the expected correlation is ρ − (1 + 4ρ + `fitted` (1 + ρ))/n
-/// (Kendall, Biometrika 41, 403, 1954, for the mean alone). ρ is corrected for this, and one
-/// standard error √((1 − ρ²)/n) is added, since the interval of a value grows with each ρ that the
-/// residuals allow. Residuals whose correlation may be chance are taken to be uncorrelated.
-pub(crate) fn correlated_few(residuals: &[f64], fitted: usize) -> f64 {
+/// The correlation of neighbours in n residuals about their mean is expected to be ρ − (1 + 4ρ)/n
+/// (Kendall, Biometrika 41, 403, 1954), for which ρ is corrected. Residuals whose correlation may be
+/// chance are taken to be uncorrelated.
+pub(crate) fn correlated_few(residuals: &[f64]) -> f64 {
     let factor = correlated(residuals);
     let count = residuals.len() as f64;
     if residuals.len() < LEAST_CORRELATED || residuals.len() > FEW {
         return factor;
     }
     let neighbours = dot(residuals, &residuals[1..]) / dot(residuals, residuals);
-    let taken = fitted as f64;
-    let chance = 2.0 / count.sqrt();
-    if neighbours.is_nan() || neighbours + (1.0 + taken) / count <= chance {
+    if neighbours.is_nan() || neighbours <= 2.0 / count.sqrt() {
         return factor;
     }
-    let ratio = (neighbours + (1.0 + taken) / count) / (1.0 - (4.0 + taken) / count);
+    let ratio = (neighbours + 1.0 / count) / (1.0 - 4.0 / count);
     let ratio = ratio.min(MOST_CORRELATED);
-    let error = ((1.0 - ratio * ratio) / count).sqrt();
-    let bound = (ratio + error).min(MOST_CORRELATED);
-    factor.max((1.0 + bound) / (1.0 - bound))
+    factor.max((1.0 + ratio) / (1.0 - ratio))
 }
 
 /// Coefficient of a column in a least-squares fit, with its standard error.
@@ -326,15 +320,16 @@ pub(crate) mod tests {
         assert_eq!(correlated(&alternating), 1.0);
     }
 
-    /// Over many series of an autoregression, the mean factor is at least the true one for few
-    /// residuals and near it for more, and uncorrelated residuals keep about 1.
+    /// Over many series of an autoregression, the mean factor is near the true one, and uncorrelated
+    /// residuals keep about 1. The sum over a few lags alone gives half of the true factor.
     #[test]
     fn few_correlated_residuals_count_by_an_autoregression() {
         for (count, ratio, least, most) in [
-            (40, 0.0, 1.0, 1.2),
-            (40, 0.7, 1.0, 2.2),
-            (180, 0.7, 1.0, 1.4),
+            (50, 0.0, 1.0, 1.1),
+            (50, 0.5, 0.9, 1.3),
+            (50, 0.8, 0.8, 1.3),
             (180, 0.0, 1.0, 1.1),
+            (180, 0.8, 0.9, 1.2),
         ] {
             let mut sum = 0.0;
             for seed in 0..200 {
@@ -347,7 +342,7 @@ pub(crate) mod tests {
                 }
                 let middle = asperity_data::mean(&series[50..]);
                 let residuals: Vec<f64> = series[50..].iter().map(|one| one - middle).collect();
-                sum += correlated_few(&residuals, 1);
+                sum += correlated_few(&residuals);
             }
             let expected = (1.0 + ratio) / (1.0 - ratio);
             let found = sum / 200.0 / expected;

@@ -271,13 +271,14 @@ mod tests {
             assert!((speeds.retraction / 2e-7 - 1.0).abs() < 0.01, "{speeds:?}");
             let rest = curve.timing.rest.unwrap();
             assert!((rest / 2.0 - 1.0).abs() < 0.01, "{rest}");
-            assert_eq!(curve.timing.points.len(), 100);
+            // The points of the motions next to the turn count too.
+            assert_eq!(curve.timing.points.len(), 102);
             let with_rest = curve.with_rest(rest).unwrap();
             let places: Vec<usize> = (0..with_rest.force.len())
                 .filter(|index| with_rest.seconds_at_rest[*index].is_some())
                 .collect();
-            assert_eq!(places.len(), 100);
-            for (number, place) in places.iter().enumerate() {
+            assert_eq!(places.len(), 102);
+            for (number, place) in places[1..101].iter().enumerate() {
                 let seconds = with_rest.seconds_at_rest[*place].unwrap();
                 assert!(
                     (seconds - 0.02 * (number as f64 + 0.5)).abs() < 0.01,
@@ -314,7 +315,7 @@ mod tests {
                 .flatten()
                 .copied()
                 .collect();
-            assert_eq!((times.len(), times[0]), (100, 0.02));
+            assert_eq!((times.len(), times[0]), (102, 2.0 / 102.0));
             assert!(curve.with_rest(0.0).is_none());
         }
     }

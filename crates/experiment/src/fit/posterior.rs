@@ -46,8 +46,7 @@ pub(crate) struct Posterior<'a> {
 
 impl<'a> Posterior<'a> {
     pub fn new(space: &'a Space<'a>, result: &'a SearchResult, has_other_profile: bool) -> Self {
-        let fitted = space.coordinates.len();
-        let variance_factor = correlated_few(&result.residuals, fitted);
+        let variance_factor = correlated_few(&result.residuals);
         let mut widened = result.samples.clone();
         widen(&mut widened, variance_factor.sqrt());
         let most_extra_cost = 0.5 * NORMAL * NORMAL * variance_factor;
