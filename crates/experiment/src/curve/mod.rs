@@ -8,6 +8,7 @@ pub(crate) mod numerics;
 mod ordered;
 pub(crate) mod points;
 mod prepare;
+mod rest;
 pub(crate) mod segments;
 mod statements;
 #[cfg(test)]
