@@ -34,7 +34,7 @@ const MORE: f64 = 8.0;
 /// which they count as near, above which they may be those of a motion. An even motion has 0.5.
 const SPREAD: f64 = 0.2;
 /// Share of the steps near a turn that a steady motion has in its direction.
-const STEADILY: f64 = 0.95;
+const STEADILY: f64 = 0.85;
 /// Mean distance between consecutive displacements, as a share of their range, above which the rows
 /// of the file are not in the order of time.
 const SHUFFLED: f64 = 0.2;
