@@ -1,6 +1,7 @@
 //! Cost of each stage of an exact loop, and of a whole edit of a scene: in milliseconds, in
 //! nanoseconds for each spring, and in units of one real Fourier transform of the same length
-//! measured in the same run, which makes runs on different machines comparable.
+//! measured in the same run, which makes runs on different machines comparable. Loops with relaxation
+//! are compared with elastic ones.
 //!
 //! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
 //! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` sets the number of
@@ -20,6 +21,9 @@ use std::hint::black_box;
 use std::mem::take;
 use std::sync::Arc;
 use std::time::Instant;
+
+#[path = "stages/relaxing.rs"]
+mod relaxing;
 
 /// Largest cost of a whole loop at this length, in transforms, under either κ.
 const BAR: (u32, [f64; 2]) = (20, [1.6, 2.6]);
@@ -49,6 +53,7 @@ fn main() {
         "Memory is kept from run to run, also that of the transform, which is planned beforehand. All but the"
     );
     println!("line and its histogram of heights takes one thread.\n");
+    relaxing::print(options.runs, options.largest);
     let mut verdict = Vec::new();
     for exponent in (options.smallest..=options.largest).step_by(2) {
         let rough = Rough::new(exponent, options.hurst, options.kappas);

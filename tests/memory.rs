@@ -31,7 +31,7 @@ const FACTOR: f64 = 1.5;
 const OF_BUILDS: u64 = 6 << 20;
 
 /// Scenes that need memory for different purposes.
-const SCENES: [Changed<'static>; 7] = [
+const SCENES: [Changed<'static>; 10] = [
     ("jkr-sphere", &[("numerics.samples", "5000")]),
     ("jkr-sphere", &[("numerics.samples", "1000000")]),
     (
@@ -51,7 +51,18 @@ const SCENES: [Changed<'static>; 7] = [
         "million-springs",
         &[("numerics.samples", "5000"), ("adhesion", "None")],
     ),
+    ("jkr-sphere", &[RELAXATION, SPEED]),
+    ("million-springs", &[RELAXATION, SPEED]),
+    (
+        "million-springs",
+        &[RELAXATION, SPEED, ("loading_stiffness", "1e4")],
+    ),
 ];
+const RELAXATION: (&str, &str) = (
+    "material",
+    "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
+);
+const SPEED: (&str, &str) = ("loading_speed", "1e-6");
 const STAGES: &str = "[ToForce(1e-3), ToSeparation, ToForce(2e-3), ToSeparation]";
 
 #[test]

@@ -13,7 +13,6 @@ from typing import (
     Generic,
     NoReturn,
     Self,
-    TypeAlias,
     TypeVar,
     Union,
     get_args,
@@ -22,7 +21,7 @@ from typing import (
 )
 
 from . import _native
-from ._columns import COLUMNS
+from ._columns import COLUMNS, Cell
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,8 +30,6 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
-#: A value in a cell of a table.
-Cell: TypeAlias = float | int | str | bool | None
 
 #: Unit of an attribute that is the unit of the quantity to which it belongs.
 OF_QUANTITY = "="
@@ -49,16 +46,19 @@ class Attribute(Generic[T]):
     name: str
     type: Any
 
-    def __init__(self, unit: str, meaning: str, columns: str = "") -> None:
+    def __init__(self, unit: str, meaning: str) -> None:
         self.unit = unit
         self.meaning = meaning
-        #: Names of the columns of a table.
-        self.columns = columns.split()
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
         self.type = get_args(vars(self)["__orig_class__"])[0]
-        self.__doc__ = f"{self.type_in_words()}{self._unit_in_words()}: {self.meaning}."
+        self.describe(self.unit, self.meaning)
+
+    def describe(self, unit: str, meaning: str) -> None:
+        """Sets the unit, the meaning, and with them the text that `help` shows."""
+        self.unit, self.meaning = unit, meaning
+        self.__doc__ = f"{self.type_in_words()}{self._unit_in_words()}: {meaning}."
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
@@ -73,6 +73,13 @@ class Attribute(Generic[T]):
     def __set__(self, instance: Values, value: T) -> NoReturn:
         raise AttributeError(f"{self.name} cannot be set: a result does not change")
 
+    @property
+    def columns(self) -> list[str]:
+        """Names of the columns of a table."""
+        kind = next(iter(_parts(self.type)))
+        row = get_args(kind)[0] if get_origin(kind) is Table else None
+        return [] if row is None else [one.name for one in row._attributes()]
+
     def type_in_words(self) -> str:
         """Returns the type as it is written in Python."""
         if isinstance(self.type, ForwardRef):
@@ -82,6 +89,11 @@ class Attribute(Generic[T]):
 
     def _unit_in_words(self) -> str:
         return {"": "", OF_QUANTITY: ", in the unit of the quantity"}.get(self.unit, f", {self.unit}")
+
+
+def _parts(kind: Any) -> list[Any]:
+    """Returns the parts of a union of types; the type itself if it is no union."""
+    return list(get_args(kind)) if get_origin(kind) in (Union, types.UnionType) else [kind]
 
 
 class Values:
@@ -109,6 +121,10 @@ class Values:
             found.update((name, value) for name, value in vars(base).items() if isinstance(value, Attribute))
         return list(found.values())
 
+    def _existing(self) -> list[Attribute[Any]]:
+        """Returns the attributes that this object has."""
+        return self._attributes()
+
     def _read(self, attribute: Attribute[Any]) -> Any:
         name = attribute.name
         if name not in self._made:
@@ -128,7 +144,7 @@ class Values:
         return in_words(self._read(attribute), unit)
 
     def __repr__(self) -> str:
-        by_name = {one.name: one for one in self._attributes()}
+        by_name = {one.name: one for one in self._existing()}
         shown = [by_name[name] for name in self._shown or by_name]
         words = ", ".join(f"{one.name} {self._in_words(one)}" for one in shown)
         return f"<{type(self).__name__}: {words}>"
@@ -136,20 +152,57 @@ class Values:
     def _repr_html_(self) -> str:
         """Returns a table of the attributes for notebooks."""
         rows = []
-        for one in self._attributes():
+        for one in self._existing():
             cells = (one.name, self._in_words(one), one.meaning)
             rows.append("<tr>" + "".join(f"<td style='text-align:left'>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
         return f"<table><caption>{type(self).__name__}</caption>{''.join(rows)}</table>"
 
 
-class Table(Sequence[dict[str, Cell]]):
-    """A table of a result. `table["force"]` is a column as an array, and `table[0]` is a row as a dictionary.
+class Row(Values):
+    """A row of a table. Its columns are attributes, and `row["adhesion.kappa"]` is the value of any column by its name."""
+
+    def __getitem__(self, name: str) -> Cell:
+        if name not in self._values:
+            raise KeyError(self._missing(name))
+        value: Cell = self._values[name]
+        return value
+
+    def _missing(self, name: str) -> str:
+        return f"no column {_native.shown(name)!r}; columns: {', '.join(self._values)}"
+
+    def _existing(self) -> list[Attribute[Any]]:
+        return [one for one in self._attributes() if one.name in self._values]
+
+    def _read(self, attribute: Attribute[Any]) -> Any:
+        if attribute.name not in self._values:
+            raise AttributeError(self._missing(attribute.name))
+        return super()._read(attribute)
+
+
+class Column(Attribute[T]):
+    """An attribute of a row: the value in the column with its name. The name determines the unit and the meaning."""
+
+    def __init__(self) -> None:
+        # Both follow from the name.
+        super().__init__("", "")
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        super().__set_name__(owner, name)
+        self.describe(*(COLUMNS.get(name) or _QUANTITIES[name]))
+
+
+R = TypeVar("R", bound=Row)
+
+
+class Table(Sequence[R], Generic[R]):
+    """A table of a result. `table["force"]` is a column as an array, and `table[0].force` a value in a row.
 
     A number that does not exist is NaN in a column and None in a row.
     """
 
-    def __init__(self, rows: Sequence[dict[str, Cell]], units: Mapping[str, str] | None = None) -> None:
+    def __init__(self, rows: Sequence[dict[str, Cell]], row: type[R], units: Mapping[str, str] | None = None) -> None:
         self._rows = rows
+        self._row = row
         self._units = dict(units or {})
 
     @property
@@ -165,20 +218,20 @@ class Table(Sequence[dict[str, Cell]]):
     @overload
     def __getitem__(self, key: str) -> npt.NDArray[Any]: ...
     @overload
-    def __getitem__(self, key: int) -> dict[str, Cell]: ...
+    def __getitem__(self, key: int) -> R: ...
     @overload
-    def __getitem__(self, key: slice) -> Table: ...
-    def __getitem__(self, key: str | int | slice) -> npt.NDArray[Any] | dict[str, Cell] | Table:
+    def __getitem__(self, key: slice) -> Table[R]: ...
+    def __getitem__(self, key: str | int | slice) -> npt.NDArray[Any] | R | Table[R]:
         if isinstance(key, slice):
-            return Table(self._rows[key], self._units)
+            return Table(self._rows[key], self._row, self._units)
         if not isinstance(key, str):
-            return self._rows[key]
+            return self._row(self._rows[key])
         if key not in self.columns:
             raise KeyError(f"no column {_native.shown(key)!r}; columns: {', '.join(self.columns)}")
         return _column([row.get(key) for row in self._rows])
 
-    def __iter__(self) -> Iterator[dict[str, Cell]]:
-        return iter(self._rows)
+    def __iter__(self) -> Iterator[R]:
+        return map(self._row, self._rows)
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -209,11 +262,11 @@ def unit_of(name: str) -> str:
     """Returns the unit of the quantity with this name; an empty text if it has none."""
     if name in COLUMNS:
         return COLUMNS[name][0]
-    return "" if "regime" in name else _UNITS.get(name, "")
+    return _QUANTITIES.get(name, ("", ""))[0]
 
 
-#: Unit of each quantity that a study records.
-_UNITS = {name: unit for name, _, unit, _ in _native.quantities()}
+#: Unit and meaning of each quantity that a study records.
+_QUANTITIES = {name: (unit, meaning) for name, _, unit, meaning in _native.quantities()}
 
 
 def _column(values: list[Cell]) -> npt.NDArray[Any]:
@@ -230,15 +283,14 @@ def _column(values: list[Cell]) -> npt.NDArray[Any]:
 
 def _made(kind: Any, value: Any, unit: str) -> Any:
     """Returns a value of JSON as the type `kind`, such as a number, a list or an object with attributes."""
-    if get_origin(kind) in (Union, types.UnionType):
-        if value is None:
-            return None
-        kind = get_args(kind)[0]
+    kind = _parts(kind)[0]
     if value is None or isinstance(kind, ForwardRef):
         return value
-    if kind is Table:
-        return value if isinstance(value, Table) else Table(value)
+    if get_origin(kind) is Table:
+        return Table(value, get_args(kind)[0])
     if isinstance(kind, type) and issubclass(kind, Values):
+        if isinstance(value, list):
+            value = dict(zip([one.name for one in kind._attributes()], value, strict=True))
         return kind(value, unit)
     if get_origin(kind) is list:
         return [_made(get_args(kind)[0], entry, unit) for entry in value]
@@ -246,7 +298,7 @@ def _made(kind: Any, value: Any, unit: str) -> Any:
         return tuple(value)
     if get_origin(kind) is dict:
         return {key: _made(get_args(kind)[1], entry, unit_of(key) or unit) for key, entry in value.items()}
-    return float(value) if kind is float else value
+    return kind(value) if kind in (float, int) else value
 
 
 def in_words(value: Any, unit: str) -> str:

@@ -1,5 +1,10 @@
 """Names of the columns of tables that are not quantities of a study, with their units and meanings."""
 
+from typing import TypeAlias
+
+#: A value in a cell of a table.
+Cell: TypeAlias = float | int | str | bool | None
+
 #: Unit and meaning of each name. The unit of a number without a unit is "1", that of a text is empty.
 COLUMNS: dict[str, tuple[str, str]] = {
     # Curve of a loop.
@@ -24,7 +29,8 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "last_before": ("1", "last spring of the patch before the jump"),
     "first_after": ("1", "first spring of the patch after the jump"),
     "last_after": ("1", "last spring of the patch after the jump"),
-    "instrument_loss": ("J", "energy that is lost in the jumps of the instrument"),
+    "jumps_to": ("m", "indentation after a jump of the instrument"),
+    "instrument_loss": ("J", "energy that is lost in a jump of the instrument"),
     # Profiles and cells.
     "seed": ("1", "seed of the random phases of the profile"),
     "cell": ("1", "number of the combination of values"),

@@ -48,6 +48,7 @@ from ._results import (
     Study,
     Surface,
 )
+from ._spectrum import Spectrum
 
 #: Path of a file.
 AnyPath: TypeAlias = str | os.PathLike[str]
@@ -392,6 +393,31 @@ def self_affine(
     )
 
 
+def spectrum(wave_numbers: npt.ArrayLike, c2d: npt.ArrayLike) -> Spectrum:
+    """Returns a measured or computed spectrum of a surface as a roughness.
+
+    `wave_numbers` are q = 2π/λ in rad/m, ascending, and `c2d` is the two-dimensional spectral density C2D in m⁴ at each of them, for
+    a map the mean over all directions. It gives the rms height h by h² = (1/2π) ∫ q C2D dq. Between the wave numbers C2D is a power
+    law, and beyond them there are no waves: warnings call the longest wavelength the length of the scan. Look at `rms_height`, since programs differ by factors of 2π.
+
+    The spectral density of profiles (C1D in m³) does not give C2D point by point; for heights use `asperity.surface`.
+
+    >>> q = np.geomspace(1e5, 3e7, 50)   # rad/m: wavelengths from 63 µm to 0.2 µm
+    >>> rough = asp.spectrum(q, 2.5e-7 * q**-3.6)   # m⁴, for the Hurst exponent 0.8
+    >>> rough
+    <Spectrum: wave_number 50 values, rms_height ... nm, rms_gradient ...>
+    >>> asp.profile("100 µm", 4096, form=asp.sphere("1 mm"), roughness=rough, seed=3)
+    <Profile: 4096 points on 100 µm, height ... µm>
+    """
+    q, densities = numbers(wave_numbers, "wave_numbers").copy(), numbers(c2d, "c2d").copy()
+    if len(q) < 2 or q[0] <= 0 or not (q[1:] > q[:-1]).all():
+        raise refusal("wave_numbers", q, "two or more wave numbers in rad/m that ascend from above 0")
+    if len(densities) != len(q):
+        raise refusal("c2d", f"{len(densities)} densities", f"{len(q)} densities in m⁴, one for each wave number")
+    with naming("c2d", densities):
+        return Spectrum._of(q, densities)
+
+
 def measured(
     file: AnyPath,
     *,
@@ -480,12 +506,12 @@ def profile(
     points: int | None = None,
     *,
     form: Form | None = None,
-    roughness: Form | Surface | tuple[npt.ArrayLike, Quantity] | npt.ArrayLike | None = None,
+    roughness: Form | Surface | Spectrum | tuple[npt.ArrayLike, Quantity] | npt.ArrayLike | None = None,
     seed: int = 1,
 ) -> Profile:
     """Makes the profile of a body with a form and a roughness, with `points` points along a length in m, by default 16384.
 
-    A `roughness` is made by `self_affine` or `measured`, or it is a `Surface`, whose spectrum the profile gets. A pair of measured
+    A `roughness` is made by `self_affine`, `measured` or `spectrum`, or it is a `Surface`, whose spectrum the profile gets. A pair of measured
     heights in m and the distance between their points in m counts as the surface `asperity.surface(heights, spacing=...)`. An
     array alone has the heights in m of the roughness at each point, those of an equivalent line as in `asperity.Profile`. The axis
     of the form is at the point with the index `points // 2`. A seed gives the same random phases on any machine and for any number of points.
@@ -500,9 +526,10 @@ def profile(
     _check_kind(form, _FORMS, "form", form_allowed)
     if isinstance(roughness, tuple) and len(roughness) == 2 and hasattr(roughness[0], "__len__"):
         measured_heights, distance = roughness
-        roughness = surface(measured_heights, spacing=distance)
+        roughness = _analysed(measured_heights, distance, {}, None, None, {})
+        warn_of(roughness._premises())
     heights = None
-    if roughness is not None and not isinstance(roughness, (Form, str, Surface)):
+    if roughness is not None and not isinstance(roughness, (Form, str, Surface, Spectrum)):
         heights = numbers(cast("npt.ArrayLike", roughness), "roughness")
     count = whole(points, "points", 2, 2**28) if points is not None else 16384 if heights is None else len(heights)
     number = whole(seed, "seed", 0, 2**64 - 1)
@@ -513,10 +540,11 @@ def profile(
             raise refusal("roughness", f"{len(heights)} heights", f"{count} heights, one for each point")
         with naming("form", form):
             return Profile._of_roughness(plain, heights)
-    if isinstance(roughness, Surface):
+    if isinstance(roughness, (Surface, Spectrum)):
         with naming("roughness", roughness):
             return Profile._of_scene(plain.roughened(roughness._scene, number))
-    _check_kind(roughness, _ROUGHNESS, "roughness", "asperity.self_affine(...), asperity.measured(...), a Surface or an array")
+    roughness_allowed = "asperity.self_affine(...), asperity.measured(...), asperity.spectrum(...), a Surface or an array"
+    _check_kind(roughness, _ROUGHNESS, "roughness", roughness_allowed)
     if isinstance(roughness, Form) and not roughness.values.get("as_line"):
         roughness = Form(roughness.kind, **{**roughness.values, "seed": number})
     with naming("form" if roughness is None else "roughness", form if roughness is None else roughness):
@@ -855,10 +883,10 @@ def study(
     call = (_stated_by(call[0], given), *call[1:])
     with naming("axes", ", ".join(name for name, _ in given)):
         if executor is None:
-            found = Study(_native.study(call, given, names))
+            found = Study(_native.study(call, (given, names)))
         else:
-            parts = _parts(executor, _native.study_part, call, (given, names))
-            found = Study(_native.study_of_parts(call, given, names, parts))
+            parts = _parts(executor, _native.study_part, call, ((given, names),))
+            found = Study(_native.study_of_parts(call, (given, names), parts))
     warn_of(found._premises())
     return found
 
@@ -916,12 +944,27 @@ def surface(
     >>> surface.profile("6 µm", 512, form=asp.sphere("1 mm"), seed=3)
     <Profile: 512 points on 6 µm, height ... nm>
     """
-    figures = [_positive(tip_radius, "m", "tip_radius"), _positive(modulus, "Pa", "modulus")]
-    figures += [_positive(work, "J/m²", "work"), _positive(preload, "N", "preload")]
-    for name, value in [("work", work), ("preload", preload)]:
-        if value is not None and modulus is None:
+    figures = {"tip_radius": tip_radius, "modulus": modulus, "work": work, "preload": preload}
+    found = _analysed(files, spacing, figures, profiles, jobs, reading)
+    warn_of(found._premises())
+    return found
+
+
+def _analysed(
+    files: AnyPath | Sequence[AnyPath] | npt.ArrayLike,
+    spacing: Quantity | tuple[Quantity, Quantity] | None,
+    given: Mapping[str, Quantity | None],
+    profiles: int | None,
+    jobs: int | None,
+    reading: Mapping[str, Any],
+) -> Surface:
+    """Analyses a surface as `surface` does, without warnings."""
+    units = {"tip_radius": "m", "modulus": "Pa", "work": "J/m²", "preload": "N"}
+    figures = [_positive(given.get(name), unit, name) for name, unit in units.items()]
+    for name in ("work", "preload"):
+        if given.get(name) is not None and given.get("modulus") is None:
             raise refusal("modulus", None, f"an effective modulus such as '1 MPa', since the argument {name} needs it")
-    if profiles is not None and work is None:
+    if profiles is not None and given.get("work") is None:
         raise refusal("work", None, "a work of adhesion such as '50 mJ/m²', since the argument profiles needs it")
     count = None if profiles is None else whole(profiles, "profiles", 2, 1_000_000)
     threads = None if jobs is None else whole(jobs, "jobs", 1, 1024)
@@ -933,9 +976,7 @@ def surface(
         distance = None if spacing is None else quantity(cast("Quantity", spacing), "m", "spacing")
         form = _measured([path(file, "files") for file in files], False, distance, reading)
         with naming("files", files):
-            found = Surface(*_native.surface(_scene_of(form), figures, count, threads, None))
-        warn_of(found._premises())
-        return found
+            return Surface(*_native.surface(_scene_of(form), figures, count, threads, None))
     for name in ("unit", "height_unit", "channel", "surface_name", "resample"):
         if reading.get(name):
             raise refusal(name, reading.get(name), "nothing for an array, which has heights in m at even distances")
@@ -951,9 +992,7 @@ def surface(
     scene = _scene_of(_measured(["array"], False, None, reading))
     map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
     with naming("heights", f"an array of the shape {heights.shape}"):
-        found = Surface(*_native.surface(scene, figures, count, threads, map_of_heights))
-    warn_of(found._premises())
-    return found
+        return Surface(*_native.surface(scene, figures, count, threads, map_of_heights))
 
 
 def _scene_of(roughness: Form) -> Scene:
@@ -1064,9 +1103,10 @@ def fit(
 
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
     of pandas with two columns. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
-    radius, and second_radius and behind of two spheres. A dictionary gives their ranges as well. With `profiles`, one work of adhesion is found for all curves of a rough
-    body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help` lists
-    them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
+    radius, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
+    `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
+    rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`
+    lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
 
     >>> ball = asp.profile("100 µm", 1024, form=asp.sphere("100 µm"))
     >>> loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
@@ -1102,10 +1142,10 @@ def fit(
     else:
         check_executor(executor)
         several = ranges(len(all_curves))
-        tasks = [(_in_process(call, jobs), all_curves[first:end], words) for first, end in several]
+        tasks = [(_in_process(call, jobs), (all_curves[first:end], words)) for first, end in several]
         parts = gathered(executor, _native.fits_part, tasks, [end - first for first, end in several], progress)
         with naming("curves", shown):
-            report = _native.fits_of_parts(call, all_curves, words, parts)
+            report = _native.fits_of_parts(call, (all_curves, words), parts)
     found: Fit | Fits | EnsembleFit
     if count is not None:
         found = EnsembleFit(report)

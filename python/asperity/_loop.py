@@ -12,6 +12,7 @@ from . import _native
 from ._attributes import Attribute, Table, Values, unit_of
 from ._notation import path as file_path
 from ._notation import refusal
+from ._rows import Event
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,10 +41,11 @@ _FIGURES = (
 class Loop(Values):
     """Force loop of a loading that begins with separated bodies. All numbers are in SI units.
 
-    Arrays have one value for each point of the curve, except for `released_energy`. Forces are positive in compression, and the
-    indentation is 0 at first touch. A number that does not exist for the loop is None. `kappa`, `tabor_number`, `regime`,
-    `adhesion_share` and `pull_off_force_error` need the form and the roughness of the body. They are None for a profile that is
-    given by its heights.
+    Arrays have one value for each point of the curve, except for `released_energy`. At a jump of the contact the
+    curve has two points with the same indentation. While a soft instrument jumps, its points have the same displacement. Forces
+    are positive in compression, and the indentation is 0 at first touch. A number that does not exist for the loop is None.
+    `kappa`, `tabor_number`, `regime`, `adhesion_share` and `pull_off_force_error` need the form and the roughness of the body.
+    They are None for a profile that is given by its heights.
     """
 
     _shown = ("pull_off_force", "preload", "dissipated_energy")
@@ -114,7 +116,7 @@ class Loop(Values):
         return error
 
     @cached_property
-    def events(self) -> Table:
+    def events(self) -> Table[Event]:
         """Table of the jumps and marks of the loading in the order of the motion, with the columns of `asperity run --events`.
 
         The first access computes the loop once more. `energy` is the elastic energy in J that springs gain (positive) or release
@@ -129,7 +131,9 @@ class Loop(Values):
             table = _native.Loop.events_of_heights(profile._native, load)
         events: npt.NDArray[np.void] = np.load(io.BytesIO(table))
         names = events.dtype.names or ()
-        return Table([dict(zip(names, event, strict=True)) for event in events.tolist()])
+        rows = [dict(zip(names, event, strict=True)) for event in events.tolist()]
+        # A number that does not exist is NaN in the array.
+        return Table([{name: None if value != value else value for name, value in row.items()} for row in rows], Event)
 
     def to_dict(self) -> dict[str, Any]:
         """Returns the values as a dictionary of numbers, texts, lists and dictionaries."""

@@ -18,6 +18,17 @@ from ._notation import Form, Quantity
 from ._notation import path as file_path
 from ._notation import refusal
 from ._profile import Profile
+from ._rows import (
+    CurvePoint,
+    FittedCurve,
+    PreloadResults,
+    ProfileResults,
+    ProfileSpectrumBin,
+    SpectrumBin,
+    StudyRecord,
+    SurfaceProfileResults,
+    TurningPoint,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,11 +36,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-_PER_PROFILE = """
-    seed pull_off_force adhesion_share first_touch_pull_off_force zero_force_pull_off_force dissipated_energy regime
-    regime_after_zero_force preload_indentation contact_fraction skewness excess_kurtosis tabor_number
-"""
-_PRELOADS = "preload preload_indentation pull_off_force pull_off_indentation dissipated_energy"
 
 
 class Statistics(Values):
@@ -131,7 +137,7 @@ class ProfileStatistics(Values):
     dissipated_energy = Attribute[Statistics | None]("J", "dissipated energy ΔW")
     regimes = Attribute[dict[str, int]]("1", "number of profiles in each regime that occurs, by F_a(d=0)")
     regimes_after_zero_force = Attribute[dict[str, int]]("1", "number of profiles in each regime that occurs, by F_a(F=0)")
-    per_profile = Attribute[Table]("", "results of each profile", columns=_PER_PROFILE)
+    per_profile = Attribute[Table[ProfileResults]]("", "results of each profile")
     warnings = Attribute[list[str]]("", "premises of the model that profiles do not meet, one sentence for each")
 
     @property
@@ -173,6 +179,7 @@ class Budget(Values):
     """Relative errors of the pull-off force, by their sources. An error that is not known is None."""
 
     grid = Attribute[float | None]("1", "error by the finite number of springs, on the profile of the scene")
+    steps = Attribute[float | None]("1", "error by the steps in time; None without relaxation")
     sample = Attribute[float | None]("1", "error of the median by the finite number of profiles")
     surface = Attribute[float | None]("1", "error of the median by the uncertainty of a measured spectrum")
     model = Attribute[float | None]("1", "lower bound of the error of the model of one-dimensional profiles")
@@ -241,13 +248,9 @@ class Outcome(Drawn):
     steep_waves = Attribute[SteepWaves | None]("", "how steep the waves of a wavy sphere are")
     criteria = Attribute[list[Criterion]]("", "what other theories say of the scene")
     budget = Attribute[Budget | None]("", "relative errors of F_a, by their sources")
-    curve = Attribute[Table](
-        "",
-        "force curve; `loop` has it as arrays",
-        columns="stage indentation force contact_length patches stored_energy displacement",
-    )
-    patches_at_end = Attribute[list[list[int]]]("1", "first and last spring of each patch at the end of the loading")
-    patches_at_stage_ends = Attribute[list[list[list[int]]] | None](
+    curve = Attribute[Table[CurvePoint]]("", "force curve; `loop` has it as arrays")
+    patches_at_end = Attribute[list[tuple[int, int]]]("1", "first and last spring of each patch at the end of the loading")
+    patches_at_stage_ends = Attribute[list[list[tuple[int, int]]] | None](
         "1", "first and last spring of each patch at the end of each stage"
     )
     histogram = Attribute[Histogram | None]("", "numbers of heights in equal ranges")
@@ -319,22 +322,25 @@ class PreloadsOfProfile(Values):
     """Pull-off force of one profile over the preload."""
 
     seed = Attribute[int | None]("1", "seed of the random phases")
-    preloads = Attribute[Table]("", "one row for each preload", columns=_PRELOADS)
+    preloads = Attribute[Table[PreloadResults]]("", "one row for each preload")
 
 
 class Preloads(Drawn):
     """Pull-off force over the preload. The table has one row for each preload and profile."""
 
     scene = Attribute[dict[str, object]]("", "scene, with the fields of docs/scene-file.md")
-    mean = Attribute[list[PreloadStatistics]]("", "statistics over the profiles, at each preload")
+    mean = Attribute[list[PreloadStatistics] | None]("", "statistics over the profiles, at each preload; None for one profile")
     per_profile = Attribute[list[PreloadsOfProfile]]("", "results of each profile")
 
     def __repr__(self) -> str:
-        first, last = self.mean[0], self.mean[-1]
-        forces = (one.pull_off_force.median if one.pull_off_force else None for one in (first, last))
+        preloads = self.per_profile[0].preloads
+        forces = [preloads[0].pull_off_force, preloads[-1].pull_off_force]
+        if self.mean is not None:
+            statistics = [self.mean[0].pull_off_force, self.mean[-1].pull_off_force]
+            forces = [None if one is None else one.median for one in statistics]
         words = " to ".join("none" if force is None else _native.in_words(force, "N") for force in forces)
-        range = f"{_native.in_words(first.preload, 'N')} to {_native.in_words(last.preload, 'N')}"
-        return f"<Preloads: {len(self.mean)} preloads from {range}, pull_off_force {words}, profiles {len(self.per_profile)}>"
+        ends = " to ".join(_native.in_words(row.preload, "N") for row in (preloads[0], preloads[-1]))
+        return f"<Preloads: {len(preloads)} preloads from {ends}, pull_off_force {words}, profiles {len(self.per_profile)}>"
 
 
 class Reversals(Drawn):
@@ -343,18 +349,24 @@ class Reversals(Drawn):
     _shown = ("reversals", "step")
 
     scene = Attribute[dict[str, object]]("", "scene, with the fields of docs/scene-file.md")
-    preloads = Attribute[Table](
-        "", "pull-off force over the preload, one row for each turning point that presses", columns=_PRELOADS
+    preloads = Attribute[Table[PreloadResults]](
+        "", "pull-off force over the preload, at preloads with equal distances"
     )
-    reversals = Attribute[Table](
-        "",
-        "one row for each turning point",
-        columns="turning_indentation turning_force pull_off_force pull_off_indentation separation dissipated_energy",
-    )
+    reversals = Attribute[Table[TurningPoint]]("", "one row for each turning point")
     indentations = Attribute[list[float]]("m", "indentations of the map")
     step = Attribute[float]("m", "distance between the indentations")
     forces = Attribute[list[list[float]]]("N", "forces of each unloading at the indentations up to its turning point")
     everett = Attribute[list[list[float | None]]]("N", "Everett function ½ (F(d_r) − F(d_r, d)), in the order of `forces`")
+
+
+class ModelAtForce(Values):
+    """Results of one model at one force of the loading without adhesion."""
+
+    force = Attribute[float]("N", "force F, positive in compression")
+    indentation = Attribute[Statistics]("m", "indentation d, 0 at first touch")
+    stiffness = Attribute[Statistics]("N/m", "stiffness of the contact, dF/dd")
+    contact_area = Attribute[float | None]("m²", "mean area of contact of the squares; None for profiles")
+    grid = Attribute[float | None]("1", "relative error by the grid of the squares")
 
 
 class ModelResults(Values):
@@ -366,9 +378,7 @@ class ModelResults(Values):
     pull_off_force = Attribute[Statistics | None]("N", "pull-off force")
     first_touch_pull_off_force = Attribute[Statistics | None]("N", "pull-off force of a loop that turns at first touch")
     dissipated_energy = Attribute[Statistics | None]("J", "dissipated energy")
-    loading = Attribute[list[dict[str, object]]](
-        "", "indentation, stiffness and contact area at forces of the loading without adhesion"
-    )
+    loading = Attribute[list[ModelAtForce]]("", "indentation, stiffness and contact area at forces of the loading without adhesion")
 
 
 class Ratio(Values):
@@ -379,13 +389,22 @@ class Ratio(Values):
     grid = Attribute[float | None]("1", "relative error by the grid of the squares")
 
 
+class RatiosAtForce(Values):
+    """Results on profiles divided by those in three dimensions, at one force of the loading without adhesion."""
+
+    force = Attribute[float]("N", "force F, positive in compression")
+    indentation = Attribute[Ratio]("1", "ratio of the indentations")
+    stiffness = Attribute[Ratio]("1", "ratio of the stiffnesses")
+    grid = Attribute[float | None]("1", "relative error by the grid of the squares")
+
+
 class Ratios(Values):
     """Results on profiles divided by those in three dimensions."""
 
     pull_off_force = Attribute[Ratio | None]("1", "ratio of the pull-off forces")
     first_touch_pull_off_force = Attribute[Ratio | None]("1", "ratio of the pull-off forces of loops that turn at first touch")
     dissipated_energy = Attribute[Ratio | None]("1", "ratio of the dissipated energies")
-    loading = Attribute[list[dict[str, object]]]("", "ratios of indentation and stiffness at forces of the loading")
+    loading = Attribute[list[RatiosAtForce]]("", "ratios of indentation and stiffness at forces of the loading")
 
 
 class ReferenceBudget(Values):
@@ -397,6 +416,14 @@ class ReferenceBudget(Values):
     difference = Attribute[float | None]("1", "relative difference between profiles and squares")
     model = Attribute[float | None]("1", "lower bound of the error of the model")
     largest = Attribute[str]("", "name of the largest known error")
+
+
+class ForceLeftOut(Values):
+    """A force at which profiles and squares are not compared, since too few cells of the squares touch."""
+
+    force = Attribute[float]("N", "force F, positive in compression")
+    cells = Attribute[float]("1", "mean number of cells of a square that touch")
+    grid = Attribute[int | None]("1", "number of cells along the side of a square that would be enough; None if it is too large")
 
 
 class Reference(Drawn):
@@ -417,7 +444,7 @@ class Reference(Drawn):
     half_space = Attribute[ModelResults]("", "results in three dimensions")
     adhesive_half_space = Attribute[ModelResults | None]("", "roughness of the squares with adhesion")
     ratio = Attribute[Ratios]("", "results on profiles divided by those in three dimensions")
-    left_out = Attribute[list[dict[str, object]]]("", "forces at which too few cells touch")
+    left_out = Attribute[list[ForceLeftOut]]("", "forces at which too few cells touch")
     profile_is_exact = Attribute[bool]("", "whether the model of profiles is exact for the body")
     budget = Attribute[ReferenceBudget]("", "relative errors, by their sources")
     convolutions = Attribute[int]("1", "number of convolutions in three dimensions")
@@ -439,7 +466,14 @@ class Study(Result):
     axes = Attribute[dict[str, list[float]]]("", "values on each axis, by the path of its field")
     profiles = Attribute[int]("1", "number of random profiles")
     units = Attribute[dict[str, str]]("", "unit of each axis and of each recorded quantity")
-    records = Attribute[Table]("", "one row for each combination and profile: values on the axes, seed and recorded quantities")
+    records = Attribute[Table[StudyRecord]](
+        "", "one row for each combination and profile: values on the axes, seed and recorded quantities"
+    )
+
+    def _read(self, attribute: Attribute[Any]) -> Any:
+        if attribute.name == "records":
+            return Table(self._values["records"], StudyRecord, self.units)
+        return super()._read(attribute)
 
     def _unit_of_column(self, name: str) -> str:
         return self.units.get(name) or unit_of(name)
@@ -530,6 +564,14 @@ class Drag(Values):
     reach = Attribute[float | None]("m", "distance from first touch at which the drag is half as large")
 
 
+class Correlation(Values):
+    """Correlation of the errors of two fitted parameters."""
+
+    first = Attribute[str]("", "name of the first parameter")
+    second = Attribute[str]("", "name of the second parameter")
+    value = Attribute[float]("1", "correlation of their errors, from -1 to 1")
+
+
 class Fit(Drawn):
     """A scene fitted to a force curve. Each fitted parameter is an attribute."""
 
@@ -553,8 +595,8 @@ class Fit(Drawn):
     misfit = Attribute[float]("1", "robust rms residual divided by the noise; at most 1.5 if the model describes the curve")
     agreement = Attribute[Agreement]("", "agreement with the curve in contact")
     tabor_number = Attribute[float | None]("1", "Tabor number μ with the fitted values")
-    correlations = Attribute[list[list[object]]]("1", "pairs of parameters with the correlation of their errors")
-    not_distinguished = Attribute[list[list[str]]]("", "pairs of parameters that the curve cannot separate")
+    correlations = Attribute[list[Correlation]]("1", "correlations of the errors of pairs of parameters")
+    not_distinguished = Attribute[list[tuple[str, str]]]("", "pairs of parameters that the curve cannot separate")
     evaluations = Attribute[int]("1", "number of computed curves")
     noise = Attribute[float]("N", "standard deviation of the noise of the force")
     curve = Attribute[CurveFeatures]("", "features of the measured curve")
@@ -609,11 +651,8 @@ class Fits(Drawn):
     described = Attribute[Distribution | None]("", "first parameter over the curves that the model describes")
     all = Attribute[Distribution | None]("", "first parameter over all fitted curves")
     spreads = Attribute[list[Spread]]("", "median and scatter of each quantity over all fitted curves")
-    curves = Attribute[Table](
-        "",
-        "one row for each curve: values and intervals of the parameters, or the reason why there are none",
-        columns="""file pull_off_force pull_off_work residual_over_noise residual_over_largest_force misfit noise jumps hysteresis
-        fall_in_pause position_x position_y points_used described description reason warnings error""",
+    curves = Attribute[Table[FittedCurve]](
+        "", "one row for each curve: values and intervals of the parameters, or the reason why there are none"
     )
 
     def to_pandas(self) -> pd.DataFrame:
@@ -644,6 +683,44 @@ class Shares(Values):
     roughness = Attribute[float]("1", "share by the stated errors of the roughness")
 
 
+class Prospect(Values):
+    """Precision of the work of adhesion that a larger number of curves would give."""
+
+    curves = Attribute[int]("1", "number of curves")
+    half_width = Attribute[float]("1", "half width of the 95 % interval of ln γ")
+
+
+class RoughnessEffects(Values):
+    """Effects of a wrong roughness of the scene on the fitted values, as derivatives."""
+
+    work_by_height = Attribute[float]("1", "derivative of ln γ by ln h, with the rms height h")
+    work_by_hurst = Attribute[float]("1", "derivative of ln γ by the Hurst exponent H")
+    modulus_by_height = Attribute[float]("1", "derivative of ln E* by ln h")
+    modulus_by_hurst = Attribute[float]("1", "derivative of ln E* by H")
+
+
+class CurveOfEnsemble(Values):
+    """Results of one curve without the others."""
+
+    name = Attribute[str]("", "name of the curve")
+    preload = Attribute[float]("N", "preload F_n, the largest force")
+    pull_off_force = Attribute[float | None]("N", "pull-off force F_a; None if it is at most 5 times the noise")
+    loop_area = Attribute[float]("J", "loop area ∮F dD, the dissipated energy")
+    stiffness = Attribute[float]("N/m", "mean stiffness of the retraction from the preload to half of it")
+    work = Attribute[IntervalEstimate]("J/m²", "work of adhesion γ by this curve alone")
+    at_end_of_table = Attribute[bool]("", "whether the interval ends where curves were computed")
+    foreign = Attribute[bool]("", "whether the curve hardly belongs to the same specimen")
+
+
+class SummaryDeviation(Values):
+    """Difference between measured curves and random profiles in one summary, such as the pull-off force."""
+
+    summary = Attribute[str]("", "name of the summary")
+    logarithm = Attribute[float]("1", "mean logarithm over the curves minus that over the random profiles")
+    deviation = Attribute[float]("1", "this difference divided by its standard error")
+    deviates = Attribute[bool]("", "whether the difference is significant")
+
+
 class EnsembleFit(Drawn):
     """One work of adhesion for all force curves of a rough body, found by comparison with random profiles."""
 
@@ -656,16 +733,16 @@ class EnsembleFit(Drawn):
     closing_over_opening = Attribute[float]("1", "γ₁/γ, as the scene states it")
     correlation = Attribute[float]("1", "correlation of the errors of ln γ and ln E*")
     shares = Attribute[Shares]("", "sources of the uncertainty of γ")
-    prospects = Attribute[list[dict[str, float]]]("", "precision of γ that more curves would give")
-    roughness = Attribute[dict[str, float] | None]("", "effect of a wrong roughness of the scene on ln γ and ln E*")
+    prospects = Attribute[list[Prospect]]("", "precision of γ that more curves would give")
+    roughness = Attribute[RoughnessEffects | None]("", "effect of a wrong roughness of the scene on ln γ and ln E*")
     profiles = Attribute[int]("1", "number of random profiles")
     computed = Attribute[int]("1", "number of computed curves")
     preload = Attribute[float]("N", "mean preload of the measured curves")
     preload_scatter = Attribute[float | None]("1", "standard deviation of the preloads divided by their mean")
-    curves = Attribute[list[dict[str, object]]]("", "results of each curve without the others")
+    curves = Attribute[list[CurveOfEnsemble]]("", "results of each curve without the others")
     scatter_ratio = Attribute[float | None]("1", "scatter of ln γ between curves divided by that between random profiles")
     described = Attribute[bool]("", "whether random profiles with the found values look like the curves")
-    deviations = Attribute[list[dict[str, object]]]("", "differences between curves and random profiles")
+    deviations = Attribute[list[SummaryDeviation]]("", "differences between curves and random profiles")
     at_end_of_table = Attribute[bool]("", "whether the interval ends where curves were computed")
 
 
@@ -713,16 +790,14 @@ class SurfaceAdhesion(Values):
     fit_deviation = Attribute[float | None]("N", "standard deviation of F_a by the uncertainty of the spectrum")
     regimes = Attribute[dict[str, int]]("1", "number of profiles in each regime that occurs, by F_a(d=0)")
     regimes_after_zero_force = Attribute[dict[str, int]]("1", "number of profiles in each regime that occurs, by F_a(F=0)")
-    per_profile = Attribute[Table](
-        "", "results of each profile", columns="seed pull_off_force fit_change regime regime_after_zero_force"
-    )
+    per_profile = Attribute[Table[SurfaceProfileResults]]("", "results of each profile")
 
 
 class ProfileSpectrum(Values):
     """Power spectral density of profiles."""
 
     name = Attribute[str]("", "name of the spectrum")
-    bins = Attribute[Table]("", "one row for each range of wave numbers", columns="wave_number power waves")
+    bins = Attribute[Table[ProfileSpectrumBin]]("", "one row for each range of wave numbers")
 
 
 class SurfaceFile(Values):
@@ -754,7 +829,7 @@ class MeasuredFace(Values):
     )
     hurst_exponent = Attribute[ValueWithError | None]("1", "Hurst exponent, if the spectrum is a power law")
     roll_off_wave_number = Attribute[ValueWithError | None]("rad/m", "wave number of the roll-off")
-    spectrum = Attribute[Table]("", "spectrum of the surface", columns="wave_number c2d relative_error line")
+    spectrum = Attribute[Table[SpectrumBin]]("", "spectrum of the surface")
     profile_spectra = Attribute[list[ProfileSpectrum]]("", "spectra of profiles along rows and columns")
     ends_inside_scan = Attribute[bool]("", "whether the spectrum ends inside the scan")
     warnings = Attribute[list[str]]("", "doubts about the surface, one sentence for each")

@@ -53,6 +53,10 @@ pub fn argument(remedy: &Remedy) -> String {
         Remedy::FigureAxes => "two axes of the study",
         Remedy::FixAxis(value) => return format!("{value} fixes one"),
         Remedy::OtherValue(path) => return format!("another value of {path}"),
+        Remedy::RoughnessField(name, None) => name,
+        Remedy::RoughnessField(name, Some(value)) => {
+            return format!("{name}=\"{}\"", value.to_lowercase());
+        }
         Remedy::FewerThreads => "jobs",
     };
     words.to_owned()
@@ -94,7 +98,8 @@ pub fn name(remedy: &Remedy) -> Option<&'static str> {
         | Remedy::FormOfScene
         | Remedy::FigureAxes
         | Remedy::FixAxis(_)
-        | Remedy::OtherValue(_) => {
+        | Remedy::OtherValue(_)
+        | Remedy::RoughnessField(..) => {
             return None;
         }
     };

@@ -120,15 +120,15 @@ pub fn fit(
     })
 }
 
+/// Measured curves, and options of the command `asperity fit`.
+#[derive(FromPyObject)]
+pub struct CurvesToFit(Vec<Curve>, Vec<String>);
+
 /// Fits a scene to some of several curves, for another process that gathers the rows by
 /// [`fits_of_parts`]. Returns the rows as text.
 #[pyfunction]
-pub fn fits_part(
-    py: Python<'_>,
-    call: Call,
-    curves: Vec<Curve>,
-    words: Vec<String>,
-) -> PyResult<String> {
+pub fn fits_part(py: Python<'_>, call: Call, given: CurvesToFit) -> PyResult<String> {
+    let CurvesToFit(curves, words) = given;
     call.computed(py, move |case| {
         let asked = Asked::new(&case, words)?;
         let fit = asked.fit(&case);
@@ -141,10 +141,10 @@ pub fn fits_part(
 pub fn fits_of_parts(
     py: Python<'_>,
     call: Call,
-    curves: Vec<Curve>,
-    words: Vec<String>,
+    given: CurvesToFit,
     parts: Vec<String>,
 ) -> PyResult<Report> {
+    let CurvesToFit(curves, words) = given;
     call.computed(py, move |case| {
         let asked = Asked::new(&case, words)?;
         let mut rows = Vec::with_capacity(curves.len());

@@ -327,8 +327,9 @@ impl Loop {
             regime = outcome.regime.map(|regime| regime.name());
         }
         let mut marks = Marks::new();
-        for (mark, point) in Mark::all(&self.stages) {
-            marks.insert(mark.name(), (point.indentation, point.force));
+        for marked in Mark::all(&self.stages) {
+            let point = marked.point;
+            marks.insert(marked.mark.name(), (point.indentation, point.force));
         }
         (figures, regime, marks)
     }

@@ -3,7 +3,7 @@
 
 use crate::computing::{Call, Case};
 use crate::failure::Failure;
-use crate::results::{GivenAxis, Report, bytes, named, plan_of_study};
+use crate::results::{Report, StudyDesign, bytes, named, plan_of_study};
 use crate::scene::{Scene, read_again, written};
 use asperity::data::Control;
 use asperity::study::{Ensemble, Plan, Results, StudyPart, compute_part};
@@ -63,13 +63,12 @@ pub fn ensemble_of_parts(py: Python<'_>, call: Call, parts: Vec<String>) -> PyRe
 pub fn study_part(
     py: Python<'_>,
     call: Call,
-    axes: Vec<GivenAxis>,
-    record: Vec<String>,
+    design: StudyDesign,
     first: u64,
     end: u64,
 ) -> PyResult<String> {
     call.computed(py, move |case| {
-        let plan = plan_of_study(&case, &axes, &record)?;
+        let plan = plan_of_study(&case, &design)?;
         computed_part(&case, &plan, first..end)
     })
 }
@@ -79,12 +78,11 @@ pub fn study_part(
 pub fn study_of_parts(
     py: Python<'_>,
     call: Call,
-    axes: Vec<GivenAxis>,
-    record: Vec<String>,
+    design: StudyDesign,
     parts: Vec<String>,
 ) -> PyResult<Report> {
     call.computed(py, move |case| {
-        let plan = plan_of_study(&case, &axes, &record)?;
+        let plan = plan_of_study(&case, &design)?;
         let results = Results::of_parts(&plan, read_parts(&parts)?)?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &results, format)

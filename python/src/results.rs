@@ -4,7 +4,7 @@ use crate::advice::argument;
 use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use asperity::data::parse_quantity;
+use asperity::data::{AxisScale, parse_quantity};
 use asperity::scene::{CheckedScene, Document, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::{MeasuredAdhesion, warnings_of_reversals};
@@ -300,15 +300,41 @@ pub fn reversals(
         let mut simulation = case.simulation().for_one_scene();
         let map =
             simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
-        let warnings = warnings_of_reversals(&map, case.document.scene(), &mut simulation)?;
+        let scene = case.document.scene();
+        let warnings = warnings_of_reversals(&map, scene, &mut simulation)?;
+        let largest = map
+            .reversals
+            .iter()
+            .map(|reversal| reversal.turn.force)
+            .fold(0.0, f64::max);
+        let mut preloads = None;
+        let mut staircase = None;
+        // There is no axis if no turning point presses the bodies together.
+        if let Ok(axis) =
+            Axis::of_preloads(ends.unwrap_or((0.0, largest)), count, AxisScale::Linear)
+        {
+            preloads = Some(case.watched(1, unchanged, |control| {
+                Results::of_scene(
+                    scene,
+                    &Results::OF_PRELOADS,
+                    1,
+                    Some(&axis),
+                    &mut case.simulation(),
+                    control,
+                )
+            })?);
+            staircase = Some(case.watched(1, unchanged, |control| {
+                Staircase::of(scene, &axis, &mut simulation, control)
+            })?);
+        }
         Ok(Report::new(move |format| {
             let report = ReversalReport {
                 title: case.document.title(),
                 scene: case.document.scene(),
                 map: &map,
                 warnings: &warnings,
-                preloads: None,
-                staircase: None,
+                preloads: preloads.as_ref(),
+                staircase: staircase.as_ref(),
             };
             bytes(named(&case.document, &case.in_memory), &report, format)
         }))
@@ -366,7 +392,11 @@ pub enum AxisValue {
 }
 
 /// Path of the field that varies along an axis, and the values on the axis.
-pub type GivenAxis = (String, Vec<AxisValue>);
+type GivenAxis = (String, Vec<AxisValue>);
+
+/// What a study varies and what it records: its axes, and the names of the quantities.
+#[derive(FromPyObject)]
+pub struct StudyDesign(Vec<GivenAxis>, Vec<String>);
 
 fn read_axis(
     scene: &CheckedScene,
@@ -395,13 +425,10 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
-/// Returns the plan of a study with these axes and recorded quantities.
-pub fn plan_of_study(
-    case: &Case<'_>,
-    axes: &[GivenAxis],
-    record: &[String],
-) -> Result<Plan, Failure> {
+/// Returns the plan of a study of a scene.
+pub fn plan_of_study(case: &Case<'_>, design: &StudyDesign) -> Result<Plan, Failure> {
     case.check_profiles()?;
+    let StudyDesign(axes, record) = design;
     let mut quantities = Vec::with_capacity(record.len());
     for name in record {
         quantities.push(
@@ -425,14 +452,9 @@ pub fn plan_of_study(
 /// Computes a scene for each combination of values on the axes. Each combination is computed on
 /// several random profiles.
 #[pyfunction]
-pub fn study(
-    py: Python<'_>,
-    call: Call,
-    axes: Vec<GivenAxis>,
-    record: Vec<String>,
-) -> PyResult<Report> {
+pub fn study(py: Python<'_>, call: Call, design: StudyDesign) -> PyResult<Report> {
     call.computed(py, move |case| {
-        let plan = plan_of_study(&case, &axes, &record)?;
+        let plan = plan_of_study(&case, &design)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             match &case.in_memory {
                 Some(measured) => compute_with_measured(&plan, Arc::clone(measured), control),

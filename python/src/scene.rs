@@ -9,7 +9,10 @@ use asperity::scene::text::ron_float;
 use asperity::scene::{
     Document, Material, Measured, Numerics, Roughness, Scene as SceneValues, Simulation, open,
 };
+use asperity::surface::EquivalentLine;
 use asperity::surface::lines::{MeasuredProfile, MeasuredRoughness};
+use asperity::surface::spectra::IsotropicSpectrum;
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,6 +20,9 @@ use std::sync::Arc;
 
 /// Name that an equivalent line has in place of a file if it was made from heights in memory.
 const HEIGHTS: &str = "heights in memory";
+
+/// Name that a spectrum in memory has in place of a file.
+const SPECTRUM: &str = "spectrum in memory";
 
 /// A checked scene. It states material, form, roughness, adhesion and loading of a contact, and how
 /// they are computed.
@@ -133,6 +139,31 @@ impl Scene {
             document,
             in_memory: Some(Arc::new(MeasuredRoughness::Profile(heights))),
         })
+    }
+
+    /// Returns a scene whose roughness has a given spectrum of a surface, and the rms height in m
+    /// and the rms gradient of this spectrum. `wave_numbers` are in rad/m, and `c2d` is the
+    /// two-dimensional spectral density in m⁴ at these wave numbers.
+    #[staticmethod]
+    fn of_spectrum(
+        wave_numbers: PyReadonlyArray1<'_, f64>,
+        c2d: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<(Scene, [f64; 2])> {
+        let spectrum = IsotropicSpectrum::from_table(wave_numbers.as_slice()?, c2d.as_slice()?)
+            .map_err(Failure::from)?;
+        let moments = spectrum.rms_of_height_and_gradient();
+        let line = EquivalentLine {
+            faces: vec![spectrum],
+        };
+        let scene = SceneValues {
+            roughness: Some(Roughness::Measured(Measured::of_file(SPECTRUM))),
+            ..SceneValues::new(Material::effective(1e6), 1e-4)
+        };
+        let scene = Scene {
+            document: Document::from_scene(&scene, "scene").map_err(Failure::from)?,
+            in_memory: Some(Arc::new(MeasuredRoughness::Equivalent(line))),
+        };
+        Ok((scene, moments))
     }
 
     /// Returns the scene with other values of fields. `fields` has pairs of a path and a value in

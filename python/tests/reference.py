@@ -7,8 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 import asperity
-from asperity._attributes import OF_QUANTITY, Table, Values
-from asperity._columns import COLUMNS
+from asperity._attributes import OF_QUANTITY, Row, Table, Values
 from asperity._functions import Reading
 
 HEAD = """# Python reference
@@ -34,6 +33,7 @@ FUNCTIONS = {
         "revolve",
         "table",
         "self_affine",
+        "spectrum",
         "measured",
     ],
     "Bodies and scenes": ["profile", "scene", "presets"],
@@ -74,7 +74,7 @@ A checked scene: material, form, roughness, adhesion and loading of a contact, a
 | `text` | str | text of the scene, as in a [scene file](scene-file.md) |
 """
 #: Results that other results contain.
-PARTS_LAST = ("Values", "Result")
+PARTS_LAST = ("Values", "Result", "Row")
 
 
 def anchor(name: str) -> str:
@@ -169,8 +169,6 @@ def described(one: type[Values]) -> str:
         unit = {OF_QUANTITY: ", unit of the quantity", "": ""}.get(attribute.unit, f", {attribute.unit}")
         kind = re.sub(r"\b([A-Z]\w+)\b", linked, in_markdown(attribute.type_in_words()))
         meaning = in_markdown(attribute.meaning)
-        if attribute.columns:
-            meaning += f" (columns {', '.join(f'`{name}`' for name in attribute.columns)})"
         rows.append(f"| `{attribute.name}` | {kind}{unit} | {meaning} |")
     rows += methods(one)
     for base in inherited:
@@ -200,18 +198,10 @@ def common() -> str:
     return "\n".join(rows) + "\n"
 
 
-def columns() -> str:
-    """Returns the names of columns that are not quantities of a study."""
-    rows = ["| column | unit | meaning |", "| --- | --- | --- |"]
-    for name, (unit, meaning) in COLUMNS.items():
-        if not re.search(r"_(low|high)$", name):
-            rows.append(f"| `{name}` | {unit} | {in_markdown(meaning)} |")
-    return "\n".join(rows) + "\n"
-
-
 def page() -> str:
     results = [one for one in classes() if issubclass(one, (asperity.Result, asperity.Loop, asperity.Pressed))]
-    parts = [one for one in classes() if one not in results]
+    rows = [one for one in classes() if issubclass(one, Row)]
+    parts = [one for one in classes() if one not in [*results, *rows]]
     text = [
         HEAD,
         functions(),
@@ -230,15 +220,12 @@ computation:
         "## Parts of results\n",
         *map(described, parts),
         other(Table),
+        "## Rows of tables\n",
+        f"{inspect.getdoc(Row)}\n",
+        *map(described, rows),
         "## Profiles and scenes\n",
         other(asperity.Profile),
         SCENE,
-        "## Columns of tables",
-        """
-Tables also have columns of the [quantities of a study](studies.md#recorded-quantities). A fitted parameter has two more columns with
-the endings `_low` and `_high`, the ends of its 95 % interval.
-""",
-        columns(),
     ]
     return "\n".join(part.strip("\n") + "\n" for part in text)
 

@@ -3,6 +3,7 @@
 import inspect
 import json
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -235,12 +236,51 @@ class Surfaces(InFolder):
             command = [sys.executable, "-m", "asperity", "surface", *words, *contact, "--format", "json"]
             printed = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
             found = asp.surface("map.npy", unit="m", spacing="0.1 µm", detrend="Curvature", tip_radius="10 nm", **options).to_dict()
+            # The command names the fields of a scene, the function its arguments.
+            printed["warnings"] = [text.replace("roughness.", "") for text in printed["warnings"]]
             for key in printed.keys() - {"program", "command"}:
                 self.assertEqual(json.dumps(found[key]), json.dumps(printed[key]), key)
             self.assertEqual(found["adhesion"] is None, "work" not in options)
         array = asp.surface(rough_map(), spacing=1e-7, detrend="curvature", **options)
         file = asp.surface("map.npy", unit="m", spacing=1e-7, detrend="curvature", **options)
         self.assertEqual(array.adhesion.to_dict(), file.adhesion.to_dict())
+
+    def test_a_spectrum_is_a_roughness(self):
+        q = np.geomspace(2e5, 5e7, 60)
+        c2d = 3e-6 * q**-3.8
+        spectrum = asp.spectrum(q, c2d)
+        height = np.sqrt(np.trapezoid(q**2 * c2d, np.log(q)) / (2 * np.pi))
+        self.assertAlmostEqual(spectrum.rms_height / height, 1, delta=2e-3)
+        form = asp.sphere("1 mm")
+        body = asp.profile("60 µm", 4096, form=form, roughness=spectrum, seed=3)
+        flat = [asp.profile("60 µm", 4096, roughness=spectrum, seed=seed).heights for seed in range(1, 17)]
+        self.assertAlmostEqual(np.std(flat) / height, 1, delta=0.2)
+        # The amplitude of each wave of the line is that of its spectrum, q C2D/2 in m³.
+        waves = np.abs(np.fft.rfft(flat[0])) / 4096
+        numbers = np.arange(2, 400)
+        of_line = 0.5 * (2 * np.pi * numbers / 60e-6) * 3e-6 * (2 * np.pi * numbers / 60e-6) ** -3.8
+        np.testing.assert_allclose(2 * waves[numbers], np.sqrt(4 * of_line / 60e-6), rtol=2e-3)
+        contact = {"modulus": "1 MPa", "work": "5 mJ/m²", "stages": "10 µN, separation"}
+        self.assertEqual(len(asp.ensemble(body, profiles=3, **contact).values()), 3)
+        self.assertEqual(repr(pickle.loads(pickle.dumps(spectrum))), repr(spectrum))
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(body)).heights, body.heights)
+        # The spectrum that a surface has found.
+        surface = asp.surface(rough_map(), spacing=1e-7)
+        again = asp.spectrum(surface.spectrum["wave_number"], surface.spectrum["c2d"])
+        self.assertAlmostEqual(again.rms_gradient / surface.equivalent_line.rms_gradient.value, 1, delta=1e-3)
+        np.testing.assert_allclose(
+            again.c2d, asp.spectrum(again.wave_number, again.c2d).c2d, rtol=1e-12
+        )
+        for given, field in [
+            (([1e5], [1e-30]), "wave_numbers"),
+            (([0, 1e5], [1e-30, 1e-30]), "wave_numbers"),
+            (([2e5, 1e5], [1e-30, 1e-30]), "wave_numbers"),
+            (([1e5, 2e5], [1e-30]), "c2d"),
+            (([1e5, 2e5], [1e-30, 0]), "c2d"),
+            (([1e5, 2e5], [1e-30, -1e-30]), "c2d"),
+            (([1e5, 2e5], ["a", "b"]), "c2d"),
+        ]:
+            self.refused(asp.spectrum, *given, field=field)
 
     def test_an_adhesion_needs_all_its_values(self):
         heights = rough_map()
@@ -458,6 +498,18 @@ class Premises(InFolder):
         outcome, said = self.warned(asp.run, "pressure-sensitive", profiles=3, **steep)
         self.assertEqual(said[: len(outcome.warnings)], outcome.warnings)
         self.assertEqual(len(said), len(set(said)))
+
+    def test_doubts_about_a_surface_name_the_arguments(self):
+        tilted = rough_map() + 1e-9 * np.arange(64)
+        surface, said = self.warned(asp.surface, tilted, spacing=1e-7, detrend="none")
+        self.assertTrue(any('detrend="tilt" removes it' in text for text in said), said)
+        steep, more = self.warned(asp.surface, 1e3 * rough_map(), spacing=1e-7)
+        self.assertTrue(any("unit and height_unit state" in text for text in more), more)
+        self.assertNotIn("roughness.", surface.to_json() + steep.to_json())
+
+    def test_doubts_about_heights_point_at_the_caller(self):
+        _, said = self.warned(asp.profile, "6 µm", 512, roughness=(1e3 * rough_map(), 1e-7))
+        self.assertTrue(any("rms gradient" in text for text in said), said)
 
     def test_doubts_about_a_surface_are_warnings(self):
         surface, said = self.warned(asp.surface, 1e-3 * rough_map(), spacing=1e-15)

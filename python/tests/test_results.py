@@ -54,6 +54,8 @@ def made():
             "reversals": asp.reversals(SCENE, count=5, **FEW),
             "reference": asp.reference("rough-sphere", grid=32, surfaces=2, profiles=3, **rough),
             "study": asp.study(SCENE, {"adhesion.kappa": [2, 6]}, profiles=3, **FEW),
+            "preloads of one profile": asp.preloads(SCENE, (0, "10 µN"), count=3, **FEW),
+            "spectrum": asp.spectrum([1e6, 1e7, 6e7], [1e-29, 1e-32, 1e-35]),
             "surface": asp.surface(rough_map(), spacing=1e-7, modulus="1 MPa", work=1e-3, profiles=2),
             "fit": asp.fit(curve, "jkr-sphere", ["work", "offset"], **fields),
             "fits": asp.fit([curve, curve_of(loop, 2)], "jkr-sphere", ["work", "offset"], **fields),
@@ -181,6 +183,50 @@ class Objects(unittest.TestCase):
             asp.ensemble(SCENE, executor="processes")
         self.assertEqual(raised.exception.field, "executor")
 
+    def test_rows_have_the_columns_as_attributes(self):
+        made, seen = self.made, set()
+        preloads = made["preloads"].per_profile[0].preloads
+        surface = made["surface"]
+        for table in [
+            made["loop"].events,
+            made["run"].curve,
+            made["run"].ensemble.per_profile,
+            made["ensemble"].per_profile,
+            preloads,
+            made["reversals"].reversals,
+            made["reversals"].preloads,
+            made["study"].records,
+            made["fits"].curves,
+            surface.spectrum,
+            surface.profile_spectra[0].bins,
+            surface.adhesion.per_profile,
+        ]:
+            names = [one.name for one in table[0]._attributes()]
+            # The value on an axis has the path of its field as its name.
+            self.assertLessEqual({name for name in table.columns if "." not in name}, set(names), type(table[0]))
+            seen.add(type(table[0]))
+            for row in table:
+                for name in table.columns:
+                    value = getattr(row, name) if name in names else row[name]
+                    self.assertTrue(value is None or value == row[name], name)
+                    self.assertNotIn(type(value), (dict, list), name)
+            self.assertIsInstance(repr(table[0]), str)
+            self.assertFalse(hasattr(table[0], "typo"))
+        self.assertEqual(seen, set(all_classes(asp.Row)))
+        self.assertEqual(preloads[-1].pull_off_force, preloads["pull_off_force"][-1])
+        record = made["study"].records[0]
+        self.assertEqual((record["adhesion.kappa"], record.seed), (2, made["study"].records["seed"][0]))
+        with self.assertRaisesRegex(AttributeError, "no column 'kappa'; columns: cell, adhesion.kappa"):
+            record.kappa  # noqa: B018
+        recorded = {name for name, *_ in asp._native.quantities()}
+        self.assertLessEqual(recorded, {one.name for one in asp.StudyRecord._attributes()})
+        loading = made["reference"].half_space.loading[-1]
+        self.assertGreater(loading.stiffness.median, 0)
+        self.assertEqual(made["reference"].ratio.loading[-1].force, loading.force)
+        found = made["fit"].correlations[0]
+        self.assertEqual((found.first, found.second), ("work", "offset"))
+        self.assertLess(abs(found.value), 1)
+
     def test_tables_have_units(self):
         self.assertEqual(self.made["loop"].to_pandas().attrs["units"]["force"], "N")
         study = self.made["study"].to_pandas()
@@ -192,7 +238,9 @@ class Objects(unittest.TestCase):
         fits = self.made["fits"].to_pandas()
         self.assertEqual((len(fits), fits.attrs["units"]["work_low"]), (2, "J/m²"))
         table = self.made["run"].ensemble.per_profile
-        self.assertEqual(list(table["seed"]), [row["seed"] for row in table])
+        self.assertEqual(list(table["seed"]), [row.seed for row in table])
+        with self.assertRaisesRegex(KeyError, "no column 'F'; columns: "):
+            table[0]["F"]
         self.assertEqual(len(table[1:]), 2)
         with self.assertRaisesRegex(KeyError, "no column 'F'; columns: "):
             table["F"]
@@ -228,13 +276,11 @@ class Objects(unittest.TestCase):
     def test_a_name_has_one_unit(self):
         units = {}
         # A ratio has the name of its quantity, and the residual of a solver is counted in rms heights.
-        others = (asp.Ratios, asp.Pressed)
+        others = (asp.Ratios, asp.RatiosAtForce, asp.Pressed)
         for one in set(all_classes()) - set(others):
             for attribute in one._attributes():
                 if attribute.unit not in ("", "=") and not isinstance(attribute.type, type(dict[str, int])):
                     units.setdefault(attribute.name, set()).add(attribute.unit)
-                for column in attribute.columns:
-                    self.assertTrue(unit_of(column) or column in asp._columns.COLUMNS or "regime" in column, column)
         for name, found in units.items():
             if unit_of(name):
                 found.add(unit_of(name))
@@ -277,6 +323,23 @@ class Objects(unittest.TestCase):
             "asp.fit('x', 'x', 'work').work": "FittedParameter",
             "body": "Profile",
             "asp.scene('x')": "Scene",
+            "asp.load(body, modulus=1).events[0]": "Event",
+            "asp.run('x').curve[0]": "CurvePoint",
+            "asp.ensemble('x').per_profile[0]": "ProfileResults",
+            "[one for one in asp.preloads('x', (0, 1)).per_profile[0].preloads][0]": "PreloadResults",
+            "asp.preloads('x', (0, 1)).mean[0]": "PreloadStatistics",
+            "asp.reversals('x').reversals[-1]": "TurningPoint",
+            "asp.study('x', {'a': [1]}).records[1:][0]": "StudyRecord",
+            "asp.reference('x').profile.loading[0]": "ModelAtForce",
+            "asp.reference('x').ratio.loading[0]": "RatiosAtForce",
+            "asp.reference('x').left_out[0]": "ForceLeftOut",
+            "asp.surface('x').spectrum[0]": "SpectrumBin",
+            "asp.surface('x').profile_spectra[0].bins[0]": "ProfileSpectrumBin",
+            "asp.fit('x', 'x', 'work').correlations[0]": "Correlation",
+            "asp.fit(['x', 'y'], 'x', 'work').curves[0]": "FittedCurve",
+            "asp.fit('x', 'x', 'work', profiles=8).prospects[0]": "Prospect",
+            "asp.fit('x', 'x', 'work', profiles=8).curves[0]": "CurveOfEnsemble",
+            "asp.fit('x', 'x', 'work', profiles=8).deviations[0]": "SummaryDeviation",
         }
         program = ["import asperity as asp", "body = asp.profile(1)"]
         for expression in functions:

@@ -61,6 +61,8 @@ pub fn option(remedy: &Remedy) -> String {
         Remedy::FigureAxes => "--x and --y name the two",
         Remedy::FixAxis(value) => return format!("--at {value} fixes one"),
         Remedy::OtherValue(path) => return format!("--at {path}=VALUE selects another one"),
+        Remedy::RoughnessField(name, None) => return format!("roughness.{name}"),
+        Remedy::RoughnessField(name, Some(value)) => return format!("roughness.{name}: {value}"),
         Remedy::FewerThreads => "--jobs",
     };
     words.to_owned()

@@ -1,9 +1,9 @@
 //! Tables in a folder, one for each of several fitted curves, with the measured and the computed
 //! force at each point.
 
-use super::curve_sources::CurveSource;
 use super::error::CliError;
 use asperity_data::{grouped, path_name, printable, write_new_file};
+use asperity_experiment::CurveSource;
 use asperity_report::{FitReport, Format, write};
 use std::collections::HashMap;
 use std::fs::{File, canonicalize, create_dir_all};
@@ -40,18 +40,19 @@ impl CurveTables {
             provenance,
             paths: HashMap::new(),
         };
-        let mut curve_of_table: HashMap<PathBuf, &str> = HashMap::new();
+        let mut curve_of_table: HashMap<PathBuf, String> = HashMap::new();
         for curve in curves {
             let path = folder.join(format!("{}.{EXTENSION}", curve.stem()));
-            if let Some(other) = curve_of_table.insert(path.clone(), &curve.name) {
-                let (other, curve) = (printable(other), printable(&curve.name));
+            if let Some(other) = curve_of_table.insert(path.clone(), curve.name()) {
+                let (other, curve) = (printable(&other).into_owned(), curve.name());
+                let curve = printable(&curve);
                 let found = format!("{other} and {curve} would have the same table");
                 return Err(CliError::named(
                     path_name(&path),
                     format!("{found}; allowed: curves of different names, or fewer in one command"),
                 ));
             }
-            tables.paths.insert(curve.name.clone(), path);
+            tables.paths.insert(curve.name(), path);
         }
         create_dir_all(folder).map_err(|error| {
             CliError::named(
@@ -66,14 +67,14 @@ impl CurveTables {
     /// Returns an error if a table would replace a file that may not be replaced.
     fn check_replaced(
         &self,
-        curve_of_table: &HashMap<PathBuf, &str>,
+        curve_of_table: &HashMap<PathBuf, String>,
         curves: &[CurveSource],
         output: Option<&Path>,
         overwrite: bool,
     ) -> Result<(), CliError> {
         let kept: Vec<PathBuf> = curves
             .iter()
-            .map(|curve| curve.path.as_path())
+            .map(|curve| curve.path())
             .chain(output)
             .filter_map(|path| canonicalize(path).ok())
             .collect();

@@ -2,15 +2,14 @@
 //! measured curves with computed curves of random profiles.
 
 use super::advice::option;
-use super::curve_sources::sources_of;
 use super::error::CliError;
 use super::fits::{Curves, show_curves};
 use super::output::Origin;
 use super::progress::{Task, watched};
 use super::scene::{open_scene, threads, warn_beside};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{parse_quantity, printable};
-use asperity_experiment::{EnsembleOptions, Free, Parameter, fit_ensemble};
+use asperity_data::{Remedied, parse_quantity, printable};
+use asperity_experiment::{CurveSource, EnsembleOptions, Free, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use asperity_scene::Simulation;
 use clap::Args;
@@ -105,14 +104,17 @@ pub(super) fn ensemble(
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
     let reading = arguments.reading_for(&document);
     let mut curves = Vec::new();
-    for source in sources_of(arguments.paths, arguments.output.file(), &reading)? {
-        let name = printable(&source.name).into_owned();
+    let skipped = arguments.output.file();
+    let sources = CurveSource::all(arguments.paths, skipped, &reading)
+        .map_err(|error| CliError::message(error.in_words(option)))?;
+    for source in sources {
+        let name = printable(&source.name()).into_owned();
         match source.read(&reading) {
             Ok(placed) => curves.push((name, placed.curve)),
             Err(error) => {
                 return Err(CliError::named(
                     &name,
-                    no_curve(&source.path, &error, option),
+                    no_curve(source.path(), &error, option),
                 ));
             }
         }

@@ -2,7 +2,6 @@
 //! writes a table. If the table already exists, only its missing rows are computed.
 
 use super::advice::option;
-use super::curve_sources::{CurveSource, PlacedCurve, sources_of};
 use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
@@ -12,7 +11,7 @@ use asperity_data::{
     Control, Remedied, check_writable, counted, grouped, on_threads, path_name, printable,
     read_regular_text, write_new,
 };
-use asperity_experiment::{CurveOptions, Fit, Free, Parameter};
+use asperity_experiment::{CurveOptions, CurveSource, Fit, Free, Parameter, PlacedCurve};
 use asperity_report::{CurveRow, FitReport, FitsReport, Format, Report, scene_provenance, write};
 use asperity_scene::Document;
 use asperity_scene::library::open_argument;
@@ -104,7 +103,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
     let reading = curves.reading_for(&document);
-    let sources = sources_of(curves.paths, output.file(), &reading)?;
+    let sources = CurveSource::all(curves.paths, output.file(), &reading)
+        .map_err(|error| CliError::message(error.in_words(option)))?;
     // The number of threads and the tables of the curves have no influence on the rows. Therefore
     // the command in the table does not contain them, and the same table can be continued with
     // other values of these options.
@@ -215,7 +215,7 @@ impl Batch<'_> {
         sources: &[CurveSource],
         table: Option<&Path>,
     ) -> Result<Vec<CurveRow>, CliError> {
-        let names: Vec<String> = sources.iter().map(|source| source.name.clone()).collect();
+        let names: Vec<String> = sources.iter().map(CurveSource::name).collect();
         check_names(&names)?;
         let mut rows = table
             .map(|path| self.kept(path))
@@ -292,8 +292,10 @@ impl Batch<'_> {
         source: &CurveSource,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<CurveRow, CliError> {
-        let name = &source.name;
-        let PlacedCurve { curve, position } = match source.read(&self.reading) {
+        let name = &source.name();
+        let PlacedCurve {
+            curve, position, ..
+        } = match source.read(&self.reading) {
             Ok(placed) => placed,
             Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
         };

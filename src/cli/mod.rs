@@ -8,7 +8,6 @@ pub mod arguments;
 mod check;
 mod completions;
 mod cost;
-mod curve_sources;
 mod curve_tables;
 mod demo;
 mod ensemble;

@@ -53,6 +53,8 @@ pub fn row(remedy: &Remedy) -> String {
         Remedy::FigureAxes => "two axes of the study",
         Remedy::FixAxis(value) => return format!("{value} fixes one"),
         Remedy::OtherValue(path) => return format!("another value of {path}"),
+        Remedy::RoughnessField(name, None) => return format!("roughness.{name}"),
+        Remedy::RoughnessField(name, Some(value)) => return format!("roughness.{name}: {value}"),
         Remedy::FewerThreads => "fewer threads",
     };
     words.to_owned()

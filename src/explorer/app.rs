@@ -544,8 +544,8 @@ impl App {
 
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
-        for (_, point) in Mark::all(self.stages()) {
-            largest = largest.max(point.force.abs());
+        for marked in Mark::all(self.stages()) {
+            largest = largest.max(marked.point.force.abs());
         }
         if force.abs() < 1e-12 * largest {
             0.0

@@ -3,7 +3,7 @@
 
 use super::app::App;
 use super::request::Drive;
-use asperity_contact::Branch;
+use asperity_contact::{Branch, Move};
 use asperity_data::counted;
 use asperity_report::event;
 
@@ -20,9 +20,12 @@ pub fn caption(app: &App) -> Option<String> {
     let branches = Branch::all(stages);
     let mut branches = branches.iter();
     let branch = branches.find(|branch| branch.stages.contains(&index))?;
-    let has_motion = stages.get(index)?.curve.len() != 1;
-    if !has_motion {
+    let record = stages.get(index)?;
+    if record.curve.len() == 1 {
         return None;
+    }
+    if matches!(record.target, Move::Hold(_)) {
+        return Some("rest".to_owned());
     }
     event(stages, branch, snapshot.point).map(str::to_owned)
 }

@@ -11,8 +11,14 @@ use asperity_scene::workload::Reach;
 /// are dropped, and computed again when they are needed.
 const BYTES_KEPT: usize = 1 << 28;
 
+/// Reason why a body that relaxes cannot be moved by hand.
+pub const NEEDS_TIMES: &str = "a body that relaxes is not moved by hand, because its force depends \
+                               on the time: use stages and hold, or relaxation none";
+
 pub struct ManualBody {
     start: Body,
+    /// True if the foundation relaxes. The body then follows no stage.
+    relaxes: bool,
     reach: Reach,
     /// Largest memory in bytes for the bodies after earlier stages.
     bytes_kept: usize,
@@ -36,11 +42,20 @@ impl ManualBody {
     pub fn new(contact: &Contact, samples: usize) -> Self {
         ManualBody {
             start: Body::new(contact, samples),
+            relaxes: false,
             reach: Reach::of(contact),
             bytes_kept: BYTES_KEPT,
             records: Vec::new(),
             jumps: JumpCollector::default(),
             kept: Vec::new(),
+        }
+    }
+
+    /// Creates a body on a foundation that relaxes. It follows no stage.
+    pub fn relaxing(contact: &Contact, samples: usize) -> Self {
+        ManualBody {
+            relaxes: true,
+            ..ManualBody::new(contact, samples)
         }
     }
 
@@ -77,6 +92,9 @@ impl ManualBody {
         stages: &[Move],
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<String>, ContactError> {
+        if self.relaxes {
+            return Ok(Some(NEEDS_TIMES.to_owned()));
+        }
         let followed = self.records.iter().zip(stages);
         let same = followed
             .take_while(|(record, stage)| record.target == **stage)

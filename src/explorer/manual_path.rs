@@ -62,8 +62,10 @@ impl PathStart {
         let is_above_touch = stage == 0 && indentation <= 0.0;
         match at {
             At::Start => {}
-            At::Indentation(_) if is_above_touch => {}
-            At::Indentation(_) | At::PullOff => stages.push(Move::ToIndentation(indentation)),
+            At::Indentation(_) | At::Seconds(_) if is_above_touch => {}
+            At::Indentation(_) | At::Seconds(_) | At::PullOff => {
+                stages.push(Move::ToIndentation(indentation))
+            }
             At::End => stages.extend(loading.get(stage)),
         }
         stages
@@ -113,7 +115,9 @@ impl ManualPath {
                 kept += 1;
                 None
             }
-            At::Indentation(_) | At::PullOff => Some(Move::ToIndentation(indentation)),
+            At::Indentation(_) | At::Seconds(_) | At::PullOff => {
+                Some(Move::ToIndentation(indentation))
+            }
         };
         let mut moves: Vec<Move> = self.moves.iter().take(kept).copied().collect();
         moves.extend(last);

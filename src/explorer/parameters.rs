@@ -467,7 +467,9 @@ fn shown(field: &Field, written: &str) -> String {
 /// have rows of their own.
 fn shown_choice(field: &Field, written: &str) -> String {
     let name = written.split('(').next().unwrap_or(written).trim();
-    if name.is_empty() && matches!(field.path, "material" | "adhesion") {
+    let is_named_by_its_first =
+        matches!(field.path, "material" | "adhesion" | "material.relaxation");
+    if name.is_empty() && is_named_by_its_first {
         first_name(written).to_owned()
     } else {
         choice_in_words(name)
@@ -493,6 +495,7 @@ fn first_name(written: &str) -> &str {
         "kappa" => "by κ",
         "elastic_energy_ratio" => "by e_el/γ",
         "modulus" => "by E*",
+        "share" => "by share and time",
         "youngs_modulus" | "poisson_ratio" => "by E and ν",
         other => other,
     }

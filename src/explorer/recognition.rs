@@ -3,7 +3,7 @@
 //! it.
 
 use asperity_data::{Remedied, Remedy, Wording, path_name, printable};
-use asperity_experiment::{CurveOptions, ExperimentError, MeasuredCurve};
+use asperity_experiment::{CurveOptions, CurveSource, ExperimentError, MeasuredCurve};
 use asperity_scene::text::quoted;
 use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, SurfaceError, read};
@@ -20,9 +20,10 @@ impl MeasuredFile {
     /// Returns the kind of a measured file: a force curve or a surface. `None` if the file cannot
     /// be read as either of the two.
     pub fn of(path: &Path) -> Option<MeasuredFile> {
-        if !path.is_file() {
+        let file = CurveSource::file(path);
+        if !file.is_file() {
             None
-        } else if MeasuredCurve::is_in(path) {
+        } else if MeasuredCurve::is_in(&file) {
             Some(MeasuredFile::Curve)
         } else if is_surface(path) {
             Some(MeasuredFile::Surface)

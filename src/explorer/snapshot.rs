@@ -30,6 +30,9 @@ pub struct ContactSnapshot {
     /// Point of the force curve that the snapshot shows: indentation, force, number of springs in
     /// contact and number of contact patches.
     pub point: CurvePoint,
+    /// Time of the point in s since first touch; `None` without relaxation, because time then has
+    /// no effect.
+    pub seconds: Option<f64>,
     /// Half the distance between the outermost edges of the contact in m; zero if nothing is in
     /// contact.
     pub contact_radius: f64,

@@ -93,6 +93,8 @@ impl KeptStages {
 /// State of the contact for a snapshot.
 struct ShownState {
     drive: Drive,
+    /// Time in s since first touch; `None` without relaxation.
+    seconds: Option<f64>,
     stage: Stage,
     point: CurvePoint,
 }
@@ -214,9 +216,6 @@ impl Solver {
         solved: &SolvedScene,
         least_share: LeastShare,
     ) -> Option<Result<Events, String>> {
-        if solved.scene.material.relaxation.is_some() {
-            return Some(Err(ContactError::NotElastic.to_string()));
-        }
         let records = &solved.outcome.history.stages;
         let mut jumps = JumpCollector::default();
         for (record, motion) in records.iter().zip(&self.newest.stages) {
@@ -299,11 +298,11 @@ impl Solver {
         let Some(motion) = self.newest.stages.iter().flatten().next() else {
             return Ok(());
         };
-        if solved.scene.material.relaxation.is_some() {
-            return Err(ContactError::NotElastic);
-        }
         let samples = solved.scene.numerics.samples as usize;
-        let body = ManualBody::new(motion.contact(), samples);
+        let body = match solved.scene.material.relaxation {
+            Some(_) => ManualBody::relaxing(motion.contact(), samples),
+            None => ManualBody::new(motion.contact(), samples),
+        };
         self.continue_path(body, &solved, path)
     }
 
@@ -344,6 +343,7 @@ impl Solver {
         };
         let ShownState {
             drive,
+            seconds,
             stage: motion,
             point,
         } = state;
@@ -372,6 +372,7 @@ impl Solver {
             line,
             focus: request.focus,
             point,
+            seconds,
             contact_radius: motion.contact().contact_radius(&patches, point),
             profile: contact.section(part, &mut newest.profile),
             close_up,
@@ -394,14 +395,10 @@ impl Solver {
         let records = &solved.outcome.history.stages;
         let player = position(records, number, at);
         let motion = self.stage(player.stage)?;
-        let point = if solved.scene.material.relaxation.is_some() {
-            recorded_point(&player, records)
-        } else {
-            point_at(&player, records, &motion)
-        };
         Some(ShownState {
             drive: Drive::Stage(player.stage),
-            point: point?,
+            seconds: player.seconds(records),
+            point: point_at(&player, records, &motion)?,
             stage: motion,
         })
     }
@@ -410,6 +407,7 @@ impl Solver {
         let body = &self.newest.manual.as_ref()?.body;
         Some(ShownState {
             drive: Drive::Manual,
+            seconds: None,
             stage: body.stage(),
             point: body.point(),
         })
@@ -426,6 +424,7 @@ impl Solver {
         let motion = body.stage_of(player.stage).ok()?;
         Some(ShownState {
             drive: Drive::Path(player.stage),
+            seconds: None,
             point: point_at(&player, &followed.stages, &motion)?,
             stage: motion,
         })
@@ -499,20 +498,29 @@ fn position(records: &[StageRecord], number: usize, at: At) -> Player {
     player.within(records)
 }
 
-/// Returns the recorded point of the force curve at a position of an animation. On a body that
-/// relaxes the force also depends on the time, so it follows from the curve that was computed.
-fn recorded_point(player: &Player, records: &[StageRecord]) -> Option<CurvePoint> {
-    let record = records.get(player.stage)?;
-    if player.at == At::End {
-        return record.curve.last().copied();
-    }
-    record.recorded_at(player.indentation(records))
-}
-
 /// Returns the point of the force curve at a position of an animation. `stage` is the motion in the
-/// stage of this position.
+/// stage of this position. On a body that relaxes the force also depends on the time, so the point
+/// is interpolated between those of the recorded curve.
 fn point_at(player: &Player, records: &[StageRecord], motion: &Stage) -> Option<CurvePoint> {
     let record = records.get(player.stage);
+    if let (Some(record), Some(seconds)) = (record, player.seconds(records)) {
+        if seconds < 0.0 {
+            // Above first touch.
+            return Some(CurvePoint {
+                indentation: player.indentation(records),
+                ..CurvePoint::default()
+            });
+        }
+        let mut point = record.at_time(seconds)?;
+        // The springs in contact are those that the panes show.
+        let patches = motion.patches(point.indentation);
+        if player.at != At::End || !is_separated(Some(record)) {
+            point.patches = patches.len() as u64;
+            let springs = patches.iter().map(|patch| patch.springs().len() as u64);
+            point.springs = springs.sum();
+        }
+        return Some(point);
+    }
     // After a separation nothing is in contact, although the animation still shows the indentation
     // of the last contact. Therefore the end of the curve, and not the indentation, gives the
     // point.

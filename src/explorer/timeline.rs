@@ -1,7 +1,7 @@
 //! The timeline of a loading: which columns each loading stage takes, where the events and the
 //! playhead (the position of the animation) are, and how high the tick of each jump is.
 
-use super::player::{At, Player, start_of};
+use super::player::{At, Course, Player};
 use asperity_contact::{Direction, Event, StageRecord};
 use asperity_data::format_rounded;
 use std::ops::Range;
@@ -9,21 +9,14 @@ use std::ops::Range;
 /// Smallest number of columns of a loading stage that moves the body, if there is room.
 const LEAST_COLUMNS: usize = 6;
 
-/// Loading stages along the columns of a line. All stages that move the body have one scale: the
-/// same way |Δd| takes the same number of columns, unless a stage would be too short to be seen.
+/// Loading stages along the columns of a line. All stages have one scale: the same way |Δd|, or the
+/// same time if the body relaxes, takes the same number of columns, unless a stage would be too
+/// short to be seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timeline {
     /// Columns of each loading stage. If there are more stages than columns, some are empty.
     pub stages: Vec<Range<usize>>,
-    ways: Vec<Way>,
-}
-
-/// Indentations in m at which a loading stage begins and ends. The first stage begins a little
-/// above first touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Way {
-    start: f64,
-    end: f64,
+    courses: Vec<Course>,
 }
 
 /// Height and direction of the tick in a column.
@@ -39,17 +32,16 @@ pub struct Tick {
 impl Timeline {
     /// Distributes the loading stages over a number of columns.
     pub fn new(records: &[StageRecord], columns: usize) -> Self {
-        let mut ways = Vec::new();
-        for (number, record) in records.iter().enumerate() {
-            ways.push(Way {
-                start: start_of(records, number),
-                end: record.end(),
-            });
+        let mut courses = Vec::new();
+        let mut lengths = Vec::new();
+        for number in 0..records.len() {
+            let course = Course::new(records, number);
+            lengths.push((course.end - course.start).abs());
+            courses.push(course);
         }
-        let lengths: Vec<f64> = ways.iter().map(|way| (way.end - way.start).abs()).collect();
         Timeline {
             stages: distributed(&lengths, columns),
-            ways,
+            courses,
         }
     }
 
@@ -83,12 +75,13 @@ impl Timeline {
 
     /// Returns the column of an event.
     pub fn column_of(&self, event: &Event) -> Option<usize> {
-        let way = self.ways.get(event.stage)?;
-        let length = way.end - way.start;
+        let course = self.courses.get(event.stage)?;
+        let place = event.seconds.unwrap_or(event.indentation);
+        let length = course.end - course.start;
         let share = if length == 0.0 {
             1.0
         } else {
-            (event.indentation - way.start) / length
+            (place - course.start) / length
         };
         self.column(event.stage, share)
     }
@@ -160,7 +153,6 @@ pub fn position_of(records: &[StageRecord], event: &Event) -> Player {
         .is_some_and(|record| record.direction == Direction::Unloading);
     let end = records.get(event.stage).map(StageRecord::end);
     let at = match event.jump {
-        None if event.instrument_loss.is_some() => At::End,
         Some(_) if is_unloading => {
             let after = event.indentation.next_down();
             if end.is_some_and(|end| after < end) {
@@ -169,7 +161,10 @@ pub fn position_of(records: &[StageRecord], event: &Event) -> Player {
                 At::Indentation(after)
             }
         }
-        _ => At::Indentation(event.indentation),
+        _ => match event.seconds {
+            Some(seconds) => At::Seconds(seconds),
+            None => At::Indentation(event.indentation),
+        },
     };
     Player {
         stage: event.stage,
@@ -191,10 +186,10 @@ fn has_passed(records: &[StageRecord], event: &Event, player: Player) -> bool {
     match player.at {
         At::Start => return false,
         At::End => return true,
-        At::Indentation(_) | At::PullOff => {}
+        At::Indentation(_) | At::Seconds(_) | At::PullOff => {}
     }
-    if event.instrument_loss.is_some() {
-        return false;
+    if let (Some(seconds), Some(shown)) = (event.seconds, player.seconds(records)) {
+        return seconds <= shown;
     }
     let indentation = player.indentation(records);
     let is_unloading = records
@@ -223,7 +218,7 @@ pub fn previous(records: &[StageRecord], events: &[Event], player: Player) -> Op
     let before = passed(records, events, player).checked_sub(1)?;
     let shown = position_of(records, &events[before]);
     let is_shown = shown.stage == player.stage
-        && (shown.at == player.at || shown.indentation(records) == player.indentation(records));
+        && (shown.at == player.at || shown.place(records) == player.place(records));
     if is_shown {
         before.checked_sub(1)
     } else {
@@ -265,7 +260,7 @@ mod tests {
         for ways in [&[1.0][..], &[1.0, 2.0], &[1.0, 0.0, 3.0], &[1.0; 9]] {
             let timeline = Timeline {
                 stages: distributed(ways, 60),
-                ways: Vec::new(),
+                courses: Vec::new(),
             };
             let last = timeline.stages.last().unwrap().end;
             for column in 0..last {

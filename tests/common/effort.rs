@@ -1,5 +1,4 @@
-//! Number of random cases in a test: few by default, four times as many in the slow tests of
-//! `.ci/run`.
+//! Number of random cases in a test: an eighth of them by default, and all with `TEST_EFFORT=8`.
 
 /// Cases of a test: `quick`, times `TEST_EFFORT` from the environment.
 pub fn cases(quick: u32) -> u32 {

@@ -56,6 +56,19 @@ pub fn smooth() -> Document {
     based_on_rough("smooth-sphere", &fields)
 }
 
+/// A rough line whose springs relax while the instrument rests.
+pub fn relaxing() -> Document {
+    let fields = [
+        (
+            "material",
+            "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
+        ),
+        ("loading_speed", "1.0e-6"),
+        ("loading", "[ToForce(2.0e-5), Hold(2.0), ToSeparation]"),
+    ];
+    based_on_rough("relaxing", &fields)
+}
+
 /// A rough line without adhesion.
 pub fn without_adhesion() -> Document {
     based_on_rough("without-adhesion", &[("adhesion", "None")])

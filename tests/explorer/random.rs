@@ -3,7 +3,9 @@
 
 use super::common::driver::{Driver, REFUSED};
 use super::common::effort::cases;
-use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use super::common::scenes::{
+    changed, one_spring, punch, relaxing, rough, smooth, without_adhesion,
+};
 use super::common::study::{PLAN, merged};
 use asperity::explorer::action::{Action, Gesture, Mouse, Task};
 use asperity::explorer::keys::bindings::KeyCommand;
@@ -79,7 +81,8 @@ fn mouse() -> impl Strategy<Value = Mouse> {
 
 fn value() -> impl Strategy<Value = String> {
     const VALUES: &str = "0;1;-1;2;64;1e-7;1e400;NaN;inf;50m;2.5 MPa;10 µm;None;();;(work: 0.05);(kappa: 3.0);\
-        Punch(radius: 1.0e-5);Cone(angle: 0.1);Stepwise(step: 1.0e-9);(modulus: 2.0e6);(1, 8);(9, 2);[];[ToTouch];\
+        Punch(radius: 1.0e-5);Cone(angle: 0.1);Stepwise(step: 1.0e-9);(modulus: 2.0e6);\
+        (modulus: 2.0e6, relaxation: (share: 0.9, time: 0.1));[ToForce(1.0e-5), Hold(1.0), ToSeparation];(1, 8);(9, 2);[];[ToTouch];\
         [ToForce(1.0e-5), ToForce(-1.0)];[ToIndentation(-1.0e-7)];10 µN, 0 N, separation;\
         [ToTouch, ToForce(1.0e-5), ToZeroForce, ToSeparation, ToTouch];Measured(file: \"nowhere.csv\");[;\";1 /*;𝟙;\
         18446744073709551616";
@@ -127,6 +130,21 @@ pub fn scenes(study: &Path) -> Vec<Opening> {
             .unwrap(),
         changed(&smooth(), &few),
         changed(&punch(), &few),
+        changed(
+            &relaxing(),
+            &[("roughness.modes", "(2, 16)"), few[0], few[1]],
+        ),
+        changed(
+            &relaxing(),
+            &[
+                ("roughness", "None"),
+                ("form", "Paraboloid(radius: 1.0e-4)"),
+                ("adhesion", "(work: 0.05)"),
+                ("loading_stiffness", "20.0"),
+                few[0],
+                few[1],
+            ],
+        ),
         changed(
             &without_adhesion(),
             &[("roughness.modes", "(2, 16)"), few[0], few[1]],

@@ -38,7 +38,9 @@ mod typing;
 
 use super::common;
 use super::common::driver::{APPEARANCE, Driver, REFUSED};
-use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use super::common::scenes::{
+    changed, one_spring, punch, relaxing, rough, smooth, without_adhesion,
+};
 use asperity::data::format_quantity;
 use asperity::explorer::action::{Action, Gesture, Task};
 use asperity::explorer::app::{App, Message};

@@ -2,7 +2,9 @@
 //! shown, and a snapshot of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
-use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use super::common::scenes::{
+    changed, one_spring, punch, relaxing, rough, smooth, without_adhesion,
+};
 use asperity::contact::{ContactError, CurvePoint, Move, Patch};
 use asperity::explorer::events::LeastShare;
 use asperity::explorer::manual_path::{ManualPath, PathStart};
@@ -80,9 +82,13 @@ impl Served {
         indentation: f64,
         snapshot: SnapshotRequest,
     ) -> Arc<ContactSnapshot> {
+        self.shown_at(stage, At::Indentation(indentation), snapshot)
+    }
+
+    fn shown_at(&self, stage: usize, at: At, snapshot: SnapshotRequest) -> Arc<ContactSnapshot> {
         let snapshot = SnapshotRequest {
             drive: Drive::Stage(stage),
-            at: At::Indentation(indentation),
+            at,
             ..snapshot
         };
         self.thread.ask(Request {
@@ -336,16 +342,7 @@ fn some(curve: &[CurvePoint]) -> impl Iterator<Item = &CurvePoint> {
 #[test]
 fn a_moment_at_a_sample_is_the_sample() {
     within(60, || {
-        let relaxing = [
-            (
-                "material",
-                "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
-            ),
-            ("loading_speed", "1.0e-6"),
-            ("loading", "[ToForce(1.0e-4), Hold(2.0), ToSeparation]"),
-        ];
-        let relaxing = ("relaxing", changed(&smooth(), &relaxing));
-        for (name, document) in scenes().into_iter().chain([relaxing]) {
+        for (name, document) in scenes() {
             let served = Served::start();
             let computed = served.computed(1, &document);
             for (stage, record) in computed.outcome.history.stages.iter().enumerate() {
@@ -367,6 +364,57 @@ fn a_moment_at_a_sample_is_the_sample() {
                     );
                 }
             }
+        }
+    });
+}
+
+/// On a body that relaxes the shown state follows the time, also while the body rests, and the
+/// springs that the panes count are those that they draw.
+#[test]
+fn a_moment_of_a_relaxing_body_is_the_sample_at_its_time() {
+    within(60, || {
+        let smooth = changed(
+            &smooth(),
+            &[
+                (
+                    "material",
+                    "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
+                ),
+                ("loading_speed", "1.0e-6"),
+                ("loading", "[ToForce(1.0e-4), Hold(2.0), ToSeparation]"),
+            ],
+        );
+        let with_instrument = changed(&relaxing(), &[("loading_stiffness", "20.0")]);
+        for document in [smooth, relaxing(), with_instrument] {
+            let served = Served::start();
+            let computed = served.computed(1, &document);
+            let mut rest_has_changed = false;
+            for (stage, record) in computed.outcome.history.stages.iter().enumerate() {
+                for (index, sample) in record.curve.iter().enumerate().step_by(7) {
+                    let seconds = record.seconds[index];
+                    let snapshot = served.shown_at(stage, At::Seconds(seconds), SNAPSHOT);
+                    let shown = snapshot.point;
+                    // At a jump two samples have one time.
+                    let first = record.seconds.partition_point(|&time| time < seconds);
+                    let end = record.seconds.partition_point(|&time| time <= seconds);
+                    let scale = record.largest.force.abs().max(record.smallest.force.abs());
+                    assert!(
+                        record.curve[first..end]
+                            .iter()
+                            .any(|same| (same.force - shown.force).abs() <= 1e-9 * scale),
+                        "stage {stage}, {seconds} s: {shown:?}, not {sample:?}"
+                    );
+                    let drawn: usize = snapshot
+                        .springs
+                        .patches
+                        .iter()
+                        .map(|patch| patch.springs().len())
+                        .sum();
+                    assert_eq!(shown.springs, drawn as u64, "stage {stage}, {seconds} s");
+                    rest_has_changed |= stage == 1 && shown.force != record.curve[0].force;
+                }
+            }
+            assert!(rest_has_changed);
         }
     });
 }

@@ -309,6 +309,8 @@ fn pictures_are_those_of_their_commands() {
         "five-springs.txt",
         "turned-at-first-touch.ron",
         "turned-at-zero-force.ron",
+        "soft-pad.ron",
+        "dwell-and-speed.ron",
     ] {
         let file = format!("docs/examples/{file}");
         std::fs::write(folder.path().join(&file), read(&file)).unwrap();
@@ -320,6 +322,10 @@ fn pictures_are_those_of_their_commands() {
     let of_particles = |scene, file| {
         format!("asperity run {scene} --set numerics.samples=64 -o docs/particles/{file}.csv")
     };
+    let sweep = "asperity sweep docs/examples/dwell-and-speed.ron -o time";
+    assert!(read("docs/learn.md").contains(sweep));
+    succeeded(folder.path(), sweep);
+    let time = "asperity sweep plot time --quantity pull_off_force -o docs/learn/time.svg";
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
@@ -330,6 +336,7 @@ fn pictures_are_those_of_their_commands() {
             "asperity run pressure-sensitive -o docs/learn/rough.svg",
         ),
         ("docs/learn.md", protocols),
+        ("docs/learn.md", time),
         (
             "README.md",
             "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg",

@@ -71,6 +71,30 @@ fn a_text_with_a_map_gives_rows_tables_and_a_figure() {
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     let work = json["parameters"]["work"]["value"].as_f64().unwrap();
     assert!((number(last, "work") / work - 1.0).abs() < 1e-12);
+    // A single curve of the map, by its name in the rows.
+    let second = fit(folder, "map.txt#2", "--format json");
+    let second: serde_json::Value = serde_json::from_slice(&second.stdout).unwrap();
+    let found = second["parameters"]["work"]["value"].as_f64().unwrap();
+    assert!((found / work - 1.0).abs() < 1e-12);
+    for (name, words) in [
+        (
+            "map.txt#5",
+            "no curve 5; allowed: one of them, map.txt#1 to map.txt#4",
+        ),
+        ("map.txt#0", "no curve 0"),
+        (
+            "one.csv#2",
+            "no curve 2; allowed: 1, the only curve of the file",
+        ),
+        ("none.csv#1", "none.csv"),
+    ] {
+        let refused = fit(folder, name, "");
+        let message = String::from_utf8_lossy(&refused.stderr);
+        assert!(
+            !refused.status.success() && message.contains(words),
+            "{message}"
+        );
+    }
     let mut tables: Vec<String> = fs::read_dir(folder.join("models"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())

@@ -151,7 +151,11 @@ fn assert_plan(plan: &Value, run: &Value, scene: &str) {
         ("unloading-pass", work("unloading_passes") > Some(0)),
         // A smooth body has no local maximum of the gap, and so no node.
         ("tree", work("loading_passes") > Some(0)),
-        ("relaxation", work("steps") > Some(0)),
+        ("equilibrium", work("equilibrium_sweeps") > Some(0)),
+        (
+            "relaxation",
+            work("steps") > Some(0) && work("equilibrium_sweeps") == Some(0),
+        ),
         ("height-histogram", !run["histogram"].is_null()),
         ("patches", !run["patches_at_stage_ends"].is_null()),
     ] {

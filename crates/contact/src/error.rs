@@ -85,10 +85,10 @@ pub enum ContactError {
         "with relaxation the surface that has detached has not recovered; allowed: one approach and one unloading, or no relaxation"
     )]
     NotRecovered,
-    /// Many turning points of one loading, the list of jumps and motions by hand exist for an elastic
-    /// foundation only, without [relaxation](crate::Relaxation).
+    /// Many turning points of one loading and motions by hand exist for an elastic foundation
+    /// only, without [relaxation](crate::Relaxation).
     #[error(
-        "reversals, jumps and motions by hand need an elastic foundation; allowed: no relaxation, or one loading for each turning point"
+        "reversals and motions by hand need an elastic foundation; allowed: no relaxation, or one loading for each turning point"
     )]
     NotElastic,
     /// No finite indentation on this foundation has the target force.

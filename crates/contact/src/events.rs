@@ -5,6 +5,7 @@ use super::error::ContactError;
 use super::figures::{Mark, MarkedPoint};
 use super::history::{Direction, StageRecord};
 use super::motion::Stage;
+use super::stage::forces::InstrumentJump;
 use super::stage::jumps::Jump;
 use std::cmp::Ordering;
 
@@ -45,6 +46,11 @@ pub struct JumpCollector {
 struct JumpsOfStage {
     stage: Stage,
     jumps: Vec<Jump>,
+    /// Jumps of the instrument.
+    instrument: Vec<InstrumentJump>,
+    /// Extreme compression in m of contact and instrument together on the motions in this
+    /// direction, up to the end of the stage; `None` if no instrument jumps.
+    extreme: Option<f64>,
 }
 
 /// The events of a loading, as [`JumpCollector::events`] chooses them.
@@ -63,8 +69,8 @@ pub struct Events {
     pub released: f64,
 }
 
-/// Event of a loading: a jump of the contact, a marked point of the force curve, or both, or the
-/// jumps of the instrument in a stage.
+/// Event of a loading: a jump of the contact, a marked point of the force curve, or both, or a jump
+/// of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Event {
@@ -72,6 +78,9 @@ pub struct Event {
     pub stage: usize,
     /// Indentation in m.
     pub indentation: f64,
+    /// Time in s since first touch; `None` without [relaxation](crate::Relaxation), because time
+    /// then has no effect.
+    pub seconds: Option<f64>,
     /// Force of the whole contact in N before and after the event. Both are equal unless the
     /// contact jumps.
     pub forces: [f64; 2],
@@ -79,10 +88,10 @@ pub struct Event {
     pub mark: Option<Mark>,
     /// Jump of the contact.
     pub jump: Option<Jump>,
-    /// Energy in J that a compliant instrument and the body lose in all jumps of the instrument in
-    /// this stage ([`StageRecord::jump_energy`]). Such an event is at the end of the stage, and has
-    /// neither mark nor jump.
-    pub instrument_loss: Option<f64>,
+    /// Jump of a compliant instrument, which begins at this indentation. Such an event has neither
+    /// mark nor jump of the contact. The energies of all jumps of a stage add up to
+    /// [`StageRecord::jump_energy`].
+    pub instrument: Option<InstrumentJump>,
 }
 
 impl Event {
@@ -90,28 +99,52 @@ impl Event {
         Event {
             stage,
             indentation,
+            seconds: None,
             forces,
             mark: None,
             jump: None,
-            instrument_loss: None,
+            instrument: None,
         }
     }
 }
 
 impl JumpCollector {
-    /// Adds the jumps of a stage that has just been computed.
+    /// Adds the jumps of a stage that has just been computed. The jumps of a foundation that
+    /// [relaxes](crate::Relaxation) are not known one by one, so it has none here, and its events
+    /// are its marks.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the stage was computed by the [stepwise
-    /// solver](crate::motion::Stepwise), or if the foundation relaxes.
+    /// solver](crate::motion::Stepwise).
     pub fn observe(&mut self, record: &StageRecord, motion: &Stage) -> Result<(), ContactError> {
-        let [low, high] = record.passed();
-        let jumps = motion.jumps(low, high)?;
+        let jumps = if record.times().is_some() {
+            Vec::new()
+        } else {
+            let [low, high] = record.passed();
+            motion.jumps(low, high)?
+        };
+        let mut extreme = self.extreme_before(record);
+        let instrument = if record.jump_energy == 0.0 && extreme.is_none() {
+            Vec::new()
+        } else {
+            motion.instrument_jumps(record, &mut extreme)?
+        };
         self.stages.push(JumpsOfStage {
             stage: motion.clone(),
             jumps,
+            instrument,
+            extreme,
         });
         Ok(())
+    }
+
+    /// Returns the extreme compression that contact and instrument have reached before a motion in
+    /// the same direction; `None` if the direction is new or the body touches.
+    fn extreme_before(&self, record: &StageRecord) -> Option<f64> {
+        let last = self.stages.last()?;
+        let touches = record.curve.first().is_some_and(|point| point.springs == 0);
+        let is_same = last.stage.direction() == record.direction;
+        last.extreme.filter(|_| is_same && !touches)
     }
 
     /// Forgets the stages after the first `count` ones, for a body that returns to an earlier
@@ -151,7 +184,7 @@ impl JumpCollector {
             events.released -= jump.energy.min(0.0);
         }
         let least = self.least_energy(least_share, most);
-        let marks = Mark::in_stages(records);
+        let marks = Mark::all(records);
         let range = NEAR * range_of(records);
         for (stage, record) in records.iter().enumerate() {
             let mut of_stage = self.listed_jumps(stage, least)?;
@@ -161,14 +194,14 @@ impl JumpCollector {
             }
             events.listed_jumps += of_stage.len();
             for marked in marks.iter().filter(|marked| marked.stage == stage) {
-                add_mark(&mut of_stage, marked, record.direction, range);
+                add_mark(&mut of_stage, marked, record, range);
             }
-            if record.jump_energy != 0.0 {
-                let force = record.curve.last().map_or(0.0, |point| point.force);
-                of_stage.push(Event {
-                    instrument_loss: Some(record.jump_energy),
-                    ..Event::new(stage, record.end(), [force; 2])
+            let of_instrument = self.listed_instrument_jumps(stage, least_share, most);
+            for event in of_instrument {
+                let place = of_stage.partition_point(|other| {
+                    is_before(other.indentation, event.indentation, record.direction)
                 });
+                of_stage.insert(place, event);
             }
             events.list.extend(of_stage);
         }
@@ -192,11 +225,35 @@ impl JumpCollector {
         least
     }
 
+    /// Returns the jumps of the instrument in a stage with at least `least_share` of the largest
+    /// energy of all such jumps, and at most the `most` first of them.
+    fn listed_instrument_jumps(&self, stage: usize, least_share: f64, most: usize) -> Vec<Event> {
+        let jumps = self.stages.iter().flat_map(|stage| &stage.instrument);
+        let largest = jumps.fold(0.0, |largest, jump| jump.energy.max(largest));
+        let mut events = Vec::new();
+        let Some(of_stage) = self.stages.get(stage) else {
+            return events;
+        };
+        for jump in &of_stage.instrument {
+            if jump.energy < least_share * largest || events.len() == most {
+                continue;
+            }
+            let stiffness = of_stage.stage.contact().loading_stiffness;
+            let forces = [jump.from, jump.to].map(|end| stiffness * (jump.displacement - end));
+            events.push(Event {
+                instrument: Some(*jump),
+                ..Event::new(stage, jump.from, forces)
+            });
+        }
+        events
+    }
+
     /// Returns the jumps of a stage with at least the energy `least` in J.
     fn listed_jumps(&self, stage: usize, least: f64) -> Result<Vec<Event>, ContactError> {
         let Some(JumpsOfStage {
             stage: motion,
             jumps,
+            ..
         }) = self.stages.get(stage)
         else {
             return Ok(Vec::new());
@@ -225,19 +282,22 @@ fn range_of(records: &[StageRecord]) -> f64 {
     (high - low).max(0.0)
 }
 
+/// Returns true if a motion in this direction passes one indentation before another one.
+fn is_before(indentation: f64, other: f64, direction: Direction) -> bool {
+    let order = indentation.total_cmp(&other);
+    match direction {
+        Direction::Loading => order == Ordering::Less,
+        Direction::Unloading => order == Ordering::Greater,
+    }
+}
+
 /// Adds a mark to the events of its stage, which are in the order of the motion. The mark is added
 /// to a jump that follows it within the indentation `near` in m; otherwise it becomes an event of
 /// its own.
-fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, direction: Direction, near: f64) {
+fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, record: &StageRecord, near: f64) {
     let point = marked.point;
-    let is_before = |event: &Event| {
-        let order = event.indentation.total_cmp(&point.indentation);
-        match direction {
-            Direction::Loading => order == Ordering::Less,
-            Direction::Unloading => order == Ordering::Greater,
-        }
-    };
-    let place = events.partition_point(is_before);
+    let place = events
+        .partition_point(|event| is_before(event.indentation, point.indentation, record.direction));
     if let Some(next) = events.get_mut(place)
         && next.mark.is_none()
         && (next.indentation - point.indentation).abs() <= near
@@ -247,6 +307,7 @@ fn add_mark(events: &mut Vec<Event>, marked: &MarkedPoint, direction: Direction,
     }
     let event = Event {
         mark: Some(marked.mark),
+        seconds: marked.seconds,
         ..Event::new(marked.stage, point.indentation, [point.force; 2])
     };
     events.insert(place, event);

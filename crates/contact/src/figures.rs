@@ -142,7 +142,7 @@ impl Preload {
 /// #     .work_of_adhesion(0.05)
 /// #     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
-/// let found = Mark::all(cycle.stages()).into_iter().map(|(mark, _)| mark);
+/// let found = Mark::all(cycle.stages()).into_iter().map(|marked| marked.mark);
 /// assert!(found.eq([Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]));
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
@@ -163,18 +163,16 @@ pub enum Mark {
 
 impl Mark {
     /// Finds the special points of a force curve. Returns each mark with its point, in the order of
-    /// the variants of [`Mark`]. `stages` are the records of all loading stages.
-    pub fn all(records: &[StageRecord]) -> Vec<(Mark, CurvePoint)> {
-        let marked = Mark::in_stages(records).into_iter();
-        marked.map(|marked| (marked.mark, marked.point)).collect()
-    }
-
-    /// Finds the points of a force curve that have a mark, as [`Mark::all`] does, each with its
-    /// stage.
-    pub(super) fn in_stages(records: &[StageRecord]) -> Vec<MarkedPoint> {
+    /// the variants of [`Mark`]. `records` are the records of all loading stages.
+    pub fn all(records: &[StageRecord]) -> Vec<MarkedPoint> {
         let mut marks = Vec::new();
         let mut add = |mark: Mark, stage: usize, point: CurvePoint| {
-            marks.push(MarkedPoint { mark, stage, point });
+            marks.push(MarkedPoint {
+                mark,
+                stage,
+                seconds: records[stage].time_of(&point),
+                point,
+            });
         };
         if let Some((stage, point)) = first_jump_into_contact(records)
             && point.force < 0.0
@@ -212,11 +210,18 @@ impl Mark {
 }
 
 /// Point of a force curve with its mark.
-pub(super) struct MarkedPoint {
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MarkedPoint {
+    /// Kind of the point.
     pub mark: Mark,
     /// Index of the stage of the point.
     pub stage: usize,
+    /// Indentation, force and contact.
     pub point: CurvePoint,
+    /// Time of the point in s since first touch; `None` without
+    /// [relaxation](crate::Relaxation), because time then has no effect.
+    pub seconds: Option<f64>,
 }
 
 /// Returns the first point in contact after the first jump of a history into contact, and the index
@@ -406,10 +411,14 @@ mod tests {
             (Mark::PullOff, down[1]),
             (Mark::JumpOut, down[2]),
         ];
-        assert_eq!(Mark::all(&records), expected);
+        let marks = |records: &[StageRecord]| -> Vec<(Mark, CurvePoint)> {
+            let marked = Mark::all(records).into_iter();
+            marked.map(|marked| (marked.mark, marked.point)).collect()
+        };
+        assert_eq!(marks(&records), expected);
         records[1].curve.remove(2);
         assert_eq!(
-            Mark::all(&records),
+            marks(&records),
             expected[..3],
             "the contact is lost at pull-off"
         );

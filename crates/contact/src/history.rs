@@ -2,6 +2,7 @@
 //! counts of computing work, and the plan of a motion to a target.
 
 use super::error::{ContactError, LARGEST, check};
+use super::relaxation::law::Relaxation;
 use super::target::Move;
 #[cfg(feature = "serde")]
 use serde::Serialize;
@@ -88,21 +89,46 @@ impl StageRecord {
     /// points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
-    /// Returns the point at an indentation in m, by interpolation between the points of the curve.
-    /// Returns the nearer end of the curve for an indentation beyond it, and `None` for a curve
-    /// without points.
-    pub fn recorded_at(&self, indentation: f64) -> Option<CurvePoint> {
-        let spans = |pair: &&[CurvePoint]| {
-            let [from, to] = [pair[0].indentation, pair[1].indentation];
-            from.min(to) <= indentation && indentation <= from.max(to)
+    /// Returns the times in s since first touch at which the motion begins and ends; `None` without
+    /// [relaxation](crate::Relaxation), because time then has no effect.
+    pub fn times(&self) -> Option<[f64; 2]> {
+        Some([*self.seconds.first()?, *self.seconds.last()?])
+    }
+
+    /// Returns the point at a time in s since first touch, by interpolation between the points of
+    /// the curve. Returns the nearer end of the curve for a time before or after the motion, and
+    /// `None` for a motion without times.
+    pub fn at_time(&self, seconds: f64) -> Option<CurvePoint> {
+        self.times()?;
+        let after = self.seconds.partition_point(|&time| time < seconds);
+        let Some(before) = after.checked_sub(1) else {
+            return self.curve.first().copied();
         };
-        if let Some(pair) = self.curve.windows(2).find(spans) {
-            return Some(pair[0].between(&pair[1], indentation));
-        }
-        let distance = |point: &CurvePoint| (point.indentation - indentation).abs();
-        let ends = [self.curve.first()?, self.curve.last()?];
-        let [first, last] = ends.map(|end| (distance(end), end));
-        Some(if last.0 < first.0 { *last.1 } else { *first.1 })
+        let Some(to) = self.curve.get(after) else {
+            return self.curve.last().copied();
+        };
+        let [start, end] = [self.seconds[before], self.seconds[after]];
+        let share = (seconds - start) / (end - start);
+        Some(self.curve[before].towards(to, share))
+    }
+
+    /// Returns the time in s since first touch at which the motion passes a point of its curve;
+    /// `None` for a motion without times. Of several points at the same indentation, it is the one
+    /// with the nearest force.
+    pub fn time_of(&self, point: &CurvePoint) -> Option<f64> {
+        let distance = |recorded: &CurvePoint| {
+            let way = (recorded.indentation - point.indentation).abs();
+            let force = (recorded.force - point.force).abs();
+            [way, force]
+        };
+        let timed = self.curve.iter().zip(&self.seconds);
+        let nearest = timed.min_by(|(one, _), (other, _)| {
+            let [way, force] = distance(one);
+            let [other_way, other_force] = distance(other);
+            way.total_cmp(&other_way)
+                .then(force.total_cmp(&other_force))
+        });
+        nearest.map(|(_, &seconds)| seconds)
     }
 
     /// Creates the record of a motion in which the body stays in place.
@@ -287,6 +313,19 @@ pub struct History {
     pub work: Work,
 }
 
+impl History {
+    /// Returns the deviation of the force in N that the steps of a relaxing body may have. Returns
+    /// `None` without [`Relaxation`], where there are no steps in time.
+    pub fn step_error(&self) -> Option<f64> {
+        let mut largest = None;
+        for stage in self.stages.iter().filter(|stage| !stage.seconds.is_empty()) {
+            let force = stage.largest.force.abs().max(stage.smallest.force.abs());
+            largest = Some(force.max(largest.unwrap_or(0.0)));
+        }
+        largest.map(|force| Relaxation::STEP_ERROR * force)
+    }
+}
+
 /// Counts of computing work. Examples are how often the rule of Hess was evaluated, and how often
 /// the solver passed over the [contact tree](crate::motion::ContactTree). Unlike computing times,
 /// the counts are the same on every machine.
@@ -341,8 +380,8 @@ pub struct Work {
     pub detached: u64,
     /// Number of small steps of the indentation by the [stepwise solver](crate::motion::Stepwise).
     pub steps: u64,
-    /// Number of times that the stepwise solver swept over all springs to relax to equilibrium.
-    pub relaxation_sweeps: u64,
+    /// Number of times that the stepwise solver swept over all springs to find equilibrium.
+    pub equilibrium_sweeps: u64,
     /// Number of springs that the stepwise solver visited. A spring counts again at each visit.
     pub spring_updates: u64,
     /// Number of heights of the profile that were sorted into the bins of a histogram.
@@ -421,11 +460,19 @@ impl CurvePoint {
         if way == 0.0 {
             return *other;
         }
-        let share = (indentation - self.indentation) / way;
+        CurvePoint {
+            indentation,
+            ..self.towards(other, (indentation - self.indentation) / way)
+        }
+    }
+
+    /// Returns the point at a share from 0 to 1 of the way from this point to `other`, by
+    /// interpolation. The numbers of springs and patches are those of the nearer point.
+    fn towards(&self, other: &CurvePoint, share: f64) -> Self {
         let between = |from: f64, to: f64| from + share * (to - from);
         let nearest = if share < 0.5 { self } else { other };
         CurvePoint {
-            indentation,
+            indentation: between(self.indentation, other.indentation),
             force: between(self.force, other.force),
             contact_length: between(self.contact_length, other.contact_length),
             stored_energy: between(self.stored_energy, other.stored_energy),

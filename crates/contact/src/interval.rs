@@ -47,6 +47,18 @@ pub struct Interval<R> {
     high: ContactState,
 }
 
+/// Part of a motion with an instrument that the body passes in a jump.
+#[derive(Clone, Copy, Debug)]
+pub struct Jumped {
+    /// Lowest and highest indentation in m.
+    pub low: f64,
+    pub high: f64,
+    /// Extreme of the common compression of contact and instrument so far, in m.
+    pub level: f64,
+    /// Area between the compression and this level, in cells times m².
+    pub area: f64,
+}
+
 /// Neighbouring intervals of a motion in ascending order of the indentation, at least one.
 pub struct Intervals<R>(Vec<Interval<R>>);
 
@@ -275,15 +287,16 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Computes ∫ (E − C) dd, in cells times m², over the parts of the interval that a loading with
-    /// an instrument passes in jumps. C(d) is the common compression of contact and instrument in m
-    /// at the indentation d, and E(d) is the largest C up to d. A loading jumps where C < E.
-    /// `largest` is E at the lower end of the interval, and is replaced by E at the upper end.
-    pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
+    /// Finds the parts of the interval that a loading with an instrument passes in jumps, in the
+    /// order of the motion, and calls `found` with each. C(d) is the common compression of contact
+    /// and instrument in m at the indentation d, and E(d) is the largest C up to d. A loading jumps
+    /// where C < E, and the area is ∫ (E − C) dd. `largest` is E at the lower end of the interval,
+    /// and is replaced by E at the upper end.
+    pub fn jumped_on_loading(&self, largest: &mut f64, found: &mut dyn FnMut(Jumped)) {
         if let Some(middle) = self.middle() {
-            let first = self.below(middle).jumped_on_loading(largest);
-            let second = self.above(middle).jumped_on_loading(largest);
-            return first + second;
+            self.below(middle).jumped_on_loading(largest, found);
+            self.above(middle).jumped_on_loading(largest, found);
+            return;
         }
         let (from, to) = self.ends();
         // The compression is convex: it falls up to `flattest` and rises beyond.
@@ -293,29 +306,35 @@ impl<R: DetachmentRule> Interval<R> {
         let level = largest.max(start);
         *largest = level.max(end);
         if flattest <= from && start >= level {
-            return 0.0;
-        }
-        if end <= level {
-            return level * (to - from) - self.work(from, to);
+            return;
         }
         // The body jumps from the lower end to the indentation at which the compression has
         // returned to its largest value so far.
-        let back = crossing(from, to, |indentation| {
-            self.compression(indentation) - level
+        let back = if end <= level {
+            to
+        } else {
+            crossing(from, to, |indentation| {
+                self.compression(indentation) - level
+            })
+        };
+        found(Jumped {
+            low: from,
+            high: back,
+            level,
+            area: level * (back - from) - self.work(from, back),
         });
-        level * (back - from) - self.work(from, back)
     }
 
-    /// Computes ∫ (C − E) dd, in cells times m², over the parts of the interval that an unloading
-    /// with an instrument passes in jumps. C(d) is the common compression of contact and instrument
-    /// in m at the indentation d, and E(d) is the smallest C on the unloading down to d. An
-    /// unloading jumps where C > E. `smallest` is E at the upper end of the interval, and is
-    /// replaced by E at the lower end.
-    pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
+    /// Finds the parts of the interval that an unloading with an instrument passes in jumps, in the
+    /// order of the motion, and calls `found` with each. C(d) is the common compression of contact
+    /// and instrument in m at the indentation d, and E(d) is the smallest C on the unloading down
+    /// to d. An unloading jumps where C > E, and the area is ∫ (C − E) dd. `smallest` is E at the
+    /// upper end of the interval, and is replaced by E at the lower end.
+    pub fn jumped_on_unloading(&self, smallest: &mut f64, found: &mut dyn FnMut(Jumped)) {
         if let Some(middle) = self.middle() {
-            let first = self.above(middle).jumped_on_unloading(smallest);
-            let second = self.below(middle).jumped_on_unloading(smallest);
-            return first + second;
+            self.above(middle).jumped_on_unloading(smallest, found);
+            self.below(middle).jumped_on_unloading(smallest, found);
+            return;
         }
         let (from, to) = self.ends();
         // The compression is convex: it falls up to `flattest` and rises beyond.
@@ -323,7 +342,12 @@ impl<R: DetachmentRule> Interval<R> {
         let level = *smallest;
         let least = self.compression(flattest);
         if least >= level {
-            return self.work(from, to) - level * (to - from);
+            return found(Jumped {
+                low: from,
+                high: to,
+                level,
+                area: self.work(from, to) - level * (to - from),
+            });
         }
         let mut back = to;
         if self.compression(to) > level {
@@ -332,9 +356,22 @@ impl<R: DetachmentRule> Interval<R> {
             });
         }
         *smallest = least;
-        let work_before = self.work(back, to) - level * (to - back);
-        let work_after = self.work(from, flattest) - least * (flattest - from);
-        work_before + work_after
+        if back < to {
+            found(Jumped {
+                low: back,
+                high: to,
+                level,
+                area: self.work(back, to) - level * (to - back),
+            });
+        }
+        if from < flattest {
+            found(Jumped {
+                low: from,
+                high: flattest,
+                level: least,
+                area: self.work(from, flattest) - least * (flattest - from),
+            });
+        }
     }
 
     /// Computes ∫ C dd over the indentation d between two indentations in m without an event

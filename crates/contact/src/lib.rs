@@ -37,7 +37,7 @@
 //!
 //! A [`Stage`](motion::Stage) describes a motion in one direction: which springs are in contact at
 //! each indentation. A [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise)
-//! is the stepwise solver: it moves by small steps and relaxes to equilibrium after each step, as
+//! is the stepwise solver: it moves by small steps and finds equilibrium after each step, as
 //! Popov and Filippov (2012) do. Any function that allocates may return
 //! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
@@ -75,7 +75,7 @@ pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
 pub use events::{Event, Events};
-pub use figures::{Figures, Mark};
+pub use figures::{Figures, Mark, MarkedPoint};
 pub use history::{CurvePoint, Direction, History, Patch, StageRecord, Work};
 pub use modulus::Modulus;
 pub use nominal_form::NominalForm;
@@ -94,6 +94,7 @@ pub mod motion {
     pub use crate::events::JumpCollector;
     pub use crate::moving_body::{MovingBody, load_body};
     pub use crate::relaxation::body::RelaxingBody;
+    pub use crate::stage::forces::InstrumentJump;
     pub use crate::stage::jumps::{Jump, JumpKind};
     pub use crate::stage::{PatchState, Stage};
     pub use crate::stepwise::Stepwise;

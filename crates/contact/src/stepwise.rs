@@ -1,5 +1,5 @@
 //! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step,
-//! relaxes to equilibrium and repeats.
+//! waits for equilibrium and repeats.
 //!
 //! The deviation from the exact solution is of the order of the step Δd, and each step needs a few
 //! sweeps over the whole profile. The stepwise solver shares with the exact solver only the rules
@@ -18,7 +18,7 @@ use super::totals::ContactTotals;
 use asperity_data::resized;
 use std::ops::Range;
 
-/// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each
+/// The stepwise solver: a body that moves by small steps and finds equilibrium after each
 /// step.
 ///
 /// ```
@@ -106,12 +106,12 @@ impl<'a> Stepwise<'a> {
 
     /// Attaches springs, in sweeps over the profile, until no further spring touches and no patch
     /// grows.
-    fn relax_loading(&mut self) {
+    fn attach_to_equilibrium(&mut self) {
         let gaps = self.contact.gaps();
         let indentation = self.indentation;
         loop {
             let before = self.totals.springs;
-            self.work.relaxation_sweeps += 1;
+            self.work.equilibrium_sweeps += 1;
             self.work.spring_updates += gaps.len() as u64;
             for (index, &gap) in gaps.iter().enumerate() {
                 if !self.holds[index] && gap <= indentation {
@@ -170,13 +170,13 @@ impl<'a> Stepwise<'a> {
     /// Detaches springs, in sweeps over the profile, until every patch bears the stretch of its
     /// most stretched spring. The springs that detach were in contact up to the indentation
     /// `held_until` in m.
-    fn relax_unloading(&mut self, held_until: f64) {
+    fn detach_to_equilibrium(&mut self, held_until: f64) {
         let gaps = self.contact.gaps();
         let indentation = self.indentation;
         let rule = self.contact.rules().rule(Direction::Unloading);
         loop {
             let held = self.totals.springs;
-            self.work.relaxation_sweeps += 1;
+            self.work.equilibrium_sweeps += 1;
             let mut first = 0;
             while first < gaps.len() {
                 let in_contact = self.holds[first..].iter().take_while(|&&holds| holds);
@@ -320,14 +320,14 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Moves the body to an indentation in m and relaxes to equilibrium.
+    /// Moves the body to an indentation in m and finds equilibrium.
     fn step_to(&mut self, indentation: f64) {
         let held_until = self.indentation;
         self.indentation = indentation;
         self.work.steps += 1;
         match self.direction {
-            Direction::Loading => self.relax_loading(),
-            Direction::Unloading => self.relax_unloading(held_until),
+            Direction::Loading => self.attach_to_equilibrium(),
+            Direction::Unloading => self.detach_to_equilibrium(held_until),
         }
     }
 

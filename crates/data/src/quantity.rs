@@ -264,10 +264,10 @@ fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true if a unit may have an SI prefix. Powers of a metre such as m³ may not, because the
+/// Returns true if a unit may have an SI prefix. Powers of a metre such as m² may not, because the
 /// power would apply to the prefix too.
 fn has_prefixes(unit: &str) -> bool {
-    !unit.contains(['−', '(', '³'])
+    !unit.contains(['−', '(', '³', '⁴']) && !matches!(unit, "m²" | "1/m")
 }
 
 /// Formats a value with its unit, to four significant digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`,
@@ -275,6 +275,7 @@ fn has_prefixes(unit: &str) -> bool {
 ///
 /// ```
 /// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
+/// assert_eq!(asperity_data::format_quantity(2.7e-10, "m²"), "2.7e-10 m²");
 /// ```
 pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)

@@ -105,6 +105,10 @@ pub enum Remedy {
     OtherValue(String),
     /// Compute on fewer threads.
     FewerThreads,
+    /// State a field of a measured roughness. The first text is the name of the field, such as
+    /// `detrend`, and the second one its value in the notation of a scene, such as `Tilt`; `None`
+    /// if the remedy states no value.
+    RoughnessField(String, Option<String>),
 }
 
 /// Function that returns the words of one interface for a remedy. For the command line, for

@@ -6,6 +6,8 @@
 //!
 //! * Reading a curve: [`MeasuredCurve::read`] reads a file. [`CurveOptions`] state how to treat
 //!   drift ([`Drift`]), tilt ([`Tilt`]) and signs ([`Negate`]).
+//! * Reading several curves: [`CurveSource::all`] finds those of folders and of files with several
+//!   ([`SeveralCurves`]), and reads each of them with its place ([`PlacedCurve`]).
 //! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. A [`FitResult`] has a
 //!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes, and
 //!   a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit of a [`Parameter`].
@@ -30,6 +32,7 @@ mod common;
 pub use curve::MeasuredCurve;
 pub use curve::drag::DragForce;
 pub use curve::features::CurveFeatures;
+pub use curve::sources::{CurveSource, PlacedCurve};
 pub use error::{CountedPart, ExperimentError};
 pub use fit::Fit;
 pub use fit::agreement::{Agreement, Grade};
@@ -41,4 +44,4 @@ pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
 pub use fit::result::{FitResult, FittedParameter, RangeEnd, RelaxedModulus};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};
-pub use read::several::{SeveralCurves, position_in};
+pub use read::several::SeveralCurves;

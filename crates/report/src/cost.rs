@@ -4,7 +4,8 @@ use crate::reference::model_sentence;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::work_precision::work_precision;
-use asperity_data::{Kind, Table, counted, format_quantity, format_rounded, grouped};
+use asperity_contact::Relaxation;
+use asperity_data::{Kind, Table, counted, format_quantity, format_rounded, grouped, per_cent};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
 use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, Row};
@@ -60,6 +61,13 @@ impl<'a> CostReport<'a> {
                 "The errors of F_a with springs are the largest at half, once and twice the loads of the scene, so \
                  that none is small by chance. At the loads of the scene alone, asperity run estimates the error.",
             );
+        }
+        if self.scene.relaxes() {
+            let error = per_cent(Relaxation::STEP_ERROR);
+            sheet.paragraph(&format!(
+                "The half-space relaxes: by its steps in time each force has an error of up to {error} of the largest \
+                 force, with any number of springs."
+            ));
         }
         for knob in Knob::ALL {
             let rows: Vec<&Row> = self.table.rows_of(knob).collect();

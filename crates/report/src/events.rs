@@ -40,9 +40,10 @@ struct EventsJson<'a> {
 pub fn event_words(event: &Event) -> String {
     let mark = event.mark.map(|mark| mark.name().to_owned());
     let jump = event.jump.as_ref().map(jump_words);
-    let instrument = event
-        .instrument_loss
-        .map(|_| "the instrument jumps".to_owned());
+    let instrument = event.instrument.map(|jump| {
+        let target = format_rounded(jump.to, DIGITS, "m");
+        format!("the instrument jumps to {target}")
+    });
     let parts: Vec<String> = [mark, jump, instrument].into_iter().flatten().collect();
     parts.join(" · ")
 }
@@ -86,9 +87,19 @@ impl EventsReport<'_> {
         self.run.outcome.instrument.is_some()
     }
 
+    /// Returns true if the body relaxes: its events then have times, and its jumps are not known
+    /// one by one.
+    fn relaxes(&self) -> bool {
+        self.run.scene.material.relaxation.is_some()
+    }
+
     /// Returns how many of the jumps are listed, and why not all of them.
     fn heading(&self) -> String {
         let events = self.events;
+        if self.relaxes() {
+            return "Marks of the force curve. The jumps of a body that relaxes are not listed."
+                .to_owned();
+        }
         let all = counted(events.jumps as u64, "jump");
         if events.listed_jumps == events.jumps {
             return all;
@@ -98,15 +109,24 @@ impl EventsReport<'_> {
         format!("{listed} of {all}: those of at least {share} of the largest energy")
     }
 
-    fn row(&self, event: &Event) -> [String; 6] {
+    fn row(&self, event: &Event) -> Vec<String> {
+        if let Some(seconds) = event.seconds {
+            return vec![
+                grouped(event.stage as u64 + 1),
+                format_rounded(seconds, DIGITS + 1, "s"),
+                format_rounded(event.indentation, DIGITS + 1, "m"),
+                format_rounded(event.forces[0], DIGITS, "N"),
+                event_words(event),
+            ];
+        }
         let [before, after] = event.forces;
-        let energy = match (event.jump, event.instrument_loss) {
+        let energy = match (event.jump, event.instrument) {
             (Some(jump), _) => signed_energy(jump.energy),
             // The springs and the instrument release this energy.
-            (None, Some(loss)) => signed_energy(-loss),
+            (None, Some(jump)) => signed_energy(-jump.energy),
             (None, None) => String::new(),
         };
-        [
+        vec![
             grouped(event.stage as u64 + 1),
             format_rounded(event.indentation, DIGITS + 1, "m"),
             energy,
@@ -151,7 +171,7 @@ impl EventsReport<'_> {
         }
         if self.has_instrument() {
             text += " The energy of a jump of the instrument is what the instrument and the body \
-                     lose in all its jumps in the stage.";
+                     lose in it.";
         }
         text
     }
@@ -173,8 +193,12 @@ impl Report for EventsReport<'_> {
         };
         sheet.heading(&format!("{}{profile}", self.heading()));
         if !self.events.list.is_empty() {
-            let columns = ["stage", "d", "energy", "springs", "F", "event"];
-            let mut rows = vec![columns.map(String::from)];
+            let columns: &[&str] = if self.relaxes() {
+                &["stage", "t", "d", "F", "event"]
+            } else {
+                &["stage", "d", "energy", "springs", "F", "event"]
+            };
+            let mut rows = vec![columns.iter().copied().map(String::from).collect()];
             rows.extend(self.events.list.iter().map(|event| self.row(event)));
             sheet.table(&rows);
         }
@@ -205,15 +229,21 @@ impl Report for EventsReport<'_> {
 
 /// Returns the table of the events of a loading in SI units. `first_spring` is the index of the
 /// first spring under the body. Only a table with an instrument has the energies that the
-/// instrument loses.
+/// instrument loses, and only a table of a body that relaxes has times, in s since first touch.
 pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) -> Table<'_> {
     let place = move |patch: Option<Patch>, end: fn(Patch) -> usize| {
         patch.map(|patch| (first_spring + end(patch)) as u64)
     };
     let first = |patch: Patch| patch.first;
     let last = |patch: Patch| patch.last;
-    let table = Table::of(|| events.list.iter())
-        .whole("stage", |event| event.stage as u64)
+    let table = Table::of(|| events.list.iter()).whole("stage", |event| event.stage as u64);
+    let has_times = events.list.iter().any(|event| event.seconds.is_some());
+    let table = if has_times {
+        table.real("time", |event| event.seconds)
+    } else {
+        table
+    };
+    let table = table
         .real("indentation", |event| event.indentation)
         .with("mark", Kind::Text(LONGEST_NAME), |event| {
             event.mark.map_or("", Mark::name)
@@ -243,7 +273,11 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
             place(event.jump.and_then(|jump| jump.after), last)
         });
     let table = if has_instrument {
-        table.real("instrument_loss", |event| event.instrument_loss)
+        table
+            .real("jumps_to", |event| event.instrument.map(|jump| jump.to))
+            .real("instrument_loss", |event| {
+                event.instrument.map(|jump| jump.energy)
+            })
     } else {
         table
     };
@@ -254,7 +288,7 @@ pub fn events_table(events: &Events, first_spring: usize, has_instrument: bool) 
 
 /// Returns the name of an event in tables; empty for a mark alone.
 fn event_name(event: &Event) -> &'static str {
-    match (event.jump, event.instrument_loss) {
+    match (event.jump, event.instrument) {
         (Some(jump), _) => jump.kind.name(),
         (None, Some(_)) => "instrument",
         (None, None) => "",
@@ -427,7 +461,7 @@ mod tests {
         assert!(
             table
                 .rows()
-                .any(|row| row[3] == "instrument" && row[15].as_f64() > Some(0.0))
+                .any(|row| row[3] == "instrument" && row[16].as_f64() > Some(0.0))
         );
         assert!(report.text().unwrap().contains("the instrument jumps"));
     }

@@ -50,7 +50,9 @@ pub use events::{EventsReport, event_words, events_table, signed_energy};
 pub use find::{AnswerPart, FindReport, found_briefly, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport, RowWarning};
-pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
+pub use loop_chart::{
+    ForceLoop, LoopCurve, LoopQuantities, LoopUnits, force_figure, loop_chart, sign,
+};
 pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
 pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};

@@ -1,6 +1,6 @@
 //! Charts of force loops. Figures of scenes and the explorer both use them.
 
-use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
+use asperity_contact::{CurvePoint, Direction, Mark, MarkedPoint, StageRecord};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{
     Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
@@ -17,6 +17,8 @@ pub enum LoopQuantities {
     ForceIndentation,
     /// Force over the displacement of the instrument.
     ForceDisplacement,
+    /// Force over the time since first touch, of a body that relaxes.
+    ForceTime,
     /// Total length of all contact patches, over the force.
     LengthForce,
     /// Number of contact patches, over the indentation.
@@ -24,17 +26,28 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that the explorer shows after this pair. If `deflects` is
-    /// false, the instrument is rigid, and the pair `ForceDisplacement` is left out.
-    pub fn next(self, deflects: bool) -> Self {
-        match self {
-            LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
-            LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => {
-                LoopQuantities::LengthForce
-            }
-            LoopQuantities::LengthForce => LoopQuantities::PatchesIndentation,
-            LoopQuantities::PatchesIndentation => LoopQuantities::ForceIndentation,
+    /// Returns the pairs of quantities that a computed scene has. Only a compliant instrument has a
+    /// displacement of its own, and only a body that relaxes has times.
+    pub fn of_scene(outcome: &Outcome) -> Vec<LoopQuantities> {
+        let mut offered = vec![LoopQuantities::ForceIndentation];
+        if outcome.instrument.is_some() {
+            offered.push(LoopQuantities::ForceDisplacement);
         }
+        let mut stages = outcome.history.stages.iter();
+        if stages.any(|stage| stage.times().is_some()) {
+            offered.push(LoopQuantities::ForceTime);
+        }
+        offered.push(LoopQuantities::LengthForce);
+        offered.push(LoopQuantities::PatchesIndentation);
+        offered
+    }
+
+    /// Returns the pair after this pair in a list of pairs, and the first one after the last one. A
+    /// pair that is not in the list counts as the first one.
+    pub fn next(self, offered: &[LoopQuantities]) -> Self {
+        let present = offered.iter().position(|&quantities| quantities == self);
+        let next = present.unwrap_or(0) + 1;
+        offered.get(next).copied().unwrap_or_default()
     }
 }
 
@@ -63,9 +76,17 @@ struct Quantity {
     unit: &'static str,
     /// Parameter by which the quantity is divided; `None` for SI units.
     divisor: Option<Divisor>,
-    /// Function that returns the quantity at a point. Its second argument is the stiffness of the
-    /// instrument in N/m.
-    value: fn(&CurvePoint, f64) -> f64,
+    /// Function that returns the quantity at a point.
+    value: fn(&Recorded<'_>) -> f64,
+}
+
+/// Point of a force curve, with what its quantities may depend on.
+struct Recorded<'a> {
+    point: &'a CurvePoint,
+    /// Stiffness of the instrument in N/m, infinite if it is rigid.
+    stiffness: f64,
+    /// Time in s since first touch; 0 if the body does not relax.
+    seconds: f64,
 }
 
 /// Parameter of a scene by which a quantity is divided.
@@ -98,10 +119,9 @@ impl Quantity {
         }
     }
 
-    /// Returns the number that the axis shows for a point of a curve. `stiffness` is the stiffness
-    /// of the instrument in N/m.
-    fn number(&self, point: &CurvePoint, stiffness: f64) -> f64 {
-        let value = (self.value)(point, stiffness);
+    /// Returns the number that the axis shows for a point of a curve.
+    fn number(&self, recorded: &Recorded<'_>) -> f64 {
+        let value = (self.value)(recorded);
         value / self.divisor.map_or(1.0, |divisor| divisor.value)
     }
 
@@ -149,11 +169,24 @@ impl LoopUnits {
     }
 
     /// Returns the numbers on the horizontal and the vertical axis that belong to a point of a
-    /// force curve.
-    pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
-        let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
+    /// force curve. `seconds` is the time of the point in s since first touch, if the body relaxes.
+    /// Over the time, a point without a time has no place.
+    pub fn place(&self, point: &CurvePoint, seconds: Option<f64>) -> Option<(f64, f64)> {
+        if self.quantities == LoopQuantities::ForceTime {
+            seconds?;
+        }
+        let recorded = Recorded {
+            point,
+            stiffness: self.stiffness.unwrap_or(f64::INFINITY),
+            seconds: seconds.unwrap_or(0.0),
+        };
         let [across, up] = self.quantities();
-        (across.number(point, stiffness), up.number(point, stiffness))
+        Some((across.number(&recorded), up.number(&recorded)))
+    }
+
+    /// Returns the places of a marked point, as [`Self::place`] does.
+    pub fn place_of_mark(&self, marked: &MarkedPoint) -> Option<(f64, f64)> {
+        self.place(&marked.point, marked.seconds)
     }
 
     /// Returns a force, given in N, as text in the unit of the chart.
@@ -186,7 +219,9 @@ impl LoopUnits {
     pub fn shows_force(&self) -> bool {
         matches!(
             self.quantities,
-            LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement
+            LoopQuantities::ForceIndentation
+                | LoopQuantities::ForceDisplacement
+                | LoopQuantities::ForceTime
         )
     }
 
@@ -206,6 +241,7 @@ impl LoopUnits {
             LoopQuantities::ForceDisplacement => {
                 [self.displacement_quantity(), self.force_quantity()]
             }
+            LoopQuantities::ForceTime => [TIME, self.force_quantity()],
             LoopQuantities::LengthForce => [self.force_quantity(), self.length_quantity()],
             LoopQuantities::PatchesIndentation => [self.indentation_quantity(), PATCHES],
         }
@@ -217,7 +253,7 @@ impl LoopUnits {
             symbol: "d",
             unit: "m",
             divisor: Divisor::new(self.indentation, "h"),
-            value: |point, _| point.indentation,
+            value: |recorded| recorded.point.indentation,
         }
     }
 
@@ -227,7 +263,7 @@ impl LoopUnits {
             symbol: "D",
             unit: "m",
             divisor: Divisor::new(self.indentation, "h"),
-            value: CurvePoint::displacement,
+            value: |recorded| recorded.point.displacement(recorded.stiffness),
         }
     }
 
@@ -237,7 +273,7 @@ impl LoopUnits {
             symbol: "F",
             unit: "N",
             divisor: Divisor::new(self.force, "F_a,max"),
-            value: |point, _| point.force,
+            value: |recorded| recorded.point.force,
         }
     }
 
@@ -247,7 +283,7 @@ impl LoopUnits {
             symbol: "l",
             unit: "m",
             divisor: Divisor::new(self.length, "L"),
-            value: |point, _| point.contact_length,
+            value: |recorded| recorded.point.contact_length,
         }
     }
 
@@ -269,18 +305,26 @@ const PATCHES: Quantity = Quantity {
     symbol: "n",
     unit: "1",
     divisor: None,
-    value: |point, _| point.patches as f64,
+    value: |recorded| recorded.point.patches as f64,
+};
+
+const TIME: Quantity = Quantity {
+    name: "time",
+    symbol: "t",
+    unit: "s",
+    divisor: None,
+    value: |recorded| recorded.seconds,
 };
 
 /// Force loop in a chart: the curves of loading and unloading, and how they are drawn.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
-    /// Points of the force curve of each loading stage, with the direction of the stage.
-    pub curves: Vec<(Direction, &'a [CurvePoint])>,
+    /// Force curve of each loading stage.
+    pub curves: Vec<LoopCurve<'a>>,
     /// Stiffness of the instrument in N/m; `None` for a rigid instrument.
     pub stiffness: Option<f64>,
     /// Marked points of the curves, such as preload and pull-off.
-    pub marks: Vec<(Mark, CurvePoint)>,
+    pub marks: Vec<MarkedPoint>,
     /// Name of the loop in the legend; `None` for the two names `loading` and `unloading`.
     pub name: Option<Label>,
     /// True if the names of the marked points in the legend are written without the forces.
@@ -294,6 +338,17 @@ pub struct ForceLoop<'a> {
     /// Pattern of the line of the unloading if [`Self::stroke`] is `None`. With `None`, this line
     /// is solid.
     pub unloading: Option<Stroke>,
+}
+
+/// Force curve of a loading stage.
+#[derive(Clone, Copy, Debug)]
+pub struct LoopCurve<'a> {
+    /// Direction of the stage.
+    pub direction: Direction,
+    /// Points of the curve.
+    pub points: &'a [CurvePoint],
+    /// Time in s since first touch at each point; empty if the body does not relax.
+    pub seconds: &'a [f64],
 }
 
 /// Part of a force loop that the chart shows as one line.
@@ -311,7 +366,11 @@ impl<'a> ForceLoop<'a> {
     pub fn new(stages: &'a [StageRecord]) -> ForceLoop<'a> {
         let curves = stages
             .iter()
-            .map(|stage| (stage.direction, stage.curve.as_slice()))
+            .map(|stage| LoopCurve {
+                direction: stage.direction,
+                points: &stage.curve,
+                seconds: &stage.seconds,
+            })
             .collect();
         ForceLoop {
             curves,
@@ -339,11 +398,12 @@ impl<'a> ForceLoop<'a> {
         };
         let is_over_displacement = units.quantities == LoopQuantities::ForceDisplacement;
         let mut lines = Vec::new();
-        for &(direction, curve) in &self.curves {
+        for curve in &self.curves {
+            let direction = curve.direction;
             if let Some(stiffness) = self.stiffness
                 && is_over_displacement
             {
-                let curve = DisplacementCurve::new(direction, curve, stiffness);
+                let curve = DisplacementCurve::new(direction, curve.points, stiffness);
                 for part in curve.steady_parts() {
                     lines.push(LoopLine::of_displacements(direction, part, false, units));
                 }
@@ -351,9 +411,13 @@ impl<'a> ForceLoop<'a> {
                     lines.push(LoopLine::of_displacements(direction, part, true, units));
                 }
             } else {
+                let mut places = Vec::with_capacity(curve.points.len());
+                for (index, point) in curve.points.iter().enumerate() {
+                    places.extend(units.place(point, curve.seconds.get(index).copied()));
+                }
                 lines.push(LoopLine {
                     direction,
-                    places: curve.iter().map(|point| units.place(point)).collect(),
+                    places,
                     jumps: false,
                 });
             }
@@ -381,18 +445,19 @@ impl<'a> ForceLoop<'a> {
                 });
             }
         }
-        for &(mark, point) in &self.marks {
-            if !units.shows(mark) {
+        for marked in &self.marks {
+            let mark = marked.mark;
+            let Some(place) = units.place_of_mark(marked).filter(|_| units.shows(mark)) else {
                 continue;
-            }
+            };
             let name = if self.name.is_some() {
                 Label::default()
             } else if self.without_forces {
                 Label::plain(mark.name())
             } else {
-                mark_name(mark, point.force)
+                mark_name(mark, marked.point.force)
             };
-            let shape = Shape::signs(vec![units.place(&point)], sign(mark));
+            let shape = Shape::signs(vec![place], sign(mark));
             layers.push(Layer::new(name, self.ink.unwrap_or(Ink::Text), shape));
         }
         layers
@@ -412,7 +477,7 @@ impl<'a> ForceLoop<'a> {
         let unloads = self
             .curves
             .iter()
-            .any(|(direction, _)| *direction == Direction::Unloading);
+            .any(|curve| curve.direction == Direction::Unloading);
         let named_direction = if unloads {
             Direction::Unloading
         } else {
@@ -443,11 +508,12 @@ impl LoopLine {
     ) -> Self {
         let mut places = Vec::with_capacity(part.len());
         for point in part {
-            places.push(units.place(&CurvePoint {
+            let point = CurvePoint {
                 indentation: point.indentation,
                 force: point.force,
                 ..CurvePoint::default()
-            }));
+            };
+            places.extend(units.place(&point, None));
         }
         LoopLine {
             direction,
@@ -497,7 +563,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
         .push(Layer::new("loading".into(), Ink::Text, loading));
     for mark in [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut] {
         let mut marks = loops.iter().flat_map(|force_loop| &force_loop.marks);
-        if units.shows(mark) && marks.any(|(other, _)| *other == mark) {
+        if units.shows(mark) && marks.any(|marked| marked.mark == mark) {
             let shape = Shape::signs(Vec::new(), sign(mark));
             chart
                 .layers

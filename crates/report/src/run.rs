@@ -117,6 +117,9 @@ pub(crate) struct RunJson<'a> {
     pull_off_force_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     curve_error: Option<f64>,
+    /// Error of each force in N by the steps in time; left out without relaxation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step_error: Option<f64>,
     pull_off_force_near_step: Option<bool>,
     adhesion_share: Option<f64>,
     adhesion_coefficient: Option<f64>,
@@ -196,6 +199,7 @@ impl<'a> RunJson<'a> {
             pull_off_force: figures.pull_off_force,
             pull_off_force_error: estimate.and_then(|estimate| estimate.of_pull_off_force(outcome)),
             curve_error: estimate.and_then(Estimate::of_curve),
+            step_error: outcome.history.step_error(),
             pull_off_force_near_step: estimate.map(|estimate| estimate.near_step),
             adhesion_share: outcome.adhesion_share(),
             adhesion_coefficient: figures.adhesion_coefficient,

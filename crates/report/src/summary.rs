@@ -92,6 +92,8 @@ impl Summary<'_> {
             None => String::new(),
         };
         sheet.row("pull-off force F_a", pull_off_force(outcome) + &error);
+        let steps = outcome.history.step_error();
+        sheet.quantity("error of time steps", steps, "N");
         sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
         sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
         let share = outcome
@@ -409,7 +411,7 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
         ("springs attached", work.attached),
         ("springs detached", work.detached),
         ("steps", work.steps),
-        ("relaxation sweeps", work.relaxation_sweeps),
+        ("sweeps to equilibrium", work.equilibrium_sweeps),
         ("spring updates", work.spring_updates),
         ("heights binned", work.heights_binned),
     ]

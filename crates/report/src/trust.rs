@@ -3,6 +3,7 @@
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
+use asperity_contact::Relaxation;
 use asperity_data::{Remedy, Warning, Wording, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
@@ -102,8 +103,8 @@ pub fn theories_briefly(scene: &Scene, outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// Returns the errors of the pull-off force from each source: number of springs, sample of
-/// profiles, measured surface, and model. Each row has a source and its relative error in words.
+/// Returns the errors of the pull-off force from each source: number of springs, steps in time of
+/// a half-space that relaxes, sample of profiles, measured surface, and model. Each row has a source and its relative error in words.
 /// `reference` is a comparison with an elastic half-space in three dimensions; if it is given, a
 /// further row has the difference that this comparison has found. The last row names the largest
 /// error.
@@ -117,14 +118,13 @@ pub fn error_rows(
     wording: Wording,
 ) -> Vec<(&'static str, String)> {
     let is_exceeded = outcome.warnings.iter().any(Warning::exceeds_errors);
-    let mut rows = vec![
-        ("grid", grid_in_words(budget, estimate)),
-        (
-            "sample of profiles",
-            sample_in_words(scene, budget, ensemble),
-        ),
-        ("surface", surface_in_words(scene, budget)),
-    ];
+    let mut rows = vec![("grid", grid_in_words(budget, estimate))];
+    if let Some(error) = budget.steps {
+        rows.push(("steps in time", steps_in_words(error)));
+    }
+    let sample = sample_in_words(scene, budget, ensemble);
+    rows.push(("sample of profiles", sample));
+    rows.push(("surface", surface_in_words(scene, budget)));
     if let Some(difference) = reference.and_then(difference_words) {
         rows.push(("three dimensions", difference));
     }
@@ -153,6 +153,13 @@ fn grid_in_words(budget: &Budget, estimate: Option<&Estimate>) -> String {
     } else {
         error
     }
+}
+
+/// Returns in words the error due to the steps in time of a half-space that relaxes.
+fn steps_in_words(error: f64) -> String {
+    let of_largest = per_cent(Relaxation::STEP_ERROR);
+    let error = error_in_words(error);
+    format!("{error}, by steps with up to {of_largest} of the largest force")
 }
 
 /// Returns in words the error due to the finite number of random profiles.
@@ -211,6 +218,7 @@ fn largest_in_words(budget: &Budget, is_exceeded: bool, wording: Wording) -> Str
             let option = wording(&Remedy::MoreProfiles);
             return format!("sample of profiles: more profiles reduce it ({option})");
         }
+        Some("steps") => "steps in time: more springs do not help",
         Some("model") => "model: more springs do not help",
         Some(_) => "surface: more or larger scans reduce it",
         None if is_exceeded => "not known: a premise does not hold (Warnings)",

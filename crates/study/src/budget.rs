@@ -9,7 +9,7 @@ use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 
 /// Errors of the pull-off force of a scene, one for each source of errors. All are relative errors:
-/// `grid` is divided by the pull-off force on the scene's own profile, and `sample` and `surface`
+/// `grid` and `steps` are divided by the pull-off force on the scene's own profile, and `sample` and `surface`
 /// are divided by the median pull-off force over random profiles. The true error exceeds the stated
 /// error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -17,6 +17,10 @@ pub struct Budget {
     /// Error due to the finite number of springs, for the profile with the seed of the scene;
     /// `None` if it is unknown.
     pub grid: Option<f64>,
+    /// Error due to the steps in time of a half-space that relaxes; `None` without relaxation, where
+    /// there are no such steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<f64>,
     /// Error of the median over random profiles, due to the finite number of these profiles; `None`
     /// if it is unknown.
     pub sample: Option<f64>,
@@ -28,7 +32,8 @@ pub struct Budget {
     /// bodies in three dimensions. The bound is the part of this difference that neither the number
     /// of profiles and bodies nor the grid of the bodies can explain. `None` if it is unknown.
     pub model: Option<f64>,
-    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`.
+    /// Name of the field with the largest known error: `grid`, `steps`, `sample`, `surface` or
+    /// `model`.
     /// `None` if no error is known. It is also `None` if a premise of the model does not hold,
     /// because this may cause a larger error.
     pub largest: Option<&'static str>,
@@ -55,6 +60,8 @@ impl Budget {
         let median = quantile(&forces, 0.5).unwrap_or(force);
         let error_of_grid = estimate.and_then(|estimate| estimate.of_pull_off_force(outcome));
         let grid = finite(error_of_grid.map(|error| error / force));
+        let error_of_steps = outcome.history.step_error();
+        let steps = finite(error_of_steps.map(|error| error / force));
         let interval = median_interval(&forces);
         let sample = finite(interval.map(|(low, high)| 0.5 * (high - low) / median));
         let surface = finite(deviation.map(|deviation| 2.0 * deviation / median));
@@ -62,10 +69,16 @@ impl Budget {
         // A premise of the model that does not hold may cause a larger error than all known errors.
         // Then no error counts as the largest.
         if !outcome.warnings.iter().any(Warning::exceeds_errors) {
-            largest = largest_source([("grid", grid), ("sample", sample), ("surface", surface)]);
+            largest = largest_source([
+                ("steps", steps),
+                ("grid", grid),
+                ("sample", sample),
+                ("surface", surface),
+            ]);
         }
         Some(Budget {
             grid,
+            steps,
             sample,
             surface,
             model: None,
@@ -76,7 +89,7 @@ impl Budget {
     /// Returns a copy of these errors in which [`Budget::model`] is `model`; `None` means that the
     /// error of the model is unknown. A model error of 0 never becomes the largest error.
     pub fn with_model(self, model: Option<f64>) -> Budget {
-        let others = [self.grid, self.sample, self.surface]
+        let others = [self.grid, self.steps, self.sample, self.surface]
             .into_iter()
             .flatten()
             .fold(0.0, f64::max);
@@ -99,7 +112,7 @@ fn finite(error: Option<f64>) -> Option<f64> {
 }
 
 /// Returns the name of the largest known error. Of equal errors the last one is returned.
-fn largest_source(errors: [(&'static str, Option<f64>); 3]) -> Option<&'static str> {
+fn largest_source(errors: [(&'static str, Option<f64>); 4]) -> Option<&'static str> {
     let mut largest = None;
     let mut most = f64::NEG_INFINITY;
     for (name, error) in errors {

@@ -5,6 +5,7 @@ use super::{edit, stages};
 use crate::explorer::app::App;
 use crate::explorer::editor::Edited;
 use crate::explorer::keys::key::direction;
+use crate::explorer::manual_body::NEEDS_TIMES;
 use crate::explorer::manual_path::{MOST_MOVES, ManualPath};
 use crate::explorer::pane::Pane;
 use crate::explorer::player::{At, Player};
@@ -61,16 +62,22 @@ fn end(app: &mut App, message: &str) {
 /// Returns a path that starts at the state that the animation shows; `None` while the scene is not
 /// computed.
 fn new_path(app: &App) -> Option<ManualPath> {
-    if !app.is_current() || app.stages().is_empty() {
+    if !app.is_current() || app.stages().is_empty() || relaxes(app) {
         return None;
     }
     Some(ManualPath::starting_at(app.play))
 }
 
-/// States that the scene is still being computed. If its computation has failed, the message with
-/// the reason stays.
+fn relaxes(app: &App) -> bool {
+    app.edit.scene.material.relaxation.is_some()
+}
+
+/// States that the scene is still being computed, or that its body relaxes. If its computation has
+/// failed, the message with the reason stays.
 fn state_why_not(app: &mut App) {
-    if app.is_computing() {
+    if relaxes(app) {
+        app.set_error(NEEDS_TIMES);
+    } else if app.is_computing() {
         app.set_error(edit::STILL_COMPUTED);
     }
 }

@@ -273,7 +273,7 @@ static TABLE: &[Entry] = &[
     row("D", EXPLORE, "toggle-squares", Do(compare::toggle_squares), "", "compare with the same contact in three dimensions", COMPARE).words("3D half-space model error boundary elements reference cancel"),
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).words("noise experiment evaluate least squares regression measured").rank(2).shown_if(|app| app.edit.measured.is_some()),
 
-    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or number of patches", LOOK).words("contact area displacement quantity axis hysteresis loop"),
+    row("v", EXPLORE, "next-curve", Do(view::next_curve), "", "plot force (over d, D or time), contact length or number of patches", LOOK).words("contact area displacement quantity axis hysteresis loop"),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "show forces in units of F_a,max, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous patch", LOOK),

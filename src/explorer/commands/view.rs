@@ -6,9 +6,9 @@ use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::pane::Pane;
 use crate::explorer::request::{Focus, LineView};
-
 use crate::explorer::theme::Cycle;
 use asperity_data::AxisScale;
+use asperity_report::LoopQuantities;
 use crossterm::event::{KeyCode, KeyEvent};
 
 /// Smallest number of springs in the visible part of the profile.
@@ -20,6 +20,13 @@ pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let snapshot = app.snapshot.as_ref();
     let shown = snapshot.and_then(|snapshot| snapshot.close_up.patch);
     app.view.close_up.focus = question(shown.map(|facts| facts.patch.middle()));
+}
+
+/// Shows the next pair of quantities in the pane of the force curve.
+pub fn next_curve(app: &mut App) {
+    let offered = app.outcome().map(LoopQuantities::of_scene);
+    let quantities = &mut app.view.curve.quantities;
+    *quantities = quantities.next(&offered.unwrap_or_default());
 }
 
 pub fn next_pane(app: &mut App) {

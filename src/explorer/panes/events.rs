@@ -46,7 +46,7 @@ fn report(app: &App) -> Exported<'_> {
 
 /// Width in columns from which a row also states the forces.
 const WITH_FORCES: u16 = 56;
-/// Width of the columns of indentation and energy.
+/// Width of the columns of indentation, or of the time if the body relaxes, and energy.
 const NUMBER_COLUMNS: usize = 9;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -87,15 +87,18 @@ fn count_in_words(listed: &Events) -> String {
 
 fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static> {
     let mark = event.mark.map_or(' ', symbol_of);
-    let indentation = format_rounded(event.indentation, 3, "m");
+    let place = match event.seconds {
+        Some(seconds) => format_rounded(seconds, 3, "s"),
+        None => format_rounded(event.indentation, 3, "m"),
+    };
     let mut line = Line::from(vec![
         Span::raw(if is_selected { "›" } else { " " }),
-        Span::raw(format!("{indentation:>NUMBER_COLUMNS$} {mark} ")),
+        Span::raw(format!("{place:>NUMBER_COLUMNS$} {mark} ")),
         Span::raw(event_words(event)),
     ]);
-    let energy = match (event.jump, event.instrument_loss) {
+    let energy = match (event.jump, event.instrument) {
         (Some(jump), _) => Some(jump.energy),
-        (None, Some(loss)) => Some(-loss),
+        (None, Some(jump)) => Some(-jump.energy),
         (None, None) => None,
     };
     let energy_text = energy.map_or_else(String::new, signed_energy);

@@ -2,7 +2,9 @@
 //! for comparison.
 
 use super::compared::compared;
-use super::force_loops::{chart, differences, shows_loss, stiffness, units};
+use super::force_loops::{
+    chart, differences, quantities, shows_loss, shows_measured, stiffness, units,
+};
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::advice;
 use crate::explorer::app::App;
@@ -17,7 +19,7 @@ use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
 use asperity_data::{AxisScale, counted, format_rounded, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span};
-use asperity_report::{FitReport, LoopQuantities, Report, letter};
+use asperity_report::{FitReport, LoopQuantities, LoopUnits, Report, letter};
 use asperity_scene::text::quoted;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -110,17 +112,17 @@ fn names_of_marks(app: &App) -> Vec<Name> {
     const BY_IMPORTANCE: [Mark; 3] = [Mark::PullOff, Mark::Preload, Mark::JumpIn];
     let units = units(app);
     let mut marks = Mark::all(marked_stages(app));
-    marks.retain(|(mark, _)| units.shows(*mark));
-    marks.sort_by_key(|(mark, _)| {
-        let place = BY_IMPORTANCE.iter().position(|listed| listed == mark);
+    marks.retain(|marked| units.shows(marked.mark));
+    marks.sort_by_key(|marked| {
+        let place = BY_IMPORTANCE.iter().position(|mark| *mark == marked.mark);
         place.unwrap_or(BY_IMPORTANCE.len())
     });
     let mut names = Vec::new();
-    for (mark, point) in marks {
-        let name = mark.name();
-        let force = units.force_in_words(app.without_rounding(point.force));
+    for marked in marks {
+        let name = marked.mark.name();
+        let force = units.force_in_words(app.without_rounding(marked.point.force));
         names.push(Name {
-            at: vec![units.place(&point)],
+            at: units.place_of_mark(&marked).into_iter().collect(),
             texts: vec![format!("{name} {force}"), force, name.to_owned()],
             ink: Ink::Text,
         });
@@ -139,9 +141,8 @@ fn letters_of_ghosts(app: &App) -> Vec<Name> {
     let units = units(app);
     let mut names = Vec::new();
     for (number, ghost) in app.ghosts.iter().enumerate().rev() {
-        let places = places_of_letter(ghost);
         names.push(Name {
-            at: places.iter().map(|point| units.place(point)).collect(),
+            at: places_of_letter(ghost, units),
             texts: vec![letter(number)],
             ink: Ink::Compared,
         });
@@ -203,6 +204,9 @@ fn state(app: &App) -> Vec<String> {
         format!("d {}", format_rounded(point.indentation, 3, "m")),
         format!("F {}", units(app).force_in_words(force)),
     ];
+    if let Some(seconds) = snapshot.seconds {
+        parts.push(format!("t {}", format_rounded(seconds, 3, "s")));
+    }
     match app.former_path().map(FollowedPath::moves) {
         Some(moves) => {
             let last = moves.last();
@@ -231,8 +235,10 @@ fn state(app: &App) -> Vec<String> {
 /// Returns the title: the name and the unit of the vertical quantity, and the event at the shown
 /// state.
 fn title(app: &App, y: Option<&ChartAxis>) -> String {
-    let name = match app.view.curve.quantities {
-        LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
+    let name = match quantities(app) {
+        LoopQuantities::ForceIndentation
+        | LoopQuantities::ForceDisplacement
+        | LoopQuantities::ForceTime => "Force",
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::PatchesIndentation => "Contact patches",
     };
@@ -254,7 +260,7 @@ fn name_of_loss(app: &App) -> Option<Name> {
     let units = units(app);
     let mut at = Vec::new();
     for place in places_inside(app) {
-        at.push(units.place(&place));
+        at.extend(units.place(&place, None));
     }
     let energy = format_rounded(energy, 3, "J");
     Some(Name {
@@ -309,12 +315,12 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 
 /// Returns the chart of the residuals of the measured curve, divided by the noise. `x` is its
 /// horizontal axis. Until the residuals are computed, the chart has no points. `None` if there is
-/// no measured curve, or if the pane does not show forces.
+/// no measured curve, or if the pane cannot show it.
 fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
-    let units = units(app);
-    if !units.shows_force() {
+    if !shows_measured(app) {
         return None;
     }
+    let units = units(app);
     let measured = app.edit.measured.as_ref()?;
     let residuals = match fitted(&app.studies) {
         Some(fit) if app.is_current() => measured.residuals(&fit.model),
@@ -323,7 +329,9 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let measured_points = measured.points(stiffness(app)?);
     let mut points = Vec::new();
     for (point, residual) in measured_points.iter().zip(&residuals) {
-        points.push((units.place(point).0, *residual));
+        if let Some((across, _)) = units.place(point, None) {
+            points.push((across, *residual));
+        }
     }
     let half = half_range(residuals);
     let span = Span {
@@ -363,8 +371,9 @@ fn half_range(residuals: Vec<f64>) -> f64 {
 /// axes are left out of the chart, because the pane writes them elsewhere.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
-    if let Some(snapshot) = app.present() {
-        let (x, y) = units(app).place(&snapshot.point);
+    if let Some(snapshot) = app.present()
+        && let Some((x, y)) = units(app).place(&snapshot.point, snapshot.seconds)
+    {
         let x = x.clamp(chart.x.span.low, chart.x.span.high);
         let y = y.clamp(chart.y.span.low, chart.y.span.high);
         let mark = Shape::signs(vec![(x, y)], Sign::Diamond);
@@ -382,16 +391,21 @@ fn shown_chart(app: &App) -> Option<Chart> {
 /// written.
 const PLACES: usize = 8;
 
-/// Returns the points beside which the letter of a ghost may be written, the best first: its marks,
+/// Returns the places beside which the letter of a ghost may be written, the best first: its marks,
 /// beginning with the pull-off, and then points on its curve, beginning with the last stage.
-fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
+fn places_of_letter(ghost: &Ghost, units: LoopUnits) -> Vec<(f64, f64)> {
     let stages = &ghost.outcome.history.stages;
-    let mut marks = Mark::all(stages);
-    marks.retain(|(mark, _)| *mark != Mark::JumpOut);
-    let mut places: Vec<CurvePoint> = marks.into_iter().rev().map(|(_, point)| point).collect();
+    let mut places = Vec::new();
+    for marked in Mark::all(stages).iter().rev() {
+        if marked.mark != Mark::JumpOut {
+            places.extend(units.place_of_mark(marked));
+        }
+    }
     for stage in stages.iter().rev() {
         let step = (stage.curve.len() / PLACES).max(1);
-        places.extend(stage.curve.iter().step_by(step).copied());
+        for (index, point) in stage.curve.iter().enumerate().step_by(step) {
+            places.extend(units.place(point, stage.seconds.get(index).copied()));
+        }
     }
     places
 }

@@ -6,14 +6,25 @@ use crate::explorer::ghost::Ghost;
 use crate::explorer::snapshot::FollowedPath;
 use asperity_contact::{CurvePoint, Direction, Mark};
 use asperity_plot::{Chart, Ink, Label, Layer, Shape, Sign, Stroke};
-use asperity_report::{ForceLoop, LoopQuantities, LoopUnits, letter, loop_chart};
+use asperity_report::{ForceLoop, LoopCurve, LoopQuantities, LoopUnits, letter, loop_chart};
 use asperity_scene::Outcome;
 use asperity_study::half_space::SquareLoops;
+
+/// Returns the pair of quantities that the pane shows: the one that the user has chosen. Without
+/// relaxation there is no time to show.
+pub fn quantities(app: &App) -> LoopQuantities {
+    let chosen = app.view.curve.quantities;
+    let is_timed = |outcome| LoopQuantities::of_scene(outcome).contains(&LoopQuantities::ForceTime);
+    if chosen == LoopQuantities::ForceTime && !app.outcome().is_some_and(is_timed) {
+        return LoopQuantities::default();
+    }
+    chosen
+}
 
 /// Returns true if the chart contains the area of the dissipated energy: only a closed loop of the
 /// force over the indentation has this area.
 pub fn shows_loss(app: &App) -> bool {
-    let is_force_over_indentation = app.view.curve.quantities == LoopQuantities::ForceIndentation;
+    let is_force_over_indentation = quantities(app) == LoopQuantities::ForceIndentation;
     is_force_over_indentation
         && app
             .outcome()
@@ -21,7 +32,7 @@ pub fn shows_loss(app: &App) -> bool {
 }
 
 pub fn units(app: &App) -> LoopUnits {
-    let quantities = app.view.curve.quantities;
+    let quantities = quantities(app);
     match app.outcome() {
         Some(outcome) => LoopUnits::of_scene(quantities, outcome, app.view.curve.normalised),
         None => LoopUnits::si(quantities),
@@ -78,7 +89,8 @@ fn insert_area<'a>(
     ink: Ink,
     border: impl Iterator<Item = &'a CurvePoint>,
 ) {
-    let border = border.map(|point| units.place(point)).collect();
+    let border = border.filter_map(|point| units.place(point, None));
+    let border = border.collect();
     let area = Layer::unnamed(ink, Shape::Inside(border));
     chart.layers.insert(1, area);
 }
@@ -86,10 +98,16 @@ fn insert_area<'a>(
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// Returns the points of the measured curve; `None` if there is no measured curve, if the pane does
-/// not show forces, or if no scene has been computed.
+/// Returns true if the chart can show a measured curve: the force over the indentation or over the
+/// displacement.
+pub fn shows_measured(app: &App) -> bool {
+    units(app).shows_force() && quantities(app) != LoopQuantities::ForceTime
+}
+
+/// Returns the points of the measured curve; `None` if there is no measured curve, if the chart
+/// cannot show it, or if no scene has been computed.
 fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
-    if !units(app).shows_force() {
+    if !shows_measured(app) {
         return None;
     }
     let measured = app.edit.measured.as_ref()?;
@@ -100,7 +118,7 @@ fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
 /// half-space, if the user has switched them on. For each direction of motion there are three
 /// curves: the lower end of the scatter, the mean and the upper end.
 fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
-    if !app.view.squares || !units(app).shows_force() {
+    if !app.view.squares || !shows_measured(app) {
         return Vec::new();
     }
     match app.studies.value::<SquareLoops>() {
@@ -112,7 +130,11 @@ fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
 /// Returns a curve that does not belong to the loop of a scene.
 fn curve_alone(points: &[CurvePoint]) -> ForceLoop<'_> {
     ForceLoop {
-        curves: vec![(Direction::Unloading, points)],
+        curves: vec![LoopCurve {
+            direction: Direction::Unloading,
+            points,
+            seconds: &[],
+        }],
         ..ForceLoop::new(&[])
     }
 }

@@ -11,7 +11,7 @@ use crate::explorer::panel::{Body, Panel, title_line};
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::{Tick, Timeline, passed, speed_in_words};
-use asperity_contact::{Direction, Mark, StageRecord};
+use asperity_contact::{Direction, Mark, Move, StageRecord};
 use asperity_data::grouped;
 use asperity_plot::Ink;
 use asperity_report::{event_words, signed_energy};
@@ -26,8 +26,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| (force::ROW.report)(app),
     help: &[(
         "Timeline",
-        "the stages of the loading; a tick is a jump, its height the square root of the elastic energy that springs gain \
-         or release. Such an energy is no loss: only a closed loop has a dissipated energy. ◇ jump-in, ▲ preload, ▼ \
+        "the stages of the loading, or their times if the body relaxes; a tick is a jump, its height the square root of \
+         the elastic energy that springs gain or release. Such an energy is no loss: only a closed loop has a dissipated energy. ◇ jump-in, ▲ preload, ▼ \
          pull-off, ○ jump-out. With the pane selected, ← → move along the stage, Home and End go to the ends, + and - \
          change the speed; a click goes there",
     )],
@@ -243,14 +243,15 @@ fn write_name(
     columns: &Range<usize>,
     taken: &[usize],
 ) {
-    let verb = match record.direction {
-        Direction::Loading => "press",
-        Direction::Unloading => "pull",
-    };
     let target = manual_path::in_words(record.target);
+    let whole = match (record.target, record.direction) {
+        (Move::Hold(_), _) => target.clone(),
+        (_, Direction::Loading) => format!("press to {target}"),
+        (_, Direction::Unloading) => format!("pull to {target}"),
+    };
     let number = stage + 1;
     let texts = [
-        format!(" {number} {verb} to {target} "),
+        format!(" {number} {whole} "),
         format!(" {number} {target} "),
         format!(" {number} "),
     ];

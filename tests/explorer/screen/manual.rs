@@ -543,3 +543,29 @@ fn an_empty_target_is_asked_for() {
     driver.press("d Enter Enter");
     driver.states("type a target, for example 10 µN");
 }
+
+/// Motions by hand have no speed, so a body that relaxes follows none: each key is answered, and a
+/// path from before stays for the next edit.
+#[test]
+fn a_body_that_relaxes_is_not_moved_by_hand() {
+    let mut driver = Driver::start(relaxing());
+    driver.press("Space");
+    driver.press("d");
+    driver.states("a body that relaxes is not moved by hand");
+    assert!(driver.app.edit.path.is_none());
+    let mut driver = Driver::start(smooth());
+    driver.press("Space d Left Left Left");
+    let path = driver.app.edit.path.clone();
+    let followed = driver.app.followed().unwrap().moves().to_vec();
+    driver.app.view.pane = Pane::Parameters;
+    driver.set("loading_speed", "1.0e-6");
+    driver.set(
+        "material",
+        "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))",
+    );
+    driver.states("a body that relaxes is not moved by hand");
+    assert!(!driver.app.is_computing());
+    assert_eq!(driver.app.edit.path, path);
+    driver.press("u");
+    assert_eq!(driver.app.followed().unwrap().moves(), followed);
+}

@@ -207,6 +207,36 @@ fn a_curve_is_opened_by_its_path_and_closed_by_an_undo() {
     assert_eq!(driver.document().scene().loading, loading);
 }
 
+/// A file with several curves names them, and each of them is opened by its number.
+#[test]
+fn a_curve_of_a_map_is_opened_by_its_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("curve.csv");
+    write_curve(&path);
+    let curve = fs::read_to_string(&path).unwrap();
+    let (names, points) = curve.split_once('\n').unwrap();
+    let map = format!("{names}\n# x: 1 um, y: 2 um\n{points}# x: 3 um, y: 2 um\n{points}");
+    let map_path = folder.path().join("map.csv");
+    fs::write(&map_path, map).unwrap();
+    let mut driver = explorer(None, is_none);
+    driver.press("o");
+    driver.type_text(map_path.to_str().unwrap());
+    driver.press("Enter");
+    let refusal = driver.refusal().unwrap_or_default();
+    assert!(
+        refusal.contains("2 curves in one file; allowed: one of them")
+            && refusal.contains("map.csv#1 to"),
+        "{refusal}"
+    );
+    driver.type_text("#2");
+    driver.press("Enter");
+    driver.shows("the scene has the loading of the measured curve; u closes it");
+    let whole = Measured::read(&path, CurveOptions::default()).unwrap();
+    let opened = driver.app.edit.measured.as_ref().unwrap();
+    assert!(opened.name.ends_with("map.csv#2"));
+    assert_eq!(opened.curve.points, whole.curve.points);
+}
+
 /// Row of an option, keys, what the row then shows, and the option as an argument.
 #[test]
 fn options_of_reading_are_rows_that_an_undo_restores() {

@@ -75,7 +75,7 @@ fn everyday_words_find_commands_parameters_and_scenes() {
         ("measured surface", "open a scene, a study"),
         ("height histogram", "rigid"),
         ("tabor", "range of the attraction"),
-        ("relaxation", "exact solver, or relaxation"),
+        ("equilibrium", "exact solver, or equilibrium"),
         ("cite", "CITATION.cff"),
         ("version", "version 0"),
     ] {

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::explorer::events::MOST_LISTED;
-use asperity::explorer::player::At;
+use asperity::explorer::player::{At, Player};
 use asperity::explorer::theme::Marker;
 use asperity_contact::{Direction, Event, StageRecord};
 
@@ -311,4 +311,51 @@ fn the_next_pane_is_the_next_on_the_screen() {
     }
     driver.press("Tab");
     assert_eq!(driver.app.view.pane, Pane::Force);
+}
+
+/// The stages of a body that relaxes take columns by their times, a rest included. The marks are
+/// its events, and the force may be shown over the time.
+#[test]
+fn a_body_that_relaxes_moves_along_its_time() {
+    let mut driver = Driver::start(relaxing());
+    driver.resize((120, 36));
+    driver.press("Space");
+    driver.shows("2 hold 2 s");
+    let records = driver.app.stages().to_vec();
+    let times: Vec<[f64; 2]> = records
+        .iter()
+        .map(|record| record.times().unwrap())
+        .collect();
+    let rows = driver.pane(Pane::Timeline);
+    let row = rows.iter().find(|row| row.contains("2 hold 2 s")).unwrap();
+    // The rest begins at the preload ▲.
+    let column_of = |symbol: char| row.chars().position(|shown| shown == symbol).unwrap() as f64;
+    let columns = row.chars().count() as f64;
+    let rest = column_of('├') - column_of('▲');
+    let expected = columns * (times[1][1] - times[1][0]) / (1.12 * times[2][1]);
+    assert!((rest - expected).abs() <= 2.0, "{row}, {times:?}");
+    let events = listed(&driver);
+    assert!(events.len() >= 2 && events.iter().all(|event| event.jump.is_none()));
+    steps(&mut driver, "Home");
+    for event in &events {
+        driver.press(";");
+        let shown = driver.app.snapshot.as_ref().unwrap().seconds.unwrap();
+        assert!((shown - event.seconds.unwrap()).abs() <= 1e-9 * times[2][1]);
+    }
+    // In the middle of the rest.
+    let [start, end] = times[1];
+    driver.app.set_playhead(Player {
+        stage: 1,
+        at: At::Seconds(0.5 * (start + end)),
+        playing: false,
+    });
+    driver.press("v");
+    driver.shows("t (s)");
+    driver.shows("rest");
+    let point = driver.point();
+    assert!(point.force < records[1].curve[0].force && point.springs > 0);
+    // Without relaxation there is no time to show.
+    driver.set("material", "(modulus: 2.0e6)");
+    driver.hides("t (s)");
+    driver.shows("d (");
 }

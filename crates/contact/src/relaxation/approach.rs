@@ -7,11 +7,8 @@ use crate::contact_state::{ContactState, Grid};
 use crate::error::ContactError;
 use crate::stage::Stage;
 
-/// Number of springs up to which the contact is computed at each indentation anew. Longer profiles
-/// are tabulated.
-const TABULATED_FROM: usize = 1024;
 /// Number of intervals of the table.
-const INTERVALS: usize = 1024;
+const INTERVALS: usize = 512;
 /// Difference of the growths of the compression in neighbouring intervals of the table, as a share
 /// of the largest compression. Above it, an interval has a jump and is not interpolated.
 const JUMP: f64 = 1e-5;
@@ -39,8 +36,7 @@ impl Approach {
 
     /// Prepares the contact for indentations up to `indentation` in m.
     pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
-        let is_short = self.stage.contact().gaps().len() < TABULATED_FROM;
-        if is_short || indentation <= self.high {
+        if indentation <= self.high {
             return Ok(());
         }
         self.table = self.stage.sample(Grid::new(0.0, indentation, INTERVALS))?;
@@ -52,11 +48,32 @@ impl Approach {
         Ok(())
     }
 
+    /// Returns the largest difference in m between the compressions of the table and a straight
+    /// line, between two indentations in m.
+    pub fn bend(&self, from: f64, to: f64) -> f64 {
+        let first = self.table.partition_point(|state| state.indentation < from);
+        let after = self.table.partition_point(|state| state.indentation <= to);
+        if first + 2 >= after {
+            return 0.0;
+        }
+        let low = self.table[first];
+        let high = self.table[after - 1];
+        let slope = (high.compression - low.compression) / (high.indentation - low.indentation);
+        let mut largest: f64 = 0.0;
+        for state in &self.table[first..after] {
+            let way = state.indentation - low.indentation;
+            let straight = low.compression + slope * way;
+            largest = largest.max((state.compression - straight).abs());
+        }
+        largest
+    }
+
     /// Returns the contact at an indentation in m.
     pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
-        let place = indentation / self.high * INTERVALS as f64;
-        let is_inside = place > 1.0 && place < (INTERVALS - 2) as f64;
-        if self.table.len() <= INTERVALS || !is_inside {
+        let intervals = self.table.len().saturating_sub(1) as f64;
+        let place = indentation / self.high * intervals;
+        let is_inside = place > 1.0 && place < intervals - 2.0;
+        if !is_inside {
             return self.stage.state(indentation);
         }
         let below = place as usize;

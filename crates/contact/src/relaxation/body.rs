@@ -3,6 +3,7 @@
 use super::course::{Course, STEPS};
 use super::division::Division;
 use super::drive::Drive;
+use super::law::Relaxation;
 use super::loading::Step;
 use super::memory::Moment;
 use super::recorder::{Recorded, Recorder};
@@ -15,12 +16,14 @@ use crate::moving_body::MovingBody;
 use crate::stage::{PatchState, Stage};
 use crate::target::Move;
 
-/// Share of the largest force by which forces may deviate because of the steps.
-const TOLERANCE: f64 = 1e-3;
+/// Never stops a motion.
+static NEVER: fn() -> bool = || false;
 
-/// A body that moves at a constant speed over a foundation with [`Relaxation`](crate::Relaxation).
-pub struct RelaxingBody {
+/// A body that moves at a constant speed over a foundation with [`Relaxation`].
+pub struct RelaxingBody<'a> {
     drive: Drive,
+    /// Returns true if the motion is to be interrupted.
+    stop: &'a dyn Fn() -> bool,
     /// Division of a coarse profile, over which the drive moves.
     division: Option<Division>,
     state: State,
@@ -33,7 +36,7 @@ pub struct RelaxingBody {
     stage: Stage,
 }
 
-impl RelaxingBody {
+impl<'a> RelaxingBody<'a> {
     /// Creates a separated body just before first touch.
     ///
     /// # Errors
@@ -58,7 +61,8 @@ impl RelaxingBody {
             division,
             state: State::apart(),
             speed: relaxing.speed,
-            tolerance: TOLERANCE,
+            tolerance: Relaxation::STEP_ERROR,
+            stop: &NEVER,
             work: Work {
                 springs: contact.gaps().len() as u64,
                 ..Work::default()
@@ -72,6 +76,13 @@ impl RelaxingBody {
     #[must_use]
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         RelaxingBody { tolerance, ..self }
+    }
+
+    /// Interrupts a stage with [`ContactError::Interrupted`] as soon as `stop` returns true. It is
+    /// asked before each step of the drive.
+    #[must_use]
+    pub fn with_stop(self, stop: &'a dyn Fn() -> bool) -> Self {
+        RelaxingBody { stop, ..self }
     }
 
     /// Returns the present point of the force curve.
@@ -122,7 +133,7 @@ impl RelaxingBody {
         {
             return Ok(StageRecord::free(target, self.state.indentation, end));
         }
-        let mut states = vec![self.state.clone()];
+        let mut states = vec![self.state.at_rest()];
         if self.state.is_separated() {
             self.touch(&mut states)?;
         }
@@ -136,8 +147,9 @@ impl RelaxingBody {
         let mut course = Course::new(drive, &self.state, direction, goal, &mut self.work)?;
         course.speed = self.speed;
         course.tolerance = self.tolerance;
+        course.stop = self.stop;
         course.run(&mut states, &mut recorder)?;
-        let recorded = recorder.finish(&states);
+        let recorded = recorder.finish(&states)?;
         self.finish(target, direction, states, recorded)
     }
 
@@ -166,7 +178,7 @@ impl RelaxingBody {
         if self.state.is_separated() || seconds == 0.0 {
             return Ok(StageRecord::still(target, self.point()));
         }
-        let mut states = vec![self.state.clone()];
+        let mut states = vec![self.state.at_rest()];
         let step = Step {
             drive: self.state.drive,
             seconds: seconds / STEPS as f64,
@@ -179,10 +191,13 @@ impl RelaxingBody {
         };
         let mut recorder = Recorder::new(view, self.contact.gaps().len());
         for _ in 0..STEPS {
+            if (self.stop)() {
+                return Err(ContactError::Interrupted);
+            }
             self.drive.step(&mut states, step, tolerance)?;
             recorder.add_all_but_last(&mut states);
         }
-        let recorded = recorder.finish(&states);
+        let recorded = recorder.finish(&states)?;
         let falls = states
             .last()
             .is_some_and(|last| last.indentation < self.state.indentation);
@@ -284,7 +299,7 @@ impl RelaxingBody {
     }
 }
 
-impl MovingBody for RelaxingBody {
+impl MovingBody for RelaxingBody<'_> {
     /// Moves the body to a target and returns the record of the stage.
     ///
     /// # Errors

@@ -10,11 +10,6 @@ use super::peaks::{Bound, Peak, bound_of};
 /// Number of springs of a flank.
 const FLANK: usize = 16;
 
-const NO_PEAK: Peak = Peak {
-    spring: 0,
-    tension: f64::NEG_INFINITY,
-};
-
 /// The springs of a patch far from its edges.
 #[derive(Clone, Copy, Debug)]
 pub struct Core {
@@ -74,6 +69,7 @@ pub struct Peaks<'a> {
     line: &'a Line,
     field: &'a Field,
     core: Core,
+    /// Spring of the core with the largest tension, once it is known.
     peak_of_core: Option<Peak>,
     /// Largest tension from each spring of the left flank to the core.
     left: [Peak; FLANK],
@@ -88,8 +84,8 @@ impl<'a> Peaks<'a> {
             field,
             core,
             peak_of_core: None,
-            left: [NO_PEAK; FLANK],
-            right: [NO_PEAK; FLANK],
+            left: [Peak::NONE; FLANK],
+            right: [Peak::NONE; FLANK],
         };
         peaks.compare_flanks(first, last);
         peaks
@@ -110,12 +106,12 @@ impl<'a> Peaks<'a> {
         let Some([from, to]) = self.core.springs else {
             return;
         };
-        let mut best = NO_PEAK;
+        let mut best = Peak::NONE;
         for spring in (first..from).rev() {
             best = best.larger(self.peak_of(spring));
             self.left[from - 1 - spring] = best;
         }
-        best = NO_PEAK;
+        best = Peak::NONE;
         for spring in to + 1..=last {
             best = best.larger(self.peak_of(spring));
             self.right[spring - to - 1] = best;
@@ -132,17 +128,19 @@ impl<'a> Peaks<'a> {
         }
         let Some([from, to]) = self.core.springs else {
             let springs = (first..=last).map(|spring| self.peak_of(spring));
-            return springs.fold(NO_PEAK, Peak::larger);
+            return springs.fold(Peak::NONE, Peak::larger);
         };
         let best = self.left[from - 1 - first].larger(self.right[last - to - 1]);
         if self.core.bound.at(self.field.decay) <= best.tension {
             return best;
         }
-        let peak = match self.peak_of_core {
-            Some(peak) => peak,
-            None => self.line.peak(from..=to, self.field),
-        };
-        self.peak_of_core = Some(peak);
-        best.larger(peak)
+        if let Some(peak) = self.peak_of_core {
+            return best.larger(peak);
+        }
+        let peak = self.line.peak(from..=to, best, self.field);
+        if peak.tension > best.tension {
+            self.peak_of_core = Some(peak);
+        }
+        peak
     }
 }

@@ -25,6 +25,8 @@ pub struct Course<'a> {
     pub speed: f64,
     /// Error of the force that the steps may have, as a share of the largest force.
     pub tolerance: f64,
+    /// Returns true if the motion is to be interrupted.
+    pub stop: &'a dyn Fn() -> bool,
 }
 
 impl<'a> Course<'a> {
@@ -44,6 +46,7 @@ impl<'a> Course<'a> {
             step,
             speed: 1.0,
             tolerance: 0.0,
+            stop: &|| false,
         })
     }
 
@@ -135,6 +138,9 @@ impl<'a> Course<'a> {
             let Some(from) = states.last() else {
                 return Ok(());
             };
+            if (self.stop)() {
+                return Err(ContactError::Interrupted);
+            }
             let mut drive = from.drive + step;
             if let Some(end) = end_of_drive
                 && (end - drive) * sign <= 0.25 * step.abs()

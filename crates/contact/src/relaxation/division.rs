@@ -8,7 +8,7 @@ use crate::stage::Stage;
 use asperity_data::resized;
 
 /// Number of springs from which on a profile is not divided.
-const ENOUGH: usize = 1500;
+const ENOUGH: usize = 1000;
 
 /// A profile whose cells are divided into equal parts.
 pub struct Division {
@@ -43,12 +43,6 @@ impl Division {
     /// Returns the elastic approach of the profile before the division.
     pub fn approach(&self) -> &Stage {
         &self.coarse
-    }
-
-    /// Returns the number of springs that are in contact on the approach at an indentation in m.
-    pub fn springs_of_approach(&self, indentation: f64) -> Result<u64, ContactError> {
-        let state = self.coarse.state(indentation)?;
-        Ok(crate::contact_state::counted(state.totals.springs))
     }
 
     /// Returns the springs of a patch of the divided profile. A patch that has no spring is given

@@ -6,7 +6,7 @@ use super::field::Field;
 use super::law::Relaxation;
 use super::line::Line;
 use super::memory::{History, Moment, Ramp};
-use super::patch::StretchedPatch;
+use super::patch::{Settling, StretchedPatch};
 use super::state::{Load, Phase, State, Turned};
 use super::turn::Turn;
 use crate::contact::Contact;
@@ -244,6 +244,7 @@ impl Drive {
         let before = &from.load;
         let mut load = Load::of_approach(&contact);
         load.compression -= load.length * (state.deepest - state.indentation);
+        state.jump = self.approach.bend(from.deepest, state.deepest);
         // While springs attach, the fresh part v of all compressions grows as the compressions do,
         // and decays.
         let growth = load.compression - before.compression;
@@ -308,7 +309,15 @@ impl Drive {
         let mut detached = turned.detached;
         let mut patches = Vec::with_capacity(turned.patches.len() + 1);
         for patch in &turned.patches {
-            detached |= patch.settle(line, &field, self.rule, &mut patches);
+            let before = patches.len();
+            match patch.settle(line, &field, self.rule, &mut patches) {
+                Settling::Holds => {}
+                Settling::Slides => detached = true,
+                Settling::Jumps => {
+                    detached = true;
+                    state.jump += patch.lost_force(&patches[before..], &field).abs();
+                }
+            }
         }
         state.load = Load::of_patches(&patches, &field);
         state.phase = Phase::Turned(Turned {

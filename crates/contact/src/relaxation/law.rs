@@ -34,6 +34,10 @@ impl Relaxation {
     /// force at rest and no equilibrium.
     pub const LARGEST_SHARE: f64 = 0.99;
 
+    /// Error of the force that the steps of a motion in time may have, as a share of the largest
+    /// force.
+    pub const STEP_ERROR: f64 = 1e-3;
+
     /// Creates the relaxation of a foundation whose modulus falls by the share `share` of its
     /// instantaneous value, with the relaxation time `time` in s. A share of zero is an elastic
     /// foundation.

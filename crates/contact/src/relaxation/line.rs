@@ -56,11 +56,11 @@ impl Line {
         self.sums[last].minus(self.sums[first])
     }
 
-    /// Returns the spring with the largest tension among `springs`, and its tension in m apart from
-    /// the term that all springs share.
+    /// Returns the spring with the largest tension among `springs` and `known`, and its tension in
+    /// m apart from the term that all springs share.
     #[inline]
-    pub fn peak(&self, springs: RangeInclusive<usize>, field: &Field) -> Peak {
-        self.peaks.largest(springs, field.decay, |index| {
+    pub fn peak(&self, springs: RangeInclusive<usize>, known: Peak, field: &Field) -> Peak {
+        self.peaks.largest(springs, known, field.decay, |index| {
             field.own_tension(self.springs[index])
         })
     }
@@ -78,8 +78,8 @@ impl Line {
             ..fresh
         };
         Bound {
-            fresh: self.peak(first..=last, &fresh).tension,
-            relaxed: self.peak(first..=last, &relaxed).tension,
+            fresh: self.peak(first..=last, Peak::NONE, &fresh).tension,
+            relaxed: self.peak(first..=last, Peak::NONE, &relaxed).tension,
         }
     }
 }

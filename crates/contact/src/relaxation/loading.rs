@@ -7,6 +7,8 @@ use crate::error::ContactError;
 /// Largest number of times that a step is halved. Where the contact jumps, the jump is located to
 /// this share of a step.
 const MOST_HALVINGS: u32 = 20;
+/// Change of the force, as a share of the tolerance, within which a jump of the force is located.
+const LOCATED: f64 = 0.25;
 /// Largest number of guesses of the moment at which a motion reaches its goal.
 const GUESSES: usize = 60;
 /// Share of the largest force up to which the force of a goal is met.
@@ -64,27 +66,39 @@ impl Drive {
     ) -> Result<(), ContactError> {
         let moments = self.history.len();
         let half = step.part(from.drive, 0.5);
-        let middle = self.driven(from, half.drive, half.seconds)?;
+        let mut middle = self.driven(from, half.drive, half.seconds)?;
         self.remember(from, &middle);
-        let end = self.driven(&middle, step.drive, step.seconds - half.seconds)?;
+        let mut end = self.driven(&middle, step.drive, step.seconds - half.seconds)?;
         let force = self.force(&end);
         let difference = (force - self.force(&whole)).abs();
         let mean = 0.5 * (self.force(from) + force);
         let bend = (self.force(&middle) - mean).abs();
-        let dips = !from.is_separated() && end.is_separated() && {
-            // The force may have fallen by this much before the contact was lost.
-            let way = (end.indentation - from.indentation).abs();
-            from.load.length * way > tolerance
-        };
-        let is_accurate = difference.max(bend) <= tolerance.max(self.rounding()) && !dips;
+        let growths = [(from, &middle), (&middle, &end)].map(|(from, to)| self.growth(from, to));
+        // A force that falls and rises in turn may agree in the middle of a step by chance.
+        let mut kink = 0.0;
+        if let [Some(growth), _] = growths
+            && let Some(growth_before) = from.growth
+        {
+            kink = 0.5 * half.seconds * (growth - growth_before).abs();
+        }
+        let is_lost = !from.is_separated() && end.is_separated();
+        let jump = middle.jump.max(end.jump);
+        let is_straight =
+            difference.max(bend).max(kink).max(jump) <= tolerance.max(self.rounding());
+        let is_accurate = is_straight && !is_lost
+            || self.largest_change(from, &middle, &end) <= LOCATED * tolerance;
         if is_accurate || halvings == 0 {
             self.remember(&middle, &end);
+            if is_straight {
+                [middle.growth, end.growth] = growths;
+            }
             self.largest_force = self.largest_force.max(force.abs());
             states.push(middle);
             states.push(end);
             return Ok(());
         }
         self.forget(moments);
+        let force_of_middle = self.force(&middle);
         self.divide(states, from, half, middle, tolerance, halvings - 1)?;
         let Some(middle) = states.last().cloned() else {
             return Ok(());
@@ -93,8 +107,38 @@ impl Drive {
             drive: step.drive,
             seconds: step.seconds - half.seconds,
         };
-        let whole = self.driven(&middle, rest.drive, rest.seconds)?;
+        let deviation = (self.force(&middle) - force_of_middle).abs();
+        let is_same = deviation <= LOCATED * tolerance;
+        let whole = if is_same {
+            end
+        } else {
+            self.driven(&middle, rest.drive, rest.seconds)?
+        };
         self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
+    }
+
+    /// Returns the mean growth of the force in m/s from one state to another one.
+    fn growth(&self, from: &State, to: &State) -> Option<f64> {
+        let seconds = to.seconds - from.seconds;
+        let growth = (self.force(to) - self.force(from)) / seconds;
+        growth.is_finite().then_some(growth)
+    }
+
+    /// Returns the largest change of the force in m on the way from `from` over `middle` to `end`,
+    /// apart from a jump.
+    fn largest_change(&self, from: &State, middle: &State, end: &State) -> f64 {
+        let loads = [&from.load, &middle.load, &end.load];
+        let length = loads
+            .map(|load| load.length)
+            .into_iter()
+            .fold(0.0, f64::max);
+        let fresh = loads
+            .map(|load| load.fresh.abs())
+            .into_iter()
+            .fold(0.0, f64::max);
+        let way = (end.drive - from.drive).abs();
+        let duration = (end.seconds - from.seconds) / self.relaxation.time();
+        way * length.min(self.instrument) + self.relaxation.share() * fresh * duration.min(1.0)
     }
 
     fn rounding(&self) -> f64 {

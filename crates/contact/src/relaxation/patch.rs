@@ -53,6 +53,21 @@ struct Receding<'a> {
     left: Edge,
     right: Edge,
     peaks: Peaks<'a>,
+    /// Smallest tension in m so far above the tension that the patch bears.
+    least_excess: f64,
+    /// True if the patch was closer to bearing its tension before than it is now.
+    jumps: bool,
+}
+
+/// What a patch does until it bears its tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Settling {
+    /// Nothing detaches.
+    Holds,
+    /// The edges move as the drive does.
+    Slides,
+    /// The edges move further than the drive requires, or the patch is lost or divided.
+    Jumps,
 }
 
 /// State of a patch after springs have detached at its edges.
@@ -108,35 +123,53 @@ impl StretchedPatch {
         left.max(right).max(receding.peak().tension)
     }
 
+    /// Returns the force in m that the springs bore which were in this patch, and which are in none
+    /// of the patches `held`.
+    pub fn lost_force(&self, held: &[StretchedPatch], field: &Field) -> f64 {
+        let mut lost = self.sums;
+        for patch in held {
+            lost = lost.minus(patch.sums);
+        }
+        field.common() * lost.length - field.remaining * lost.gap
+            + (1.0 - field.remaining) * field.decay * lost.memory
+    }
+
     /// Lets springs detach until each remaining patch bears its tension, and adds these patches to
-    /// `held`. Returns true if anything has detached.
+    /// `held`.
     pub fn settle<R: DetachmentRule>(
         &self,
         line: &Line,
         field: &Field,
         rule: R,
         held: &mut Vec<StretchedPatch>,
-    ) -> bool {
+    ) -> Settling {
         let most = self.bound.at(field.decay) - field.common();
         if most <= rule.largest_stretch(self.sums.length) {
             held.push(*self);
-            return false;
+            return Settling::Holds;
         }
         let mut receding = Receding::new(line, field, self.left, self.right, self.core);
         let [left, right] = receding.tensions();
         let most = left.max(right).max(receding.peak().tension);
         if most <= rule.largest_stretch(self.sums.length) {
             held.push(*self);
-            return false;
+            return Settling::Holds;
         }
+        receding.least_excess = most - rule.largest_stretch(self.sums.length);
+        let mut settling = Settling::Slides;
         let mut waiting = Vec::new();
         loop {
-            match receding.recede(rule) {
+            let remainder = receding.recede(rule);
+            if receding.jumps {
+                settling = Settling::Jumps;
+            }
+            match remainder {
                 Remainder::Holds => {
                     held.push(receding.patch());
                 }
-                Remainder::Nothing => {}
+                Remainder::Nothing => settling = Settling::Jumps,
                 Remainder::Parts(lost) => {
+                    settling = Settling::Jumps;
                     let [left, right] = receding.split(lost);
                     waiting.push(right);
                     receding = left;
@@ -145,7 +178,7 @@ impl StretchedPatch {
             }
             match waiting.pop() {
                 Some(next) => receding = next,
-                None => return true,
+                None => return settling,
             }
         }
     }
@@ -160,6 +193,8 @@ impl<'a> Receding<'a> {
             left,
             right,
             peaks: Peaks::new(line, field, core, left.spring, right.spring),
+            least_excess: f64::INFINITY,
+            jumps: false,
         }
     }
 
@@ -215,10 +250,13 @@ impl<'a> Receding<'a> {
             let tensions = self.tensions();
             let peak = self.peak();
             let top = tensions[0].max(tensions[1]);
-            if top.max(peak.tension) <= rule.largest_stretch(length) {
+            let excess = top.max(peak.tension) - rule.largest_stretch(length);
+            if excess <= 0.0 {
                 return Remainder::Holds;
             }
             let slack = ROUNDING * (top.abs() + self.common.abs());
+            self.jumps |= excess > self.least_excess + slack;
+            self.least_excess = self.least_excess.min(excess);
             if peak.tension >= top - slack {
                 if self.left.spring == self.right.spring {
                     return Remainder::Nothing;

@@ -51,6 +51,12 @@ pub struct Peak {
 }
 
 impl Peak {
+    /// A peak below all springs.
+    pub const NONE: Self = Peak {
+        spring: 0,
+        tension: f64::NEG_INFINITY,
+    };
+
     /// Returns the one of two springs that has the larger tension.
     #[inline]
     pub fn larger(self, other: Peak) -> Peak {
@@ -85,11 +91,13 @@ impl PeakTree {
         Ok(PeakTree { bounds, leaves })
     }
 
-    /// Finds the spring with the largest tension among `range`. `tension` is the tension of a
-    /// spring in m, with memories decayed by the factor `decay`.
+    /// Finds the spring with the largest tension among `springs`. Returns `known` if none of them
+    /// has a larger tension. `tension` is the tension of a spring in m, with memories decayed by
+    /// the factor `decay`.
     pub fn largest(
         &self,
         springs: RangeInclusive<usize>,
+        known: Peak,
         decay: f64,
         tension: impl Fn(usize) -> f64,
     ) -> Peak {
@@ -97,10 +105,7 @@ impl PeakTree {
             first: *springs.start(),
             last: *springs.end(),
             decay,
-            best: Peak {
-                spring: *springs.start(),
-                tension: f64::NEG_INFINITY,
-            },
+            best: known,
             tension,
         };
         if search.last - search.first < 2 * LEAF {

@@ -4,8 +4,10 @@ use super::law::Relaxation;
 use super::state::State;
 use super::view::View;
 use crate::contact::Contact;
+use crate::error::ContactError;
 use crate::history::{CurvePoint, Direction, Patch, StageRecord};
 use crate::target::Move;
+use asperity_data::CompensatedSum;
 
 /// Collects the points of a stage, and the springs that detach on it.
 pub struct Recorder<'a> {
@@ -13,6 +15,8 @@ pub struct Recorder<'a> {
     recorded: Recorded,
     /// Patches at the last point at which the body was above its largest indentation.
     patches: Option<Vec<Patch>>,
+    /// Points of the curve at which the body was at its largest indentation.
+    deepest: Vec<usize>,
 }
 
 /// Points of a stage, and the springs that detached on it.
@@ -40,6 +44,7 @@ impl<'a> Recorder<'a> {
                 detached_at: vec![f64::INFINITY; springs],
             },
             patches: None,
+            deepest: Vec::new(),
         }
     }
 
@@ -54,10 +59,11 @@ impl<'a> Recorder<'a> {
                 }
             }
         }
-        if patches.is_some() {
-            self.patches = patches;
+        match patches {
+            Some(_) => self.patches = patches,
+            None => self.deepest.push(recorded.curve.len()),
         }
-        recorded.curve.push(self.view.point(state));
+        recorded.curve.push(self.view.curve_point(state));
         recorded.seconds.push(state.seconds);
         recorded.drives.push(state.drive);
         recorded.fresh_squares.push(state.load.fresh_squares);
@@ -72,11 +78,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds the last states of a stage, and returns what was recorded.
-    pub fn finish(mut self, states: &[State]) -> Recorded {
+    pub fn finish(mut self, states: &[State]) -> Result<Recorded, ContactError> {
         for state in states {
             self.add(state);
         }
-        self.recorded
+        self.view
+            .count_springs(&mut self.recorded.curve, self.deepest)?;
+        Ok(self.recorded)
     }
 
     /// Returns the smallest force so far in N.
@@ -116,13 +124,11 @@ impl Recorded {
             }
         }
         let rate = relaxation.share() * contact.foundation.spring_stiffness() / relaxation.time();
-        let mut work = 0.0;
-        for after in 1..self.curve.len() {
-            let before = after - 1;
-            let [from, to] = [self.curve[before], self.curve[after]];
-            work += 0.5 * (from.force + to.force) * (self.drives[after] - self.drives[before]);
-            let mean = 0.5 * (self.fresh_squares[before] + self.fresh_squares[after]);
-            record.dashpot_energy += rate * mean * (self.seconds[after] - self.seconds[before]);
+        let forces: Vec<f64> = self.curve.iter().map(|point| point.force).collect();
+        let work = integral(&self.drives, &forces);
+        record.dashpot_energy = rate * integral(&self.seconds, &self.fresh_squares);
+        for pair in self.curve.windows(2) {
+            let [from, to] = [pair[0], pair[1]];
             record.attached += to.springs.saturating_sub(from.springs);
             record.detached += from.springs.saturating_sub(to.springs);
         }
@@ -134,6 +140,56 @@ impl Recorded {
         record.curve = self.curve;
         record.seconds = self.seconds;
         record
+    }
+}
+
+/// Returns the integral of a quantity over a coordinate, both given at some points. Between two
+/// points the quantity is a parabola whose curvature is the smaller one of the curvatures at these
+/// points. Where the quantity jumps, or its slope does, the curvatures have different signs, and
+/// the quantity is straight.
+fn integral(coordinates: &[f64], values: &[f64]) -> f64 {
+    let curvature = |point: usize| -> f64 {
+        let Some(before) = point.checked_sub(1) else {
+            return 0.0;
+        };
+        let after = point + 1;
+        if after >= values.len() {
+            return 0.0;
+        }
+        let ways = [
+            coordinates[point] - coordinates[before],
+            coordinates[after] - coordinates[point],
+        ];
+        let goes_on = ways[0] * ways[1] > 0.0;
+        if !goes_on {
+            return 0.0;
+        }
+        let slopes = [
+            (values[point] - values[before]) / ways[0],
+            (values[after] - values[point]) / ways[1],
+        ];
+        2.0 * (slopes[1] - slopes[0]) / (ways[0] + ways[1])
+    };
+    let mut sum = CompensatedSum::default();
+    let mut at_end = 0.0;
+    for after in 1..values.len() {
+        let at_begin = at_end;
+        at_end = curvature(after);
+        let way = coordinates[after] - coordinates[after - 1];
+        sum.add(0.5 * (values[after - 1] + values[after]) * way);
+        sum.add(-smaller(at_begin, at_end) * way * way * way / 12.0);
+    }
+    sum.total()
+}
+
+/// Returns the number that is closer to zero of two numbers with the same sign, otherwise zero.
+fn smaller(number: f64, other: f64) -> f64 {
+    if number * other <= 0.0 {
+        0.0
+    } else if number.abs() < other.abs() {
+        number
+    } else {
+        other
     }
 }
 
@@ -159,6 +215,26 @@ fn lost(before: &[Patch], after: &[Patch]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_parabola_is_integrated_but_for_its_ends_and_a_step_as_a_straight_line() {
+        let coordinates: Vec<f64> = (0..=40).map(|k| (0.1 * f64::from(k)).powf(1.5)).collect();
+        let inside = |values: Vec<f64>| {
+            let [first, last] = [1, values.len() - 1];
+            integral(&coordinates, &values)
+                - integral(&coordinates[..=first], &values[..=first])
+                - integral(&coordinates[last - 1..], &values[last - 1..])
+        };
+        let [from, to] = [coordinates[1], coordinates[39]];
+        let found = inside(coordinates.iter().map(|x| 3.0 - x * x).collect());
+        let expected = 3.0 * (to - from) - (to.powi(3) - from.powi(3)) / 3.0;
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        let step = |x: f64| if x < 2.0 { 0.0 } else { 1.0 };
+        let found = inside(coordinates.iter().map(|&x| step(x)).collect());
+        let after = coordinates.partition_point(|&x| x < 2.0);
+        let expected = to - 0.5 * (coordinates[after - 1] + coordinates[after]);
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
 
     #[test]
     fn springs_that_are_no_longer_in_a_patch_are_lost() {

@@ -112,6 +112,11 @@ pub struct State {
     pub memory: f64,
     pub load: Load,
     pub phase: Phase,
+    /// Change of the force in m by jumps on the step to this state. Jumps that cancel leave no
+    /// other trace.
+    pub jump: f64,
+    /// Mean growth of the force in m/s on the step to this state; `None` after a jump.
+    pub growth: Option<f64>,
 }
 
 impl State {
@@ -125,6 +130,16 @@ impl State {
             memory: 0.0,
             load: Load::default(),
             phase: Phase::Apart,
+            jump: 0.0,
+            growth: None,
+        }
+    }
+
+    /// Returns the state at the begin of a stage, where the motion of the drive changes.
+    pub fn at_rest(&self) -> Self {
+        State {
+            growth: None,
+            ..self.clone()
         }
     }
 

@@ -3,6 +3,7 @@
 use super::division::Division;
 use super::patch::StretchedPatch;
 use super::state::{Phase, State};
+use crate::error::ContactError;
 use crate::foundation::Foundation;
 use crate::history::{CurvePoint, Patch};
 
@@ -17,25 +18,55 @@ pub struct View<'a> {
 }
 
 impl View<'_> {
-    /// Returns the point of the force curve.
+    /// Returns the point of the force curve. Without memory to count them, its springs are those of
+    /// the division.
     pub fn point(&self, state: &State) -> CurvePoint {
+        let mut curve = [self.curve_point(state)];
+        if matches!(state.phase, Phase::Deepest) && self.count_springs(&mut curve, vec![0]).is_err()
+        {
+            return self.curve_point(state);
+        }
+        curve[0]
+    }
+
+    /// Returns the point of the force curve. For a body at its largest indentation the springs of
+    /// a division are counted later, by [`View::count_springs`].
+    pub fn curve_point(&self, state: &State) -> CurvePoint {
         let mut point = state.point(self.foundation, self.remaining);
-        let Some(division) = self.division else {
-            return point;
-        };
-        // The division has further springs, which do not count.
-        point.springs = match &state.phase {
-            Phase::Apart => 0,
-            Phase::Deepest => division
-                .springs_of_approach(state.indentation)
-                .unwrap_or(point.springs),
-            Phase::Turned(_) => {
-                let patches = self.turned_patches(state).unwrap_or_default();
-                let springs = patches.iter().map(|patch| patch.springs().len());
-                springs.sum::<usize>() as u64
-            }
-        };
+        if self.division.is_some()
+            && let Some(patches) = self.turned_patches(state)
+        {
+            // The division has further springs, which do not count.
+            let springs = patches.iter().map(|patch| patch.springs().len());
+            point.springs = springs.sum::<usize>() as u64;
+        }
         point
+    }
+
+    /// Counts the springs before the division, at those points of a curve with the indices
+    /// `deepest`, at which the body is at its largest indentation.
+    pub fn count_springs(
+        &self,
+        curve: &mut [CurvePoint],
+        mut deepest: Vec<usize>,
+    ) -> Result<(), ContactError> {
+        let Some(division) = self.division else {
+            return Ok(());
+        };
+        deepest.retain(|&index| curve[index].springs > 0);
+        deepest.sort_by(|&point, &other| {
+            let indentation = curve[point].indentation;
+            indentation.total_cmp(&curve[other].indentation)
+        });
+        let indentations: Vec<f64> = deepest
+            .iter()
+            .map(|&index| curve[index].indentation)
+            .collect();
+        let counts = division.approach().curve(&indentations)?;
+        for (index, count) in deepest.into_iter().zip(counts) {
+            curve[index].springs = count.springs;
+        }
+        Ok(())
     }
 
     /// Returns the patches of a body above its largest indentation; otherwise `None`.

@@ -14,19 +14,39 @@ use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
 use crate::detachment::ContactRule;
 use crate::error::ContactError;
-use crate::history::{CurvePoint, Direction, Goal, Work};
-use crate::interval::{Interval, Intervals};
+use crate::history::{CurvePoint, Direction, Goal, StageRecord, Work};
+use crate::interval::{Interval, Intervals, Jumped};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
 
 /// Number of intervals of the grid on which extremes are searched. Each patch is evaluated at each
 /// point of the grid.
 pub(crate) const SEARCH_INTERVALS: usize = 256;
+/// Width of a jump of the instrument, as a share of the way of the motion, below which it is due to
+/// rounding.
+const ROUNDING: f64 = 1e-12;
 /// Number of intervals whose events are listed at the same time.
 const AT_ONCE: usize = 16;
 /// Distance, in grid points, between the points that a search evaluates before it evaluates points
 /// between them.
 const STRIDE: usize = 16;
+
+/// Jump of the body at one displacement of a compliant instrument: where the force of the contact
+/// changes faster than the instrument can follow, the body moves on to the next indentation at
+/// which the two forces are equal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct InstrumentJump {
+    /// Displacement in m of the drive of the instrument.
+    pub displacement: f64,
+    /// Indentation in m before the jump.
+    pub from: f64,
+    /// Indentation in m after the jump.
+    pub to: f64,
+    /// Energy in J that the instrument and the body lose, a positive number. Springs that attach or
+    /// detach in between have energies of their own.
+    pub energy: f64,
+}
 
 /// States whether the body is separated at the beginning and at the end of a motion.
 #[derive(Clone, Copy)]
@@ -144,9 +164,87 @@ impl Stage {
         separated: SeparatedEnds,
         extreme: &mut Option<f64>,
     ) -> f64 {
+        let mut area = CompensatedSum::default();
+        self.each_jump(sampled, separated, extreme, &mut |jumped| {
+            area.add(jumped.area)
+        });
+        self.contact.foundation.spring_stiffness() * area.total()
+    }
+
+    /// Finds the jumps of a compliant instrument on a recorded motion, in the order of the motion.
+    /// `extreme` is as in [`Self::jump_energy`].
+    pub(crate) fn instrument_jumps(
+        &self,
+        record: &StageRecord,
+        extreme: &mut Option<f64>,
+    ) -> Result<Vec<InstrumentJump>, ContactError> {
+        let is_free = |point: Option<&CurvePoint>| point.is_none_or(|point| point.springs == 0);
+        let separated = SeparatedEnds {
+            at_begin: is_free(record.curve.first()),
+            at_end: is_free(record.curve.last()),
+        };
+        let [low, high] = record.passed();
+        let curve = record.curve.iter().map(|point| point.indentation);
+        let mut indentations: Vec<f64> = curve
+            .filter(|indentation| (low..=high).contains(indentation))
+            .collect();
+        indentations.sort_by(f64::total_cmp);
+        indentations.dedup();
+        let way = match (indentations.first(), indentations.last()) {
+            (Some(first), Some(last)) => last - first,
+            _ => return Ok(Vec::new()),
+        };
+        let sampled = self.sample(Grid::at(indentations))?;
+        let mut parts: Vec<Jumped> = Vec::new();
+        let unloads = self.direction == Direction::Unloading;
+        self.each_jump(&sampled, separated, extreme, &mut |jumped| {
+            match parts.last_mut() {
+                // A jump passes several intervals.
+                Some(last) if unloads && last.low == jumped.high && last.level == jumped.level => {
+                    last.low = jumped.low;
+                    last.area += jumped.area;
+                }
+                Some(last) if !unloads && last.high == jumped.low && last.level == jumped.level => {
+                    last.high = jumped.high;
+                    last.area += jumped.area;
+                }
+                _ => parts.push(jumped),
+            }
+        });
+        let stiffness = self.contact.foundation.spring_stiffness();
+        let instrument = self.contact.loading_stiffness / stiffness;
+        let mut jumps = Vec::new();
+        for part in parts {
+            let [from, to] = if unloads {
+                [part.high, part.low]
+            } else {
+                [part.low, part.high]
+            };
+            let is_rounding = part.high - part.low <= ROUNDING * way;
+            if part.area > 0.0 && !is_rounding {
+                jumps.push(InstrumentJump {
+                    displacement: part.level / instrument,
+                    from,
+                    to,
+                    energy: stiffness * part.area,
+                });
+            }
+        }
+        Ok(jumps)
+    }
+
+    /// Calls `found` with each part of a sampled motion that a compliant instrument passes in a
+    /// jump, in the order of the motion.
+    fn each_jump(
+        &self,
+        sampled: &[ContactState],
+        separated: SeparatedEnds,
+        extreme: &mut Option<f64>,
+        found: &mut dyn FnMut(Jumped),
+    ) {
         let stage = self.with_instrument();
         if stage.instrument == 0.0 || !self.contact.has_adhesion() {
-            return 0.0;
+            return;
         }
         let sampled = stage.beside_instrument(sampled);
         let low = sampled[0];
@@ -157,20 +255,19 @@ impl Stage {
             Direction::Unloading => high.compression,
         };
         let mut reached = extreme.unwrap_or(begin);
-        let mut area = CompensatedSum::default();
         let pairs = intervals(&sampled, |_, _| true);
         match self.direction {
             Direction::Loading => {
                 for pairs in pairs.chunks(AT_ONCE) {
                     for interval in &stage.events(pairs, &mut Work::default()) {
-                        area.add(interval.jumped_on_loading(&mut reached));
+                        interval.jumped_on_loading(&mut reached, found);
                     }
                 }
             }
             Direction::Unloading => {
                 for pairs in pairs.rchunks(AT_ONCE) {
                     for interval in stage.events(pairs, &mut Work::default()).iter().rev() {
-                        area.add(interval.jumped_on_unloading(&mut reached));
+                        interval.jumped_on_unloading(&mut reached, found);
                     }
                 }
             }
@@ -178,11 +275,16 @@ impl Stage {
         // After the contact is lost, the instrument relaxes until no force deflects it. The energy
         // of this last jump also counts.
         if separated.at_end {
-            let free = low.indentation - reached / stage.instrument;
-            area.add(0.5 * stage.instrument * free.max(0.0) * free);
+            let displacement = reached / stage.instrument;
+            let free = (low.indentation - displacement).max(0.0);
+            found(Jumped {
+                low: low.indentation - free,
+                high: low.indentation,
+                level: reached,
+                area: 0.5 * stage.instrument * free * free,
+            });
         }
         *extreme = Some(reached);
-        self.contact.foundation.spring_stiffness() * area.total()
     }
 
     /// Finds the indentation in m at which the force is `force` in N. On loading it is the smallest

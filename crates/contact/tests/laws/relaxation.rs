@@ -1,6 +1,7 @@
 //! Relaxation in the contact: closed forms, limits, energy, and springs with memory by brute force.
 
 mod brute_force;
+mod climb;
 mod closed_forms;
 mod cost;
 mod instrument;

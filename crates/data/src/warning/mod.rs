@@ -359,12 +359,13 @@ impl Warning {
     /// Returns the text of the warning. `wording` puts the steps that help into the words of the
     /// command line, of the explorer or of Python.
     pub fn in_words(&self, wording: Wording) -> String {
+        let remedy = self.remedy_in_words(wording);
         match self {
             Warning::MeasuredFile { file, property } => {
                 let property = property.in_words(wording);
-                format!("{file}: {property}. {}", self.remedy())
+                format!("{file}: {property}. {remedy}")
             }
-            other => other.to_string(),
+            other => format!("{} {remedy}", other.sentence()),
         }
     }
 }

@@ -1,6 +1,10 @@
 //! Sentences that state which step restores a premise of the model.
 
+use crate::remedy::{Remedy, Wording};
 use crate::warning::{Trend, TrendOfScan, Warning};
+
+/// Beginning of the path of a field of a measured roughness.
+const ROUGHNESS: &str = "roughness.";
 
 impl Warning {
     /// Returns a sentence that states which step helps, with the names of the fields of a scene.
@@ -135,6 +139,30 @@ impl Warning {
             Warning::TipArtefacts { .. } => "A sharper tip resolves these waves.",
         };
         remedy.to_owned()
+    }
+
+    /// Returns the sentence of [`Self::remedy`], in which `wording` names the fields of a measured
+    /// roughness. A scene has them as `roughness.unit` or, with a value, `roughness.detrend: Tilt`.
+    pub(super) fn remedy_in_words(&self, wording: Wording) -> String {
+        let remedy = self.remedy();
+        let mut words = Vec::new();
+        let mut rest = remedy.split(' ');
+        while let Some(word) = rest.next() {
+            let Some(field) = word.strip_prefix(ROUGHNESS) else {
+                words.push(word.to_owned());
+                continue;
+            };
+            let (name, value) = match field.strip_suffix(':') {
+                Some(name) => (name, rest.next()),
+                None => (field, None),
+            };
+            let last = value.unwrap_or(name);
+            let ending = &last[last.trim_end_matches(['.', ',', ';']).len()..];
+            let name = name.trim_end_matches(['.', ',', ';']).to_owned();
+            let value = value.map(|value| value.trim_end_matches(['.', ',', ';']).to_owned());
+            words.push(wording(&Remedy::RoughnessField(name, value)) + ending);
+        }
+        words.join(" ")
     }
 }
 

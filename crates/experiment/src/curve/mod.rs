@@ -10,6 +10,7 @@ pub(crate) mod points;
 mod prepare;
 mod rest;
 pub(crate) mod segments;
+pub(crate) mod sources;
 mod statements;
 #[cfg(test)]
 mod tests;

@@ -34,18 +34,6 @@ const ROUNDED: f64 = 0.05;
 const STILL_HELD: f64 = 0.3;
 
 impl MeasuredCurve {
-    /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be
-    /// compressed by gzip.
-    ///
-    /// # Errors
-    /// Returns an error if the file cannot be read or has no columns of displacement and force. It
-    /// also returns an error if the curve has no points before contact, no points in contact, or no
-    /// retraction. A curve without a retraction is allowed if [`CurveOptions::segments`] selects
-    /// only the first approach.
-    pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
-        MeasuredCurve::parse(path, &content(path)?, options)
-    }
-
     /// Reads a curve from `bytes`, which are the content of a file with this name. No file is
     /// opened.
     ///
@@ -127,7 +115,8 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(columns, options)
     }
 
-    /// Returns true if the file at `path` can be read and has columns of displacement and force.
+    /// Returns true if the file at `path` can be read and has columns of displacement and force, of
+    /// one curve or of several.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| read::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))

@@ -57,6 +57,17 @@ pub const EFFECTS: &[Effect] = &[
         counted: |work| work.detached,
     },
     Effect {
+        name: "relaxation",
+        lines: Lines::Of(&[
+            ("crates/contact/src/relaxation/drive.rs", "pub fn moved("),
+            ("crates/contact/src/relaxation/turn.rs", "pub fn memories("),
+            ("crates/contact/src/relaxation/recorder.rs", "fn add("),
+        ]),
+        // No scene here relaxes, so nothing of it may run.
+        called_for: |_| false,
+        counted: |work| work.steps,
+    },
+    Effect {
         name: "histogram",
         lines: Lines::Of(&[(
             "crates/surface/src/line/rigid_line.rs",

@@ -169,7 +169,7 @@ pub const FIELDS: &[Field] = &[
         .words("reduced modulus stiffness")
         .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("material.relaxation", place!(material.relaxation), RELAXATIONS)
-        .default("None")
+        .name("relaxation").default("None")
         .words("viscoelastic viscoelasticity creep time dependent standard linear solid Maxwell dashpot rate")
         .meaning("fall of the modulus with time; elastic if left out"),
     row("material.relaxation.share", RELAXATION_SHARE, Range::closed(0.0, 0.99))
@@ -378,11 +378,11 @@ pub const FIELDS: &[Field] = &[
         .meaning("number of springs along the profile"),
     row("numerics.solver", place!(numerics.solver), Choice(&["Exact", "Stepwise(step: 1.0e-9)"]))
         .name("solver").default(defaults::SOLVER)
-        .words("method algorithm relaxation stepwise")
-        .meaning("exact solver, or relaxation step by step, as Popov and Filippov (2012) do"),
+        .words("method algorithm equilibrium stepwise")
+        .meaning("exact solver, or equilibrium step by step, as Popov and Filippov (2012) find it"),
     row("numerics.solver.step", SOLVER_STEP, Range::closed(1e-30, 1e6))
         .quantity("step", "Δd", "m")
-        .meaning("displacement between two relaxations"),
+        .meaning("displacement after which the stepwise solver finds equilibrium again"),
     row("numerics.edges", place!(numerics.edges), Choice(&["Grid", "SubCell"]))
         .name("edges").default(defaults::EDGES)
         .words("crack front discretisation")
@@ -391,7 +391,7 @@ pub const FIELDS: &[Field] = &[
     row("numerics.samples", place!(numerics.samples), Whole(2, 1_000_000))
         .name("samples").step(Doubling).default(defaults::SAMPLES)
         .words("points of the curve")
-        .meaning("points of the force curve on each stage"),
+        .meaning("points of the force curve on each stage; with relaxation the steps set them"),
     row("observe", place!(observe), OBSERVERS)
         .default("[]")
         .meaning("quantities that are recorded beside the force curve"),

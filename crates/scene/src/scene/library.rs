@@ -23,19 +23,19 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it. The arguments are the
-/// names of the files without the ending `.ron`.
+/// Makes a list of [`Preset`]s from files in a folder of the calling crate. The arguments are the
+/// path of the folder and the names of the files without the ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
         &[$($crate::Preset {
             name: $name,
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets/", $folder, $name, ".ron")),
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/", $folder, $name, ".ron")),
         }),*]
     };
 }
 
-const PRESETS: &[Preset] = built_in!["":
+const PRESETS: &[Preset] = built_in!["presets/":
     "ideal-adhesion",
     "pressure-sensitive",
     "non-adhesive",

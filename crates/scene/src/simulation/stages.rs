@@ -660,7 +660,7 @@ fn load(
             load_stepwise(scene, contact, step, without_preload, timings, stop, see)
         }
         SolverChoice::Exact if contact.relaxation().is_some() => {
-            let mut body = RelaxingBody::new(contact)?;
+            let mut body = RelaxingBody::new(contact)?.with_stop(stop);
             Ok((load_body(&mut body, &scene.loading, see)?, [None; 2]))
         }
         SolverChoice::Exact => load_exactly(scene, contact, without_preload, timings, see),
@@ -716,7 +716,7 @@ fn load_stepwise(
         };
         *force = Figures::of(&turned).pull_off_force;
         history.work.steps += turned.work.steps;
-        history.work.relaxation_sweeps += turned.work.relaxation_sweeps;
+        history.work.equilibrium_sweeps += turned.work.equilibrium_sweeps;
         history.work.spring_updates += turned.work.spring_updates;
     }
     timings.without_preload = begun.elapsed().as_secs_f64();

@@ -4,7 +4,7 @@
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
 use crate::scene::model::{Observer, Roughness, Scene, Solver};
-use asperity_contact::{CurvePoint, Edges, StageRecord};
+use asperity_contact::{CurvePoint, Edges, Move, StageRecord};
 use serde::Serialize;
 
 /// Number of bytes for each spring, for the heights of the roughness or the gaps of the profile.
@@ -19,7 +19,17 @@ const NODE: u64 = 20;
 const PASSED: u64 = 12;
 /// Number of bytes for each spring, for the stepwise solver: the threshold and the state of contact
 /// of the spring.
-const RELAXED: u64 = 9;
+const STEPPED: u64 = 9;
+/// Number of bytes for each spring, for a half-space that relaxes, as measured: the gap and the
+/// memory of the spring, sums up to the spring, and the indentations at which it attaches and
+/// detaches.
+const REMEMBERED: u64 = 96;
+/// Number of points of the force curve of a stage of a half-space that relaxes, as measured on
+/// rough profiles. The number follows from the error of the steps and not from the samples.
+const POINTS_OF_STEPS: u64 = 1024;
+/// Number of bytes for each point of such a curve, for its time, the displacement of the drive and
+/// the part of the energy that has not relaxed.
+const TIMED: u64 = 24;
 /// Number of bytes for each point of the force curve of the present loading stage, in addition to
 /// the curve itself, as measured. The second constant is for edges between springs, whose
 /// contributions are also summed at each point.
@@ -62,6 +72,8 @@ const LARGEST_FACTOR: u64 = 31;
 /// Reasons why parts of the computation are skipped.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 const STEPWISE: &str = "solver: Stepwise";
+const ELASTIC: &str = "no relaxation: the half-space is elastic";
+const RELAXES: &str = "material.relaxation: no loop without a preload";
 const NEVER_BACK: &str = "loading never goes back";
 
 /// Part of the computation from a scene to its force curve. The variants are in the order of
@@ -88,6 +100,8 @@ pub enum WorkPart {
     UnloadingPass,
     /// Steps of the stepwise solver. In each step the body moves; then springs attach and detach
     /// until the contact does not change.
+    Equilibrium,
+    /// Steps in time of a half-space that relaxes, with a memory of each spring in contact.
     Relaxation,
     /// Two loadings without a preload: one ends at first touch and one at zero force. The loadings
     /// give two pull-off forces, F_a(d=0) and F_a(F=0), and the regimes.
@@ -100,10 +114,10 @@ pub enum WorkPart {
 
 #[rustfmt::skip]
 impl WorkPart {
-    const NAMES: [&str; 11] = [
+    const NAMES: [&str; 12] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
-        "unloading passes", "stepwise relaxation", "adhesion without preload", "contact patches",
-        "height histogram",
+        "unloading passes", "stepwise equilibrium", "relaxation", "adhesion without preload",
+        "contact patches", "height histogram",
     ];
 
     /// Returns the name of this part for users, such as `contact tree`.
@@ -180,6 +194,7 @@ impl Workload {
             is_adhesive: Effect::Adhesion.is_on(scene),
             goes_back: Effect::Unloading.is_on(scene),
             is_exact: scene.numerics.solver == Solver::Exact,
+            relaxes: scene.relaxes(),
             is_measured: matches!(scene.roughness, Some(Roughness::Measured { .. })),
             is_random: scene.seed().is_some(),
         };
@@ -194,6 +209,7 @@ impl Workload {
         let solved = [
             WorkPart::Tree,
             WorkPart::LoadingPass,
+            WorkPart::Equilibrium,
             WorkPart::Relaxation,
             WorkPart::WithoutPreload,
         ];
@@ -207,7 +223,7 @@ impl Workload {
         } else {
             SAMPLED
         };
-        let samples = scene.numerics.samples;
+        let samples = points_of_stage(scene);
         let history = bytes_of_history(scene);
         let searched = samples.saturating_add(SEARCHED);
         contact = contact.saturating_add(history);
@@ -217,7 +233,7 @@ impl Workload {
             contact = contact.saturating_add(TOUCHED * springs);
         }
         let mut reserved = SMALL_ARRAYS.saturating_add(searched.saturating_mul(RESERVED));
-        if scene.loading_stiffness.is_some() {
+        if scene.loading_stiffness.is_some() && searches_displacements(scene) {
             contact = contact.saturating_add(DISPLACED * springs);
             reserved = reserved.saturating_add(searched.saturating_mul(RESERVED_DISPLACED));
         }
@@ -264,10 +280,30 @@ impl Workload {
     }
 }
 
+/// Returns the number of points of the force curve of a loading stage.
+fn points_of_stage(scene: &Scene) -> u64 {
+    if scene.relaxes() {
+        POINTS_OF_STEPS
+    } else {
+        scene.numerics.samples
+    }
+}
+
+/// Returns true if a motion under an instrument is searched for a displacement or for the loss of
+/// the contact. A half-space that relaxes moves by steps, and is searched only for displacements.
+fn searches_displacements(scene: &Scene) -> bool {
+    let is_displacement = |stage: &Move| matches!(stage, Move::ToDisplacement(_));
+    !scene.relaxes() || scene.loading.iter().any(is_displacement)
+}
+
 /// Returns the memory in bytes of the force curves of all loading stages.
 fn bytes_of_history(scene: &Scene) -> u64 {
-    let points = scene.numerics.samples + StageRecord::FURTHER_POINTS as u64;
-    let curve = points.saturating_mul(size_of::<CurvePoint>() as u64);
+    let points = points_of_stage(scene) + StageRecord::FURTHER_POINTS as u64;
+    let mut point = size_of::<CurvePoint>() as u64;
+    if scene.relaxes() {
+        point += TIMED;
+    }
+    let curve = points.saturating_mul(point);
     let stage = curve.saturating_add(RECORDS * size_of::<StageRecord>() as u64);
     stage.saturating_mul(scene.loading.len() as u64)
 }
@@ -324,6 +360,7 @@ struct Planner<'s> {
     is_adhesive: bool,
     goes_back: bool,
     is_exact: bool,
+    relaxes: bool,
     is_measured: bool,
     is_random: bool,
 }
@@ -355,9 +392,14 @@ impl Planner<'_> {
                 self.each_stage(0),
             ),
             PlannedPart::new(
-                WorkPart::Relaxation,
+                WorkPart::Equilibrium,
                 because(!self.is_exact, STEPWISE, "solver: Exact"),
-                self.each_stage(RELAXED * self.springs),
+                self.each_stage(STEPPED * self.springs),
+            ),
+            PlannedPart::new(
+                WorkPart::Relaxation,
+                because(self.relaxes, "material.relaxation", ELASTIC),
+                self.each_stage(REMEMBERED * self.springs),
             ),
             self.without_preload(),
             PlannedPart::new(
@@ -433,6 +475,8 @@ impl Planner<'_> {
             Err(NO_ADHESION)
         } else if !self.is_exact {
             Err(STEPWISE)
+        } else if self.relaxes {
+            Err("material.relaxation: springs detach step by step")
         } else {
             Ok("loading goes back")
         }
@@ -496,6 +540,8 @@ impl Planner<'_> {
             Err("no adhesion: non-adhesive")
         } else if !self.goes_back {
             Err(NEVER_BACK)
+        } else if self.relaxes {
+            Err(RELAXES)
         } else {
             Ok("adhesion with a loading that goes back")
         };
@@ -519,7 +565,7 @@ impl Planner<'_> {
                 bytes: smooth_bytes,
             }
         } else {
-            self.each_stage(RELAXED * self.springs + smooth_bytes)
+            self.each_stage(STEPPED * self.springs + smooth_bytes)
         };
         PlannedPart::new(WorkPart::WithoutPreload, because, work)
     }

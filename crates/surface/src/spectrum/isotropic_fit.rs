@@ -8,7 +8,7 @@
 
 use super::exact::match_moments;
 use super::isotropic::IsotropicSpectrum;
-use super::likelihood::Model;
+use super::likelihood::{Model, misfit};
 use super::observation::Observation;
 use super::parts::student_factor;
 use super::scoring::{Linearised, Objective, descend};
@@ -76,7 +76,8 @@ impl Objective for PenalisedLikelihood<'_> {
             .windows(3)
             .map(|x| (x[0] - 2.0 * x[1] + x[2]).powi(2))
             .sum();
-        self.model.misfit(self.model.means(values)) + SMOOTHNESS * roughness
+        let means = self.model.means(values);
+        misfit(self.model.observations, means) + SMOOTHNESS * roughness
     }
 
     fn linearise(&self, values: &Vec<f64>) -> Linearised {

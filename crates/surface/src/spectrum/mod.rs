@@ -22,6 +22,8 @@ mod detrend;
 mod differences;
 mod exact;
 mod fits;
+mod given;
+mod grid_model;
 mod identities;
 mod interlaced;
 pub(crate) mod isotropic;

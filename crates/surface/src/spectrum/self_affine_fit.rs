@@ -1,8 +1,9 @@
 //! The self-affine spectrum of largest likelihood: C2D is constant below a roll-off wave number and
 //! proportional to q^(−2−2H) above it.
 
+use super::grid_model::GridModel;
 use super::isotropic::{IsotropicSpectrum, cut};
-use super::likelihood::Model;
+use super::likelihood::{Model, misfit};
 use super::moments::ValueWithError;
 use super::scoring::{Linearised, Minimum, Objective, descend};
 use std::f64::consts::LN_10;
@@ -80,7 +81,7 @@ pub(super) struct PowerLaw {
 /// Finds the self-affine spectrum of largest likelihood for the observations of a model. Returns
 /// `None` if the search does not converge.
 pub(super) fn find_power_law(model: &Model<'_>) -> Option<PowerLaw> {
-    let model = model.condensed();
+    let model = GridModel::new(model);
     let search = Search::new(&model);
     let without = search.without_roll_off()?;
     let with = search.with_roll_off();
@@ -111,7 +112,7 @@ impl PowerLaw {
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
         // For a self-affine surface, twice the difference of the misfits equals in the mean the
         // number of additional parameters of the isotropic spectrum.
-        let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
+        let misfit_of_nodes = misfit(model.observations, model.means(&isotropic.values));
         let excess = 2.0 * (self.misfit - misfit_of_nodes);
         let further = isotropic.values.len() - self.free;
         (excess / further as f64).max(1.0).sqrt()
@@ -121,7 +122,7 @@ impl PowerLaw {
     /// Hurst exponent is not between 0 and 1, or if the observations do not determine the errors.
     pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
         let parameters = self.parameters;
-        let model = model.condensed();
+        let model = GridModel::new(model);
         let likelihood = Search::new(&model).likelihood(self.free);
         let information = likelihood.linearise(&parameters).factor()?;
         let error = |index: usize| scale * information.standard_error(index);
@@ -172,12 +173,17 @@ impl Parameters {
         (self.level - self.exponent() * (ln_q - self.roll_off).max(0.0)).exp()
     }
 
+    /// Returns C2D in m⁴ at the wave numbers of the grid of a model.
+    fn values(&self, model: &GridModel<'_>) -> Vec<f64> {
+        model.ln_q.iter().map(|&ln_q| self.c2d(ln_q)).collect()
+    }
+
     fn exponent(&self) -> f64 {
         2.0 + 2.0 * self.hurst
     }
 
     /// Returns the parameters from which a search with this initial roll-off starts.
-    fn initial(model: &Model<'_>, roll_off: f64) -> Parameters {
+    fn initial(model: &GridModel<'_>, roll_off: f64) -> Parameters {
         let mut parameters = Parameters {
             level: 0.0,
             hurst: INITIAL_HURST,
@@ -185,7 +191,8 @@ impl Parameters {
         };
         let mut sum = 0.0;
         let mut waves = 0.0;
-        for (observed, mean) in model.observations.iter().zip(means(model, &parameters)) {
+        let values = parameters.values(model);
+        for (observed, mean) in model.observations.iter().zip(model.means(&values)) {
             if observed.power > 0.0 && mean > 0.0 {
                 sum += observed.waves * (observed.power / mean).ln();
                 waves += observed.waves;
@@ -196,25 +203,15 @@ impl Parameters {
     }
 }
 
-/// Returns the expected mean of each observed power for these parameters.
-fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<Item = f64> + 'a {
-    model.terms.iter().map(|terms| {
-        terms
-            .iter()
-            .map(|term| term.weight * parameters.c2d(term.ln_q))
-            .sum()
-    })
-}
-
 /// Search for the parameters of the spectrum, with a limited range of roll-off wave numbers.
 struct Search<'a> {
-    model: &'a Model<'a>,
+    model: &'a GridModel<'a>,
     /// Smallest and largest ln q of a roll-off.
     roll_off: [f64; 2],
 }
 
 impl<'a> Search<'a> {
-    fn new(model: &'a Model<'_>) -> Self {
+    fn new(model: &'a GridModel<'_>) -> Self {
         let low = model.nodes.first;
         let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
         Search {
@@ -268,7 +265,7 @@ impl<'a> Search<'a> {
 
 /// The negative log-likelihood as a function of the first `free` parameters.
 struct SelfAffineLikelihood<'a> {
-    model: &'a Model<'a>,
+    model: &'a GridModel<'a>,
     free: usize,
     /// Smallest and largest ln q of a roll-off.
     roll_off: [f64; 2],
@@ -278,25 +275,29 @@ impl Objective for SelfAffineLikelihood<'_> {
     type Parameters = Parameters;
 
     fn value(&self, parameters: &Parameters) -> f64 {
-        self.model.misfit(means(self.model, parameters))
+        let values = parameters.values(self.model);
+        misfit(self.model.observations, self.model.means(&values))
     }
 
     fn linearise(&self, parameters: &Parameters) -> Linearised {
         let free = self.free;
         let mut linearised = Linearised::zeros(free);
-        for (observed, terms) in self.model.observations.iter().zip(&self.model.terms) {
-            let mut mean = 0.0;
-            let mut slope = [0.0; WITH_ROLL_OFF];
-            for term in terms {
-                let value = term.weight * parameters.c2d(term.ln_q);
-                let above = (term.ln_q - parameters.roll_off).max(0.0);
-                mean += value;
-                slope[0] += value;
-                slope[1] -= 2.0 * above * value;
-                if above > 0.0 {
-                    slope[2] += parameters.exponent() * value;
-                }
-            }
+        let values = parameters.values(self.model);
+        // The derivatives of C2D with respect to H and to ln q of the roll-off.
+        let mut by_hurst = Vec::with_capacity(values.len());
+        let mut by_roll_off = Vec::with_capacity(values.len());
+        for (&ln_q, value) in self.model.ln_q.iter().zip(&values) {
+            let above = (ln_q - parameters.roll_off).max(0.0);
+            by_hurst.push(-2.0 * above * value);
+            by_roll_off.push(if above > 0.0 {
+                parameters.exponent() * value
+            } else {
+                0.0
+            });
+        }
+        for (observed, sum) in self.model.observations.iter().zip(&self.model.sums) {
+            let mean = sum.of(&values);
+            let slope = [mean, sum.of(&by_hurst), sum.of(&by_roll_off)];
             let residual = observed.waves * (1.0 - observed.power / mean);
             for row in 0..free {
                 linearised.gradient[row] += residual * slope[row] / mean;

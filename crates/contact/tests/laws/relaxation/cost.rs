@@ -107,3 +107,51 @@ fn times() {
         println!("sphere {points}: elastic {elastic:.2} ms relaxing {relaxing:.2} ms {shown}");
     }
 }
+
+/// Number of computed steps of a loop.
+fn steps(contact: &Contact, stages: &[Move]) -> u64 {
+    let mut solver = RelaxingBody::new(contact).unwrap();
+    for &stage in stages {
+        solver.advance(stage).unwrap();
+    }
+    solver.work().steps
+}
+
+#[test]
+fn a_sphere_takes_a_few_hundred_steps_whatever_its_springs() {
+    let stages = [Move::ToForce(5.0), Move::ToSeparation];
+    for points in [400, 4001] {
+        for [stiffness, most] in [[f64::INFINITY, 450.0], [5.0, 3000.0]] {
+            let sphere = Sphere {
+                points,
+                work: 1.0,
+                share: 0.3,
+                time: 1.0,
+                speed: 1.0,
+                stiffness,
+            };
+            let steps = steps(&sphere.contact(), &stages);
+            assert!(steps as f64 <= most, "{points} {stiffness}: {steps}");
+        }
+    }
+}
+
+#[test]
+fn the_steps_of_a_rough_line_do_not_grow_with_its_springs() {
+    for power in [10, 12, 14] {
+        let body = rough(1 << power);
+        let contact = body
+            .foundation
+            .builder(&body.gaps, Edges::SubCell, [body.work; 2])
+            .relaxation(Relaxation::new(0.3, 0.1).unwrap())
+            .loading_speed(1.0)
+            .build()
+            .unwrap();
+        let stages = [
+            Move::ToIndentation(0.3 * body.deepest()),
+            Move::ToSeparation,
+        ];
+        let steps = steps(&contact, &stages);
+        assert!(steps <= 2500, "2^{power}: {steps}");
+    }
+}

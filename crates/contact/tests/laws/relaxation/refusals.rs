@@ -1,6 +1,9 @@
 //! Loadings that a contact with relaxation refuses, and loadings that it accepts.
 
 use super::*;
+use asperity_contact::ContactError;
+use asperity_contact::motion::RelaxingBody;
+use std::cell::Cell;
 
 fn sphere(share: f64) -> Sphere {
     Sphere {
@@ -143,4 +146,22 @@ proptest! {
         let found = format!("{figures:?}");
         prop_assert!(!found.contains("NaN") && !found.contains("inf"), "{}", found);
     }
+}
+
+#[test]
+fn a_stage_stops_on_request_and_leaves_the_body_in_place() {
+    let contact = sphere(0.5).contact();
+    let calls = Cell::new(0);
+    let stop = || {
+        calls.set(calls.get() + 1);
+        calls.get() == 70
+    };
+    let mut solver = RelaxingBody::new(&contact).unwrap().with_stop(&stop);
+    let pressed = solver.advance(Move::ToForce(5.0)).unwrap();
+    let point = solver.point();
+    let interrupted = solver.advance(Move::Hold(1.0)).unwrap_err();
+    assert_eq!(interrupted, ContactError::Interrupted);
+    assert_eq!(solver.point(), point);
+    assert_eq!(pressed.curve.last(), Some(&point));
+    solver.advance(Move::ToSeparation).unwrap();
 }

@@ -1,11 +1,15 @@
 //! Springs with memory by brute force: no tree, no prefix sums, no formula of the solver. Each
 //! patch is a polygon of gaps and memories that is shortened at its ends or divided.
 
-use super::super::levels::relaxed::Relaxed;
+use super::climb::Climbs;
 use super::*;
 
 /// Difference of tensions in m that is due to rounding; profiles are about 1 m deep.
 const ROUNDING: f64 = 1e-13;
+/// Share of the largest force that detaches in one step at most; a step with more is divided.
+const LOST: f64 = 2e-3;
+/// Number of times that a step is halved where the force jumps.
+const HALVINGS: u32 = 12;
 
 /// A point of the profile in contact.
 #[derive(Clone, Copy, Debug)]
@@ -63,14 +67,15 @@ impl Motion {
 pub struct Springs<'a> {
     body: &'a Body,
     motion: Motion,
-    /// Indentation at which each spring attached, m.
-    thresholds: Vec<f64>,
+    climbs: Climbs,
     patches: Vec<Vec<Vertex>>,
     /// Energy that detachment has released, J.
     pub released: f64,
     /// Energy that the dashpots have dissipated, J.
     pub dissipated: f64,
     last: Option<Found>,
+    /// Largest force so far, N.
+    largest: f64,
 }
 
 /// Force and time of one moment.
@@ -89,72 +94,70 @@ impl<'a> Springs<'a> {
         Springs {
             body,
             motion,
-            thresholds: vec![f64::INFINITY; body.gaps.len()],
+            climbs: Climbs::new(body),
             patches: Vec::new(),
             released: 0.0,
             dissipated: 0.0,
             last: None,
+            largest: 0.0,
         }
     }
 
     /// Presses the body to ascending indentations in m, and returns the forces there.
     pub fn press(&mut self, indentations: &[f64]) -> Vec<Found> {
         let mut found = Vec::new();
-        let mut relaxed = Relaxed::new(self.body);
-        let mut low = 0.0;
         for &d in indentations {
-            let before = relaxed.clone();
-            relaxed.move_to(d);
-            for spring in indices(&relaxed.contacts()) {
-                if self.thresholds[spring].is_infinite() {
-                    self.thresholds[spring] = attaches(&before, spring, low, d);
-                }
-            }
-            low = d;
             let seconds = d / self.motion.speed;
-            self.patches = self.polygons(&relaxed, seconds);
-            let here = self.found(seconds);
-            self.dissipate(here);
-            self.last = Some(here);
+            self.patches = self.polygons(d, seconds);
+            let here = self.found(&self.patches, seconds);
+            if let Some(last) = self.last {
+                self.dissipated += 0.5 * (last.power + here.power) * (seconds - last.seconds);
+            }
+            self.remember(here);
             found.push(here);
         }
         found
     }
 
-    /// Patches as polygons, with memories at a time.
-    fn polygons(&self, relaxed: &Relaxed<'_>, seconds: f64) -> Vec<Vec<Vertex>> {
+    fn remember(&mut self, found: Found) {
+        self.largest = self.largest.max(found.force.abs());
+        self.last = Some(found);
+    }
+
+    /// Patches on the approach as polygons, with memories at a time.
+    fn polygons(&self, d: f64, seconds: f64) -> Vec<Vec<Vertex>> {
         let gaps = &self.body.gaps;
-        let d = self.motion.indentation(seconds);
         let memory_of = |gap: f64, threshold: f64| {
             let attached = threshold / self.motion.speed;
             let fresh = threshold - gap - self.motion.memory(attached);
             fresh * (-(seconds - attached) / self.motion.time).exp()
         };
+        let vertex = |x: f64, gap: f64, threshold: f64| Vertex {
+            x,
+            gap,
+            memory: memory_of(gap, threshold),
+        };
         let mut polygons = Vec::new();
-        for (level, from, to) in relaxed.edges() {
-            let first = from.ceil().max(0.0) as usize;
-            let last = (to.floor() as usize).min(gaps.len() - 1);
-            let at = |x: f64, spring: usize| {
-                if x == spring as f64 || spring == 0 && x < 0.0 || x > (gaps.len() - 1) as f64 {
-                    let memory = memory_of(gaps[spring], self.thresholds[spring]);
-                    return Vertex {
+        for part in self.climbs.parts(d) {
+            let spring = |spring: usize| {
+                let threshold = self.climbs.thresholds[spring];
+                vertex(spring as f64, gaps[spring], threshold)
+            };
+            let edge = |x: f64, inside: usize, is_end: bool| {
+                if is_end {
+                    Vertex {
                         x,
-                        gap: gaps[spring],
-                        memory,
-                    };
-                }
-                Vertex {
-                    x,
-                    gap: level,
-                    memory: memory_of(level, d),
+                        ..spring(inside)
+                    }
+                } else {
+                    vertex(x, part.level, d)
                 }
             };
-            let mut polygon = vec![at(from, first)];
-            polygon.extend((first..=last).map(|spring| at(spring as f64, spring)));
-            polygon.push(at(to, last));
+            let mut polygon = vec![edge(part.from, part.first, part.first == 0)];
+            polygon.extend((part.first..=part.last).map(spring));
+            polygon.push(edge(part.to, part.last, part.last + 1 == gaps.len()));
             polygons.push(polygon);
         }
-        polygons.sort_by(|a: &Vec<Vertex>, b| a[0].x.total_cmp(&b[0].x));
         polygons
     }
 
@@ -164,8 +167,8 @@ impl<'a> Springs<'a> {
         (-age.max(0.0) / self.motion.time).exp()
     }
 
-    /// Force and energy at a time, with the patches as they are.
-    pub fn found(&self, seconds: f64) -> Found {
+    /// Force and energy of patches at a time.
+    fn found(&self, patches: &[Vec<Vertex>], seconds: f64) -> Found {
         let d = self.motion.indentation(seconds);
         let stiffness = self.body.foundation.spring_stiffness();
         let decay = self.decay(seconds);
@@ -174,7 +177,7 @@ impl<'a> Springs<'a> {
         let mut force = 0.0;
         let mut energy = 0.0;
         let mut fresh_squares = 0.0;
-        for polygon in &self.patches {
+        for polygon in patches {
             for pair in polygon.windows(2) {
                 let length = pair[1].x - pair[0].x;
                 let u = [0, 1].map(|end| d - pair[end].gap);
@@ -195,15 +198,38 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// Counts the energy that the dashpots dissipate up to a moment.
-    fn dissipate(&mut self, found: Found) {
+    /// Lets springs detach up to a time after the end of the loading, and adds the forces on the
+    /// way to `found`. A step in which much of the force detaches is halved, so that jumps are
+    /// located.
+    pub fn pull(&mut self, seconds: f64, found: &mut Vec<Found>) {
         if let Some(last) = self.last {
-            self.dissipated += 0.5 * (last.power + found.power) * (found.seconds - last.seconds);
+            self.pull_or_divide(last.seconds, seconds, HALVINGS, found);
         }
     }
 
-    /// Lets springs detach at a time after the turn.
-    pub fn pull(&mut self, seconds: f64) -> Found {
+    fn pull_or_divide(&mut self, from: f64, to: f64, halvings: u32, found: &mut Vec<Found>) {
+        let before = self.patches.clone();
+        self.detach(to);
+        let with = [from, to].map(|seconds| self.found(&before, seconds));
+        let without = [from, to].map(|seconds| self.found(&self.patches, seconds));
+        let lost = (with[1].force - without[1].force).abs();
+        if lost > LOST * self.largest && halvings > 0 {
+            self.patches = before;
+            let middle = 0.5 * (from + to);
+            self.pull_or_divide(from, middle, halvings - 1, found);
+            self.pull_or_divide(middle, to, halvings - 1, found);
+            return;
+        }
+        // Each spring detaches at some time between the two.
+        let released = [0, 1].map(|end| with[end].energy - without[end].energy);
+        self.released += 0.5 * (released[0] + released[1]);
+        self.dissipated += 0.5 * (with[0].power + without[1].power) * (to - from);
+        self.remember(without[1]);
+        found.push(without[1]);
+    }
+
+    /// Lets springs detach at a time.
+    fn detach(&mut self, seconds: f64) {
         let d = self.motion.indentation(seconds);
         let decay = self.decay(seconds);
         let common = self.motion.memory(seconds);
@@ -212,17 +238,11 @@ impl<'a> Springs<'a> {
             (1.0 - share) * (vertex.gap - d) - share * (common + decay * vertex.memory)
         };
         let one = self.body.foundation.largest_stretch(self.body.work, 1);
-        let before = self.found(seconds);
-        self.dissipate(before);
         let mut waiting = std::mem::take(&mut self.patches);
         while let Some(polygon) = waiting.pop() {
             waiting.extend(self.shortened(polygon, &tension, one));
         }
         self.patches.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
-        let after = self.found(seconds);
-        self.released += before.energy - after.energy;
-        self.last = Some(after);
-        after
     }
 
     /// Keeps a patch, shortens it, or returns its parts.
@@ -265,19 +285,16 @@ impl<'a> Springs<'a> {
                 .filter(|&level| level < top - ROUNDING)
                 .fold(f64::NEG_INFINITY, f64::max);
             let below = below.max(top - 1e3 * (top.abs() + 1.0));
-            let holds = |level: f64| {
-                let cut = cut_ends(&polygon, tension, level);
-                cut.len() > 1 && level <= one * length(&cut).sqrt()
-            };
             // Tension minus what the patch bears is convex in the level, down to the next vertex.
             let excess = |level: f64| {
-                let cut = cut_ends(&polygon, tension, level);
-                if cut.len() > 1 {
-                    level - one * length(&cut).sqrt()
+                let [from, to] = ends_at(&polygon, tension, level);
+                if from < to {
+                    level - one * (to - from).sqrt()
                 } else {
                     f64::INFINITY
                 }
             };
+            let holds = |level: f64| excess(level) <= 0.0;
             let [mut low, mut high] = [below, top];
             for _ in 0..40 {
                 let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
@@ -325,6 +342,37 @@ impl<'a> Springs<'a> {
     }
 }
 
+/// The ends, in cells, of a polygon without its ends of a larger tension than `level`.
+fn ends_at(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -> [f64; 2] {
+    let end = |polygon: &mut dyn Iterator<Item = &Vertex>| {
+        let mut outer: Option<&Vertex> = None;
+        for vertex in polygon {
+            if tension(vertex) <= level + ROUNDING {
+                return outer.map_or(vertex.x, |outer| between(vertex, outer, tension, level).x);
+            }
+            outer = Some(vertex);
+        }
+        f64::NAN
+    };
+    [end(&mut polygon.iter()), end(&mut polygon.iter().rev())]
+}
+
+/// The place between two vertices at which the tension is `level`.
+fn between(
+    inner: &Vertex,
+    outer: &Vertex,
+    tension: &impl Fn(&Vertex) -> f64,
+    level: f64,
+) -> Vertex {
+    let share = (level - tension(inner)) / (tension(outer) - tension(inner));
+    let between = |from: f64, to: f64| from + share * (to - from);
+    Vertex {
+        x: between(inner.x, outer.x),
+        gap: between(inner.gap, outer.gap),
+        memory: between(inner.memory, outer.memory),
+    }
+}
+
 /// A polygon without its ends of a larger tension than `level`.
 fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -> Vec<Vertex> {
     let cut_left = |polygon: &[Vertex]| {
@@ -336,16 +384,9 @@ fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -
         };
         let mut rest = polygon[first..].to_vec();
         if first > 0 {
-            let [outer, inner] = [polygon[first - 1], polygon[first]];
-            let share = (level - tension(&inner)) / (tension(&outer) - tension(&inner));
-            let between = |from: f64, to: f64| from + share * (to - from);
             rest.insert(
                 0,
-                Vertex {
-                    x: between(inner.x, outer.x),
-                    gap: between(inner.gap, outer.gap),
-                    memory: between(inner.memory, outer.memory),
-                },
+                between(&polygon[first], &polygon[first - 1], tension, level),
             );
         }
         rest
@@ -355,19 +396,4 @@ fn cut_ends(polygon: &[Vertex], tension: &impl Fn(&Vertex) -> f64, level: f64) -
     let mut rest = cut_left(&rest);
     rest.reverse();
     rest
-}
-
-/// The indentation at which a spring attaches, by bisection.
-fn attaches(before: &Relaxed<'_>, spring: usize, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..12 {
-        let middle = 0.5 * (low + high);
-        let mut body = before.clone();
-        body.move_to(middle);
-        if indices(&body.contacts()).contains(&spring) {
-            high = middle
-        } else {
-            low = middle
-        }
-    }
-    high
 }
