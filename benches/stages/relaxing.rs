@@ -6,9 +6,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Points of the elastic curve.
+/// Points of each stage of the elastic loop.
 const SAMPLES: u64 = 400;
-const SPHERE_SPRINGS: u32 = 400;
+/// An odd number, so that the lowest point has a spring.
+const SPHERE_SPRINGS: u32 = 401;
+/// Half of the length of the profile of a sphere in m.
+const HALF: f64 = 4.0e-5;
 /// m
 const RADIUS: f64 = 1.0e-4;
 /// J/m²
@@ -32,11 +35,11 @@ struct Loop {
 
 impl Loop {
     fn sphere(stiffness: f64) -> Self {
-        let half = 4.0e-5;
-        let spacing = 2.0 * half / f64::from(SPHERE_SPRINGS);
+        let middle = f64::from(SPHERE_SPRINGS / 2);
+        let spacing = HALF / middle;
         let gaps: Vec<f64> = (0..SPHERE_SPRINGS)
             .map(|spring| {
-                let x = (f64::from(spring) + 0.5) * spacing - half;
+                let x = (f64::from(spring) - middle) * spacing;
                 x * x / RADIUS
             })
             .collect();

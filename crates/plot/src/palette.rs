@@ -37,7 +37,9 @@ impl Colours {
         if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
             return Colours::TrueColour;
         }
-        let has_sixteen = terminal == "linux" || terminal == "ansi" || terminal.starts_with("vt");
+        let has_sixteen = matches!(&*terminal, "linux" | "ansi" | "xterm-color")
+            || terminal.starts_with("vt")
+            || terminal.contains("16color");
         if has_sixteen && !terminal.contains("256color") {
             Colours::Ansi16
         } else {
@@ -162,7 +164,8 @@ impl ColourRole {
             },
             ColourRole::Accent => Swatches {
                 dark: swatch([92, 200, 180], 80, Cyan),
-                light: swatch([0, 116, 100], 30, Cyan),
+                // The cyan of most terminals cannot be read on a light background.
+                light: swatch([0, 116, 100], 30, Reset),
                 unknown: swatch([0, 142, 122], 29, Cyan),
             },
             ColourRole::Key => Swatches {

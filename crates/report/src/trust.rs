@@ -269,6 +269,41 @@ mod tests {
         );
     }
 
+    /// Only a half-space that relaxes has steps in time. Their error is a share of the largest force.
+    #[test]
+    fn the_error_of_the_steps_is_stated_with_relaxation_only() {
+        let relaxation = "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))";
+        let relaxing = [("material", relaxation), ("loading_speed", "1.0e-6")];
+        for fields in [&relaxing[..], &[]] {
+            let fields: Vec<_> = fields
+                .iter()
+                .map(|(path, value)| (path.to_string(), value.to_string()))
+                .collect();
+            let document = open("jkr-sphere").unwrap().set_all(&fields).unwrap();
+            let outcome = run(&document).unwrap();
+            let budget = Budget::of(&outcome, None, None, None).unwrap();
+            let scene = document.scene();
+            let rows = error_rows(scene, &outcome, None, &budget, None, None, |_| {
+                String::new()
+            });
+            let row = rows.iter().find(|(name, _)| *name == "steps in time");
+            let largest = outcome.history.stages.iter().fold(0.0, |largest, stage| {
+                f64::max(largest, stage.largest.force.max(-stage.smallest.force))
+            });
+            let force = outcome.figures.pull_off_force.unwrap();
+            let expected = 1e-3 * largest / force;
+            match budget.steps {
+                Some(error) => {
+                    assert!((error / expected - 1.0).abs() < 1e-12, "{error} {expected}");
+                    let (_, words) = row.unwrap();
+                    assert!(words.contains("by steps with up to 0.1 %"), "{words}");
+                }
+                None => assert!(fields.is_empty() && row.is_none()),
+            }
+            assert_eq!(budget.steps.is_some(), scene.relaxes());
+        }
+    }
+
     /// If the contact reaches the ends of its profile, the report states no error and names no
     /// largest error.
     #[test]
