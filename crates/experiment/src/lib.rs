@@ -9,8 +9,8 @@
 //! * Reading several curves: [`CurveSource::all`] finds those of folders and of files with several
 //!   ([`SeveralCurves`]), and reads each of them with its place ([`PlacedCurve`]).
 //! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. A [`FitResult`] has a
-//!   [`FittedParameter`] for each free parameter, and a [`Reason`] if the model does not describe
-//!   the curve. [`ParameterRow`] has name and unit of a [`Parameter`].
+//!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes, and
+//!   a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit of a [`Parameter`].
 //! * Fitting the curves of one rough specimen: [`fit_ensemble`] fits several curves together, with
 //!   [`EnsembleOptions`]. The result is an [`EnsembleFit`], which has [`IntervalEstimate`]s,
 //!   [`Shares`], [`Prospect`]s, [`RoughnessShifts`], [`SummaryDeviation`]s and a
@@ -42,6 +42,6 @@ pub use fit::ensemble::predictions::CurveOfEnsemble;
 pub use fit::ensemble::{EnsembleFit, EnsembleOptions, Prospect, Shares, fit_ensemble};
 pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
-pub use fit::result::{FitResult, FittedParameter, RangeEnd};
+pub use fit::result::{FitResult, FittedParameter, RangeEnd, RelaxedModulus};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};
 pub use read::several::SeveralCurves;

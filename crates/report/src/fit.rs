@@ -5,7 +5,8 @@ use crate::sheet::Sheet;
 use crate::warnings::{sentences_section, warning_texts};
 use crate::words::percent;
 use asperity_data::{
-    AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded, grouped,
+    AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
+    format_within, grouped,
 };
 use asperity_experiment::{
     CurveFeatures, DragForce, FitResult, FittedParameter, Grade, MeasuredCurve, Parameter,
@@ -249,6 +250,14 @@ impl FitReport<'_> {
             ]);
         }
         sheet.table(&rows);
+        if let Some(modulus) = self.fit.relaxed_modulus {
+            let (low, high) = modulus.interval;
+            let text = |value: f64| format_within(value, 0.5 * (high - low), "Pa");
+            let [value, low, high] = [modulus.value, low, high].map(text);
+            sheet.paragraph(&format!(
+                "Modulus after a long time E∞ = E* (1 − s) = {value}, {low} to {high}."
+            ));
+        }
         for fitted in &self.fit.parameters {
             if let Some(sentence) = self.sentence_at_end(fitted) {
                 sheet.paragraph(&sentence);
@@ -272,10 +281,16 @@ impl FitReport<'_> {
         };
         let range = format_range(fitted.range, 3, row.unit);
         let written = |value: f64| format_rounded(value, 2, row.unit).replace([' ', '\u{a0}'], "");
-        let sentence = format!(
+        let mut sentence = format!(
             "{} is at the {name} end of its range, {range}, and is no result.",
             row.symbol
         );
+        if fitted.parameter == Parameter::RelaxationTime {
+            sentence += match end {
+                RangeEnd::Low => " The time is shorter than the curve shows.",
+                RangeEnd::High => " The time is longer than the curve shows.",
+            };
+        }
         let farther = format!("{}={}..{}", row.name, written(next.0), written(next.1));
         let note = Note::new(sentence).with(Remedy::FreeIn(farther));
         Some(note.in_words(self.wording))

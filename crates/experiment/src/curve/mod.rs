@@ -8,16 +8,19 @@ pub(crate) mod numerics;
 mod ordered;
 pub(crate) mod points;
 mod prepare;
+mod rest;
 pub(crate) mod segments;
 pub(crate) mod sources;
 mod statements;
 #[cfg(test)]
 mod tests;
+pub(crate) mod timing;
 pub(crate) mod zero;
 
 use crate::curve::drag::DragForce;
 use crate::curve::features::{CurveFeatures, ForceJump};
 use crate::curve::numerics::Extent;
+use crate::curve::timing::Timing;
 use asperity_data::Note;
 
 /// Smallest force that counts as a pull or a tension, in standard deviations of the noise. A
@@ -63,6 +66,11 @@ pub struct MeasuredCurve {
     pub(crate) jumps: Vec<ForceJump>,
     /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
+    /// Speed of the instrument, and its rest between approach and retraction.
+    pub(crate) timing: Timing,
+    /// Time in s since the instrument began to rest, for each point of its rest; `None` for the
+    /// other points. Empty if the curve has no points of a rest.
+    pub(crate) seconds_at_rest: Vec<Option<f64>>,
     /// Changes of the force, in N, that remain in the points without contact: the drift over time,
     /// the tilt over the displacement, and the step from before to after the contact. A change that
     /// was not found is 0.
@@ -147,6 +155,8 @@ impl MeasuredCurve {
             statements: self.statements.clone(),
             stiffness: self.stiffness.clone(),
             of_body: self.of_body.clone(),
+            timing: self.timing.clone(),
+            seconds_at_rest: self.seconds_at_rest.iter().step_by(step).copied().collect(),
             ..*self
         })
     }

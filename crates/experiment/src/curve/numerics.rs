@@ -9,6 +9,11 @@ pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
 /// Smallest number of independent parts that a curve is assumed to have. It limits the number of
 /// points over which correlations of the residuals are added up.
 const RANGES: usize = 20;
+/// Largest number of residuals that are few, and smallest number that show a correlation.
+const FEW: usize = 200;
+const LEAST_CORRELATED: usize = 12;
+/// Largest correlation of neighbours that few residuals are taken to have.
+const MOST_CORRELATED: f64 = 0.95;
 
 /// Least-squares straight line through evenly spaced values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,6 +198,28 @@ pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     1.0 + 2.0 * sum
 }
 
+/// Returns the factor of [`correlated`], and for few residuals at least the factor of a first-order
+/// autoregression, in which the correlation falls by the same ratio ρ from point to point: (1 +
+/// ρ)/(1 − ρ). Few residuals have too few parts for the sum of [`correlated`] over many lags.
+///
+/// The correlation of neighbours in n residuals about their mean is expected to be ρ − (1 + 4ρ)/n
+/// (Kendall, Biometrika 41, 403, 1954), for which ρ is corrected. Residuals whose correlation may be
+/// chance are taken to be uncorrelated.
+pub(crate) fn correlated_few(residuals: &[f64]) -> f64 {
+    let factor = correlated(residuals);
+    let count = residuals.len() as f64;
+    if residuals.len() < LEAST_CORRELATED || residuals.len() > FEW {
+        return factor;
+    }
+    let neighbours = dot(residuals, &residuals[1..]) / dot(residuals, residuals);
+    if neighbours.is_nan() || neighbours <= 2.0 / count.sqrt() {
+        return factor;
+    }
+    let ratio = (neighbours + 1.0 / count) / (1.0 - 4.0 / count);
+    let ratio = ratio.min(MOST_CORRELATED);
+    factor.max((1.0 + ratio) / (1.0 - ratio))
+}
+
 /// Coefficient of a column in a least-squares fit, with its standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coefficient {
@@ -291,6 +318,36 @@ pub(crate) mod tests {
         assert!(correlated(&turned) < 2.0, "{}", correlated(&turned));
         let alternating: Vec<f64> = (0..480).map(|index| [1.0, -1.0][index % 2]).collect();
         assert_eq!(correlated(&alternating), 1.0);
+    }
+
+    /// Over many series of an autoregression, the mean factor is near the true one, and uncorrelated
+    /// residuals keep about 1. The sum over a few lags alone gives half of the true factor.
+    #[test]
+    fn few_correlated_residuals_count_by_an_autoregression() {
+        for (count, ratio, least, most) in [
+            (50, 0.0, 1.0, 1.1),
+            (50, 0.5, 0.9, 1.3),
+            (50, 0.8, 0.8, 1.6),
+            (180, 0.0, 1.0, 1.1),
+            (180, 0.8, 0.9, 1.3),
+        ] {
+            let mut sum = 0.0;
+            for seed in 0..200 {
+                let mut value = 0.0;
+                let fresh = noisy(std::iter::repeat_n(0.0, count + 50), 1.0, seed);
+                let mut series: Vec<f64> = Vec::new();
+                for fresh in fresh {
+                    value = ratio * value + fresh;
+                    series.push(value);
+                }
+                let middle = asperity_data::mean(&series[50..]);
+                let residuals: Vec<f64> = series[50..].iter().map(|one| one - middle).collect();
+                sum += correlated_few(&residuals);
+            }
+            let expected = (1.0 + ratio) / (1.0 - ratio);
+            let found = sum / 200.0 / expected;
+            assert!((least..most).contains(&found), "{count} {ratio}: {found}");
+        }
     }
 
     #[test]

@@ -38,11 +38,12 @@ impl Ordered {
         let mut segments = Segments::of(&columns.displacement, &columns.labels);
         let reordered = put_in_order(columns, &mut segments, least_noise);
         let averaged = points_in_mean(&segments);
-        let mut points =
-            Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
+        let times = take_times_out_of_order(columns);
+        let mut points = Points::averaged(columns, &segments, averaged);
 
         let sentences = std::mem::take(&mut columns.statements);
         let mut statements: Vec<Note> = sentences.into_iter().map(Note::new).collect();
+        statements.extend(times.map(Note::new));
         let retraction = recognise_retraction(&mut points, options, least_noise)?;
         statements.extend(retraction.map(Note::new));
         let negate = points.reverse(options.negate)?;
@@ -68,6 +69,18 @@ impl Ordered {
             statements,
         })
     }
+}
+
+/// Removes the times of the points if they do not grow from point to point, and returns a sentence
+/// on this.
+fn take_times_out_of_order(columns: &mut Columns) -> Option<&'static str> {
+    let are_finite = columns.seconds.iter().all(|seconds| seconds.is_finite());
+    let grow = columns.seconds.windows(2).all(|pair| pair[0] < pair[1]);
+    if are_finite && grow {
+        return None;
+    }
+    columns.seconds.clear();
+    Some("The times do not grow from point to point and are not used.")
 }
 
 /// Returns how many neighbouring points are averaged, so that at most [`MOST_POINTS`] means result.
@@ -123,11 +136,15 @@ fn put_in_order(
             values[..first].reverse();
             values[first..].reverse();
         }
+        columns.seconds.clear();
         segments.is_still.fill(false);
         return Some("both parts begin at their turn and were reversed");
     }
     columns.displacement.rotate_left(first);
     columns.force.rotate_left(first);
+    if !columns.seconds.is_empty() {
+        columns.seconds.rotate_left(first);
+    }
     segments.exchange(first);
     Some("the retraction comes first and was put behind the approach")
 }

@@ -5,6 +5,7 @@ use crate::curve::numerics::Extent;
 use crate::curve::segments::Segments;
 use crate::error::{ExperimentError, refused_with};
 use crate::read::options::Negate;
+use crate::read::points::Columns;
 use asperity_data::{Remedy, format_quantity, mean};
 use std::ops::Range;
 
@@ -15,31 +16,33 @@ pub(crate) struct Points {
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
+    /// Time of each point in s; empty if it is not known.
+    pub seconds: Vec<f64>,
     /// Number of points of the file of which each point is the mean.
     pub counts: Vec<usize>,
 }
 
 impl Points {
     /// Creates points, each of which is the mean of up to `count` neighbouring points.
-    pub fn averaged(
-        displacement: &[f64],
-        force: &[f64],
-        segments: &Segments,
-        count: usize,
-    ) -> Points {
+    pub fn averaged(columns: &Columns, segments: &Segments, count: usize) -> Points {
         let mut points = Points {
             displacement: Vec::new(),
             force: Vec::new(),
             segment: Vec::new(),
             is_still: Vec::new(),
+            seconds: Vec::new(),
             counts: Vec::new(),
         };
         for range in like_neighbours(segments, count) {
             points.segment.push(segments.numbers[range.start]);
             points.is_still.push(segments.is_still[range.start]);
             points.counts.push(range.len());
-            points.displacement.push(mean(&displacement[range.clone()]));
-            points.force.push(mean(&force[range]));
+            let displacement = mean(&columns.displacement[range.clone()]);
+            points.displacement.push(displacement);
+            points.force.push(mean(&columns.force[range.clone()]));
+            if let Some(seconds) = columns.seconds.get(range) {
+                points.seconds.push(mean(seconds));
+            }
         }
         points
     }

@@ -9,6 +9,7 @@ use crate::curve::ordered::Ordered;
 use crate::curve::points::Points;
 use crate::curve::segments::are_shuffled;
 use crate::curve::statements::{counted, drag_in_words, means_in_words, noise_in_words};
+use crate::curve::timing::Timing;
 use crate::curve::zero::Subtracted;
 use crate::curve::{LEAST_TENSION, MeasuredCurve, SubtractedLines};
 use crate::error::{CountedPart, ExperimentError, refused, refused_with};
@@ -95,7 +96,23 @@ impl MeasuredCurve {
         force: &[f64],
         options: &CurveOptions,
     ) -> Result<Self, ExperimentError> {
-        MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
+        MeasuredCurve::prepare(Columns::of_arrays(displacement, force, &[])?, options)
+    }
+
+    /// Creates a curve as [`MeasuredCurve::from_columns`] does, with the time of each point in s. A
+    /// fit with relaxation takes the speed and the rest of the instrument from the times.
+    ///
+    /// # Errors
+    /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse
+    /// a file with this curve.
+    pub fn from_timed_columns(
+        displacement: &[f64],
+        force: &[f64],
+        seconds: &[f64],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
+        let columns = Columns::of_arrays(displacement, force, seconds)?;
+        MeasuredCurve::prepare(columns, options)
     }
 
     /// Returns true if the file at `path` can be read and has columns of displacement and force, of
@@ -130,6 +147,7 @@ impl MeasuredCurve {
         let jumps = jumps_of(&points, noise);
         let features = CurveFeatures::of(&points, &jumps, noise);
         let drag_in_contact = drag_in_contact(drag.as_ref(), &subtracted);
+        let touch = free.contact_point(&points);
 
         assumed.extend(counted(&points, &kept, &free, options));
         assumed.extend(left_out);
@@ -142,7 +160,9 @@ impl MeasuredCurve {
 
         let remaining = subtracted.remaining;
         let has_zero = options.zero.is_none();
-        let lines = SubtractedLines::of(subtracted, drag.as_ref(), &points, &kept, &free, has_zero);
+        let lines = lines_of(subtracted, drag.as_ref(), &points);
+        let timing = Timing::of(&points, &kept, &lines, touch);
+        let lines = SubtractedLines::of(&lines, &kept, &free, has_zero);
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
             displacement: values_of(&points.displacement),
@@ -150,7 +170,9 @@ impl MeasuredCurve {
             segment: kept.iter().map(|index| points.segment[*index]).collect(),
             free: count_before_contact(&kept, &free),
             free_at_end: count_at_end(&kept, &points, &free),
-            touch: free.contact_point(&points),
+            touch,
+            timing,
+            seconds_at_rest: Vec::new(),
             noise,
             features,
             jumps,
@@ -169,28 +191,26 @@ impl MeasuredCurve {
 }
 
 impl SubtractedLines {
-    /// Returns the subtracted contributions at the points of the curve. `kept` has the indices of
-    /// these points among all `points`.
-    fn of(
-        subtracted: Subtracted,
-        drag: Option<&Drag>,
-        points: &Points,
-        kept: &[usize],
-        free: &FreeParts,
-        has_zero: bool,
-    ) -> Self {
-        let mut lines = subtracted.columns;
-        lines.extend(drag.into_iter().flat_map(|drag| drag.columns(points)));
+    /// Returns the subtracted contributions at the points of the curve. `lines` are their values at
+    /// all points of the file, and `kept` has the indices of the points of the curve among them.
+    fn of(lines: &[Vec<f64>], kept: &[usize], free: &FreeParts, has_zero: bool) -> Self {
         let mut columns = Vec::with_capacity(lines.len());
-        for line in &lines {
+        for line in lines {
             columns.push(kept.iter().map(|index| line[*index]).collect());
         }
         SubtractedLines {
             has_zero,
-            elsewhere: products_elsewhere(&lines, kept, free),
+            elsewhere: products_elsewhere(lines, kept, free),
             columns,
         }
     }
+}
+
+/// Returns the values of all subtracted lines, except the constant zero offset, at all points.
+fn lines_of(subtracted: Subtracted, drag: Option<&Drag>, points: &Points) -> Vec<Vec<f64>> {
+    let mut lines = subtracted.columns;
+    lines.extend(drag.into_iter().flat_map(|drag| drag.columns(points)));
+    lines
 }
 
 /// Finds the drag of a fluid, subtracts the drag from the force, and returns it; `None` if there is

@@ -3,6 +3,7 @@
 
 use crate::curve::numerics::Extent;
 use crate::read::points::Label;
+use asperity_data::quantile;
 
 /// Smallest distance that the displacement goes back after a turning point, as a share of its
 /// range.
@@ -19,6 +20,8 @@ const SMOOTHING: f64 = 1e-3;
 /// Largest change of the displacement during a pause at a turning point, as a share of the range of
 /// displacements.
 const STILL: f64 = 0.01;
+/// This change for a pause of few points, which is found if they stay at nearly one displacement.
+const SHORT_STILL: f64 = 0.001;
 /// Smallest change of the displacement, as a share of its range, with which a part of the file with
 /// the same label counts as a motion. The part must also be about as fast as other parts.
 const SHORTEST: f64 = 0.002;
@@ -27,6 +30,11 @@ const FEWEST: usize = 10;
 /// Smallest ratio of the number of points of a pause to the number of points of a motion over the
 /// same distance.
 const MORE: f64 = 8.0;
+/// Distance between the quartiles of the displacements near a turn, as a share of the distance up to
+/// which they count as near, above which they may be those of a motion. An even motion has 0.5.
+const SPREAD: f64 = 0.2;
+/// Share of the steps near a turn that a steady motion has in its direction.
+const STEADILY: f64 = 0.85;
 /// Mean distance between consecutive displacements, as a share of their range, above which the rows
 /// of the file are not in the order of time.
 const SHUFFLED: f64 = 0.2;
@@ -68,27 +76,64 @@ impl Segments {
     /// Marks the points near each turning point as a pause, if there are many more of them than a
     /// motion over the same distance would have.
     fn find_pauses(&mut self, displacement: &[f64]) {
-        let near = STILL * Extent::of(displacement.iter().copied()).width();
+        let range = Extent::of(displacement.iter().copied()).width();
         let last_segment = self.numbers.last().copied().unwrap_or(0);
         for segment in 1..=last_segment {
-            let start = self.start_of(segment - 1);
-            let turn = self.start_of(segment);
-            let end = self.start_of(segment + 1);
-            let distance = |index: usize| (displacement[index] - displacement[turn]).abs();
-            let is_near = |index: &usize| distance(*index) <= near;
-
-            let before = (start..turn).rev().take_while(is_near).last();
-            let after = (turn..end).take_while(is_near).last();
-            let first = before.unwrap_or(turn);
-            let last = after.unwrap_or(turn);
-            let staying = last + 1 - first;
-            let way = distance(start) + distance(end - 1);
-            let passing = 2.0 * near * (end - start - staying) as f64 / way;
-            if staying >= FEWEST && staying as f64 > MORE * passing {
-                self.is_still[first..=last].fill(true);
+            for near in [STILL * range, SHORT_STILL * range] {
+                if self.find_pause(displacement, segment, near) {
+                    break;
+                }
             }
         }
     }
+
+    /// Marks the points within `near` m of the turning point at the beginning of a segment as a
+    /// pause, and returns true, if there are many more of them than a motion would have.
+    fn find_pause(&mut self, displacement: &[f64], segment: usize, near: f64) -> bool {
+        let start = self.start_of(segment - 1);
+        let turn = self.start_of(segment);
+        let end = self.start_of(segment + 1);
+        let distance = |index: usize| (displacement[index] - displacement[turn]).abs();
+        let is_near = |index: &usize| distance(*index) <= near;
+
+        let before = (start..turn).rev().take_while(is_near).last();
+        let after = (turn..end).take_while(is_near).last();
+        let first = before.unwrap_or(turn);
+        let last = after.unwrap_or(turn);
+        let staying = last + 1 - first;
+        let way = distance(start) + distance(end - 1);
+        let passing = 2.0 * near * (end - start - staying) as f64 / way;
+        let is_slow = staying >= FEWEST && staying as f64 > MORE * passing;
+        if is_slow && !is_finely_sampled(&displacement[first..=last], turn - first, near) {
+            self.is_still[first..=last].fill(true);
+            return true;
+        }
+        false
+    }
+}
+
+/// Returns true if the points near a turn, at the index `turn`, are those of a steady motion that
+/// has more points there than elsewhere, as a computed curve may have. In a pause, the displacement
+/// stays at one value, or moves back and forth by its noise. `near` is the distance in m from the
+/// turn up to which the points lie.
+fn is_finely_sampled(displacements: &[f64], turn: usize, near: f64) -> bool {
+    let mut sorted = displacements.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(low), Some(high)) = (quantile(&sorted, 0.25), quantile(&sorted, 0.75)) else {
+        return false;
+    };
+    let mut forwards = 0;
+    let mut all = 0;
+    for (index, pair) in displacements.windows(2).enumerate() {
+        let step = pair[1] - pair[0];
+        let from_turn = displacements[turn] - pair[0];
+        let is_before = index < turn;
+        // The displacement moves to the turn before it, and away from it afterwards.
+        let is_forwards = (step * from_turn > 0.0) == is_before || from_turn == 0.0;
+        all += 1;
+        forwards += usize::from(step != 0.0 && is_forwards);
+    }
+    high - low > SPREAD * near && forwards as f64 > STEADILY * f64::from(all)
 }
 
 /// Returns true if the displacement changes so much from point to point that the rows of the file
@@ -254,6 +299,28 @@ mod tests {
 
     /// An approach that is a small part of a long retraction is a segment, and a displacement that
     /// moves back and forth by as much is not.
+    #[test]
+    fn points_that_are_dense_near_a_turn_are_no_pause() {
+        let far: Vec<f64> = (0..100)
+            .map(|index| 0.01 * f64::from(index) - 1.0)
+            .collect();
+        let dense: Vec<f64> = (0..300).map(|index| 5e-5 * f64::from(index)).collect();
+        let mut moving: Vec<f64> = far.iter().chain(&dense).copied().collect();
+        moving.extend(dense.iter().rev().chain(far.iter().rev()));
+        let segments = Segments::of(&moving, &[]);
+        assert!(!segments.is_still.contains(&true));
+        // The same number of points that stay, with a little noise, or exactly.
+        for noise in [0.0, 1e-4, 2e-3] {
+            let mut pausing = far.clone();
+            let noisy = |index: usize| noise * ((7 * index) as f64).sin();
+            pausing.extend((0..300).map(noisy));
+            pausing.extend(far.iter().rev());
+            let still = Segments::of(&pausing, &[]).is_still;
+            let count = still.iter().filter(|is_still| **is_still).count();
+            assert!((290..=310).contains(&count), "{noise}: {count}");
+        }
+    }
+
     #[test]
     fn a_short_approach_before_a_long_retraction_is_a_segment() {
         let mut displacement: Vec<f64> = (0..50).map(f64::from).collect();

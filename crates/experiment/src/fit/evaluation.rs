@@ -73,6 +73,7 @@ pub(crate) fn fit_result(
     let grade = comparison.agreement.grade(searched.misfit, has_reason);
     Ok(FitResult {
         work_at_most,
+        relaxed_modulus: posterior.relaxed_modulus(),
         parameters,
         residual: comparison.agreement.residual,
         misfit: searched.misfit,

@@ -13,6 +13,7 @@ pub(crate) mod parameter;
 pub(crate) mod population;
 pub(crate) mod posterior;
 pub(crate) mod reason;
+pub(crate) mod relaxation;
 pub(crate) mod result;
 pub(crate) mod scene;
 pub(crate) mod search;
@@ -29,6 +30,7 @@ use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::fit::evaluation::fit_result;
 use crate::fit::parameter::{Free, Parameter};
+use crate::fit::relaxation::notes_on_time;
 use crate::fit::result::FitResult;
 use crate::fit::scene::wrong;
 use crate::fit::searched::search;
@@ -183,6 +185,11 @@ fn find(
             result
                 .assumptions
                 .push(fixed_contact_point(curve, touch.displacement));
+        }
+        if space.relaxes() {
+            result
+                .assumptions
+                .splice(..0, notes_on_time(curve, given.scene()));
         }
         result.assumptions.splice(..0, instrument.map(Note::new));
         return Ok(result);

@@ -7,11 +7,11 @@ use crate::error::ExperimentError;
 use crate::fit::lengths::Lengths;
 use crate::fit::parameter::{Parameter, Values};
 use crate::fit::scene::pause_of;
-use asperity_contact::motion::Stage;
+use asperity_contact::motion::{MovingBody, RelaxingBody, Stage};
 use asperity_contact::{
-    Contact, ContactError, CurvePoint, Direction, LoadOptions, Modulus, Move, Relaxation,
-    StageRecord,
+    Contact, ContactError, CurvePoint, Direction, Modulus, Move, Relaxation, StageRecord,
 };
+use asperity_data::between;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::Range;
@@ -26,6 +26,15 @@ const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that gets points at both of its ends.
 const NOTABLE: f64 = 2.0;
+/// Largest error of the forces of a body that relaxes, as a share of the largest force: at most,
+/// and if the forces have low accuracy. The steps of the computation follow from it.
+const ERROR_OF_STEPS: f64 = 1e-3;
+const COARSE_ERROR_OF_STEPS: f64 = 5e-3;
+/// Such an error as a share of the noise. The errors of neighbouring points are alike, so that they
+/// count more than noise does.
+const OF_NOISE: f64 = 0.1;
+/// Smallest such error. Steps for less take longer than they improve a fit.
+const LEAST_ERROR_OF_STEPS: f64 = 1e-5;
 /// Number of further points on each side of a fold, a place at which the displacement of the
 /// instrument turns back over the indentation. Each point is half as far from the fold as the
 /// previous one. A jump of the contact needs no further points, because both of its ends are points
@@ -64,6 +73,30 @@ pub(crate) struct Sampling {
 struct BodyOnStage {
     stage: Stage,
     indentation: f64,
+}
+
+/// Computed forces of a part of the measured curve.
+enum ComputedPart {
+    /// Forces of a segment over the displacement, and the measured displacement in m at first
+    /// touch.
+    Motion(DisplacementCurve, f64),
+    /// Points of a rest, each with the time in s since its beginning and the force in N.
+    Rest(Vec<[f64; 2]>),
+}
+
+impl ComputedPart {
+    /// Returns the force in N at a point of the measured curve.
+    fn force(&self, curve: &MeasuredCurve, index: usize) -> f64 {
+        match self {
+            ComputedPart::Motion(segment, offset) => {
+                force_at(segment, curve.displacement[index] - offset)
+            }
+            ComputedPart::Rest(points) => {
+                let seconds = curve.seconds_at_rest.get(index).copied().flatten();
+                force_at_time(points, seconds.unwrap_or(0.0))
+            }
+        }
+    }
 }
 
 /// Jump of the force of a model over the displacement.
@@ -134,9 +167,9 @@ impl<'a> Model<'a> {
         let curve = self.curve;
         let zero = values[Parameter::Zero as usize];
         let mut forces = Vec::with_capacity(curve.force.len());
-        self.each_segment(values, |segment, points, offset| {
-            for displacement in &curve.displacement[points] {
-                forces.push(zero + force_at(segment, displacement - offset));
+        self.each_part(values, |part, points| {
+            for index in points {
+                forces.push(zero + part.force(curve, index));
             }
         })?;
         Ok(forces)
@@ -154,7 +187,10 @@ impl<'a> Model<'a> {
         self.evaluations += 1;
         let curve = self.curve;
         let mut all = vec![None; curve.force.len()];
-        self.each_segment(values, |segment, points, offset| {
+        self.each_part(values, |part, points| {
+            let ComputedPart::Motion(segment, offset) = part else {
+                return;
+            };
             let mut jumps = jumps_of(segment);
             jumps.retain(|jump| (jump.forces[1] - jump.forces[0]).abs() >= least);
             let place = |index: usize| curve.displacement[index] - offset;
@@ -194,7 +230,10 @@ impl<'a> Model<'a> {
         self.evaluations += 1;
         let curve = self.curve;
         let mut distances = vec![None; curve.force.len()];
-        self.each_segment(values, |segment, points, offset| {
+        self.each_part(values, |part, points| {
+            let ComputedPart::Motion(segment, offset) = part else {
+                return;
+            };
             let place = |index: usize| curve.displacement[index] - offset;
             let number = curve.segment.get(points.start).copied().unwrap_or(0);
             let sign = if number % 2 == 0 { 1.0 } else { -1.0 };
@@ -223,16 +262,16 @@ impl<'a> Model<'a> {
         Ok(distances)
     }
 
-    /// Computes the curve of each segment. Calls `take` with this curve, with the index range of
-    /// the measured points in the segment, and with the measured displacement in m at first touch.
-    fn each_segment(
+    /// Computes the forces of each part of the curve. Calls `take` with them and with the index
+    /// range of the measured points in the part.
+    fn each_part(
         &mut self,
         values: &Values,
-        mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
+        mut take: impl FnMut(&ComputedPart, Range<usize>),
     ) -> Result<(), ExperimentError> {
         let contact = self.contact(values)?;
         if contact.relaxation().is_some() {
-            return self.each_relaxing_segment(&contact, values, take);
+            return self.each_relaxing_part(&contact, values, take);
         }
         let offset = values[Parameter::Offset as usize];
         let stiffness = values[Parameter::Stiffness as usize];
@@ -261,9 +300,9 @@ impl<'a> Model<'a> {
                 }
             };
             let end = segments.partition_point(|segment| *segment <= number);
-            take(&curve, begin..end, offset);
-            begin = end;
             let indentation = nearest(&curve, to).map_or(0.0, |point| point.indentation);
+            take(&ComputedPart::Motion(curve, offset), begin..end);
+            begin = end;
             body = stage.and_then(|stage| BodyOnStage::new(stage, indentation));
         }
         Ok(())
@@ -271,23 +310,27 @@ impl<'a> Model<'a> {
 }
 
 impl Model<'_> {
-    /// Computes the curves of the approach and of the retraction if the half-space relaxes. Between
-    /// them the instrument rests for as long as the loading of the scene rests.
-    fn each_relaxing_segment(
+    /// Computes the forces of the approach, of the rest and of the retraction if the half-space
+    /// relaxes. The instrument rests for as long as the loading of the scene rests.
+    fn each_relaxing_part(
         &self,
         contact: &Contact,
         values: &Values,
-        mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
+        mut take: impl FnMut(&ComputedPart, Range<usize>),
     ) -> Result<(), ExperimentError> {
         let offset = values[Parameter::Offset as usize];
         let stiffness = values[Parameter::Stiffness as usize];
-        let segments = &self.curve.segment;
-        let end_of_approach = segments.partition_point(|segment| *segment == 0);
-        let apart = DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness);
+        let [approach, rest, retraction] = self.parts_around_rest();
+        let motion = |direction, points: &[CurvePoint]| {
+            let curve = DisplacementCurve::new(direction, points, stiffness);
+            ComputedPart::Motion(curve, offset)
+        };
         let deepest = self.curve.turns[0] - offset;
         if deepest <= 0.0 {
-            take(&apart, 0..end_of_approach, offset);
-            take(&apart, end_of_approach..segments.len(), offset);
+            let apart = motion(Direction::Loading, &[CurvePoint::default()]);
+            for part in [approach, rest, retraction] {
+                take(&apart, part);
+            }
             return Ok(());
         }
         let press = if stiffness.is_finite() {
@@ -295,25 +338,68 @@ impl Model<'_> {
         } else {
             Move::ToIndentation(deepest)
         };
-        let mut stages = vec![press];
+        let mut body = RelaxingBody::new(contact)?.with_tolerance(self.error_of_steps());
+        let record = body.advance(press)?;
+        take(&motion(Direction::Loading, &record.curve), approach);
         let pause = pause_of(&self.scene);
         if pause > 0.0 {
-            stages.push(Move::Hold(pause));
+            let record = body.advance(Move::Hold(pause))?;
+            take(&ComputedPart::Rest(points_of_rest(&record)), rest);
         }
-        stages.push(Move::ToSeparation);
-        let samples = if self.noise > 1.0 { FEW } else { SAMPLES };
-        let cycle = contact.load_with(&stages, LoadOptions::default().samples(samples as u64))?;
-        let records = cycle.stages();
-        let curve = |direction, record: Option<&StageRecord>| {
-            let points = record.map_or(&[][..], |record| &record.curve);
-            DisplacementCurve::new(direction, points, stiffness)
-        };
-        let approach = curve(Direction::Loading, records.first());
-        take(&approach, 0..end_of_approach, offset);
-        let retraction = curve(Direction::Unloading, records.last());
-        take(&retraction, end_of_approach..segments.len(), offset);
+        let record = body.advance(Move::ToSeparation)?;
+        take(&motion(Direction::Unloading, &record.curve), retraction);
         Ok(())
     }
+
+    /// Returns the index ranges of the points of the approach, of the rest after it, and of the
+    /// retraction.
+    fn parts_around_rest(&self) -> [Range<usize>; 3] {
+        let segments = &self.curve.segment;
+        let end = segments.partition_point(|segment| *segment == 0);
+        let rests = |index: &usize| {
+            let seconds = self.curve.seconds_at_rest.get(*index);
+            seconds.is_some_and(Option::is_some)
+        };
+        let resting = (0..end).rev().take_while(rests).count();
+        [0..end - resting, end - resting..end, end..segments.len()]
+    }
+
+    /// Returns the error that the forces of a body that relaxes may have because of the steps, as a
+    /// share of the largest force.
+    fn error_of_steps(&self) -> f64 {
+        if self.noise > 1.0 {
+            return COARSE_ERROR_OF_STEPS;
+        }
+        let force = Extent::of(self.curve.force.iter().copied());
+        let largest = force.high.max(-force.low);
+        (OF_NOISE * self.curve.noise / largest).clamp(LEAST_ERROR_OF_STEPS, ERROR_OF_STEPS)
+    }
+}
+
+/// Returns the time in s since the beginning of a rest and the force in N at each point of the
+/// record of the rest. The record of a body without contact has no times.
+fn points_of_rest(record: &StageRecord) -> Vec<[f64; 2]> {
+    let begin = record.seconds.first().copied().unwrap_or(0.0);
+    let mut points = Vec::with_capacity(record.curve.len());
+    for (index, point) in record.curve.iter().enumerate() {
+        let seconds = record.seconds.get(index).copied().unwrap_or(begin);
+        points.push([seconds - begin, point.force]);
+    }
+    points
+}
+
+/// Returns the force in N at a time in s, by interpolation between points of a rest.
+fn force_at_time(points: &[[f64; 2]], seconds: f64) -> f64 {
+    let next = points.partition_point(|point| point[0] < seconds);
+    let (Some(before), Some(after)) = (points.get(next.max(1) - 1), points.get(next)) else {
+        return points.last().map_or(0.0, |point| point[1]);
+    };
+    let step = after[0] - before[0];
+    if step <= 0.0 {
+        return after[1];
+    }
+    let share = ((seconds - before[0]) / step).clamp(0.0, 1.0);
+    between(before[1], after[1], share)
 }
 
 impl BodyOnStage {

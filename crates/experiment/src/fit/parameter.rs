@@ -169,7 +169,7 @@ impl Parameter {
 
     /// Returns true for a parameter whose coordinate is its value in a unit.
     fn is_linear(self) -> bool {
-        self.is_signed() || matches!(self, Parameter::Behind | Parameter::RelaxationShare)
+        self.is_signed() || self == Parameter::Behind
     }
 
     /// Returns true if the parameter can be searched in the range from `low` to `high`.
@@ -204,6 +204,9 @@ impl Parameter {
         use Parameter::{
             Behind, ClosingWork, Modulus, Offset, Radius, SecondRadius, Stiffness, Work, Zero,
         };
+        if first.is_of_relaxation() || second.is_of_relaxation() {
+            return "a rest between approach and retraction, or a curve at another speed";
+        }
         if first == second {
             return "less noise, a larger preload, or its value from another measurement";
         }
@@ -352,16 +355,17 @@ fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
 
 /// Coordinate in which a free parameter is searched. For the offset and the zero, the coordinate is
 /// the value divided by [`Coordinate::unit`]. For the work of adhesion on closing, it is the ratio
-/// of this work to the work of adhesion. For the work of adhesion, it is linear up to `unit` and
-/// logarithmic above it, so that the work of adhesion can be 0. For other parameters it is a
-/// logarithm.
+/// of this work to the work of adhesion. For the work of adhesion and for the share that relaxes, it
+/// is linear up to `unit` and logarithmic above it, so that they can be 0. If a curve is short
+/// against the relaxation time, it determines only the ratio of share and time, and this ratio is
+/// straight in logarithms. For other parameters the coordinate is a logarithm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
     /// Unit of the coordinate in the SI unit of the parameter. It is used for a parameter that may
-    /// be positive or negative, and for the work of adhesion.
+    /// be positive or negative, for the work of adhesion and for the share that relaxes.
     pub unit: f64,
 }
 
@@ -369,7 +373,7 @@ impl Coordinate {
     /// Returns the coordinate of a value of the parameter. `values` contains the other parameters.
     pub fn of(&self, value: f64, values: &Values) -> f64 {
         match self.parameter {
-            Parameter::Work => (value / self.unit).asinh(),
+            Parameter::Work | Parameter::RelaxationShare => (value / self.unit).asinh(),
             Parameter::ClosingWork => {
                 let (low, high) = self.range_on_closing(values);
                 if high > low {
@@ -386,7 +390,7 @@ impl Coordinate {
     /// Returns the value of the parameter at a coordinate. `values` contains the other parameters.
     pub fn value(&self, coordinate: f64, values: &Values) -> f64 {
         match self.parameter {
-            Parameter::Work => coordinate.sinh() * self.unit,
+            Parameter::Work | Parameter::RelaxationShare => coordinate.sinh() * self.unit,
             Parameter::ClosingWork => {
                 let (low, high) = self.range_on_closing(values);
                 low + coordinate.clamp(0.0, 1.0) * (high - low)
@@ -451,6 +455,12 @@ mod tests {
             (Parameter::Radius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
             (Parameter::SecondRadius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
             (Parameter::Behind, (0.0, 9.0), 5.0, 10.0),
+            (
+                Parameter::RelaxationShare,
+                (0.0, 0.95),
+                0.5,
+                1.0_f64.asinh(),
+            ),
         ] {
             let one = coordinate(parameter, range);
             assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");

@@ -64,17 +64,17 @@ impl Population {
         count
     }
 
-    /// Returns a measure of the extent of the population: the logarithm of the standard deviation
-    /// of the members in one coordinate, averaged over all coordinates.
-    pub fn log_extent(&self) -> f64 {
+    /// Returns the extent of the population in each coordinate: the logarithm of the standard
+    /// deviation of the members.
+    pub fn log_extents(&self) -> Vec<f64> {
         let count = self.members.first().map_or(0, |member| member.place.len());
-        let mut sum = 0.0;
+        let mut extents = Vec::with_capacity(count);
         for index in 0..count {
             let positions: Vec<f64> = self.members.iter().map(|one| one.place[index]).collect();
             let deviation = standard_deviation(&positions, mean(&positions));
-            sum += deviation.max(f64::MIN_POSITIVE).ln();
+            extents.push(deviation.max(f64::MIN_POSITIVE).ln());
         }
-        sum / count.max(1) as f64
+        extents
     }
 
     /// Returns true if most members differ from each other, so that the next step of the search can

@@ -1,9 +1,9 @@
 //! The probability distribution of the parameters after a search: their errors, their correlations,
 //! and the parameters that the curve does not determine.
 
-use crate::curve::numerics::correlated;
+use crate::curve::numerics::correlated_few;
 use crate::fit::parameter::{Coordinate, Parameter, Values};
-use crate::fit::result::FittedParameter;
+use crate::fit::result::{FittedParameter, RelaxedModulus};
 use crate::fit::search::SearchResult;
 use crate::fit::space::Space;
 use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
@@ -21,6 +21,12 @@ const OF_SAMPLES: f64 = 1.06;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
+/// Returns the modulus in Pa after a long time, for these values of the parameters.
+fn relaxed_modulus(values: &Values) -> f64 {
+    let share = values[Parameter::RelaxationShare as usize];
+    values[Parameter::Modulus as usize] * (1.0 - share)
+}
+
 /// Probability distribution of the parameters after a search, from which their errors follow.
 pub(crate) struct Posterior<'a> {
     space: &'a Space<'a>,
@@ -28,6 +34,8 @@ pub(crate) struct Posterior<'a> {
     /// Samples whose deviations from the mean are increased, because residuals that correlate along
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
+    /// These samples, in which the coordinate of a share that relaxes is that of the whole share.
+    shown: Vec<Vec<f64>>,
     /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,
     /// True if the profile of the specimen differs from the random profile of the scene.
@@ -38,13 +46,14 @@ pub(crate) struct Posterior<'a> {
 
 impl<'a> Posterior<'a> {
     pub fn new(space: &'a Space<'a>, result: &'a SearchResult, has_other_profile: bool) -> Self {
-        let variance_factor = correlated(&result.residuals);
+        let variance_factor = correlated_few(&result.residuals);
         let mut widened = result.samples.clone();
         widen(&mut widened, variance_factor.sqrt());
         let most_extra_cost = 0.5 * NORMAL * NORMAL * variance_factor;
         Posterior {
             space,
             result,
+            shown: space.with_whole_shares(&widened),
             widened,
             best: space.values(&result.best.place),
             has_other_profile,
@@ -118,13 +127,35 @@ impl<'a> Posterior<'a> {
             .collect()
     }
 
+    /// Returns the modulus after a long time; `None` if the half-space does not relax.
+    pub fn relaxed_modulus(&self) -> Option<RelaxedModulus> {
+        if !self.space.relaxes() {
+            return None;
+        }
+        let value = relaxed_modulus(&self.best);
+        let samples = self.widened.iter();
+        let values = samples.map(|place| relaxed_modulus(&self.space.values(place)));
+        let Spread {
+            standard_deviation,
+            interval: (low, high),
+        } = spread(values.collect()).unwrap_or(Spread::at(value));
+        let half_width = NORMAL * OF_SAMPLES * standard_deviation;
+        Some(RelaxedModulus {
+            value,
+            interval: (
+                low.min(value - half_width).max(0.0),
+                high.max(value + half_width),
+            ),
+        })
+    }
+
     /// Returns each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub fn correlations(&self) -> Vec<(Parameter, Parameter, f64)> {
         let coordinates = &self.space.coordinates;
         let mut correlations = Vec::new();
         for first in 0..coordinates.len() {
             for second in first + 1..coordinates.len() {
-                let value = correlation(&self.widened, [first, second]);
+                let value = correlation(&self.shown, [first, second]);
                 let first = coordinates[first].parameter;
                 let second = coordinates[second].parameter;
                 correlations.push((first, second, value));
@@ -160,7 +191,7 @@ impl<'a> Posterior<'a> {
         if coordinate.parameter == Parameter::Work && self.is_without_adhesion {
             return false;
         }
-        let samples = self.widened.iter().map(|place| place[index]).collect();
+        let samples = self.shown.iter().map(|place| place[index]).collect();
         let best = self.result.best.place[index];
         let (from, to) = spread(samples).unwrap_or(Spread::at(best)).interval;
         let width = to - from;

@@ -87,6 +87,17 @@ impl FittedParameter {
     }
 }
 
+/// Effective modulus E∞ = E* (1 − s) in Pa of a half-space that has relaxed for a long time.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct RelaxedModulus {
+    /// Value with the parameters that describe the curve best.
+    pub value: f64,
+    /// Lower and upper end of the 95 % interval.
+    #[serde(flatten, serialize_with = "low_and_high")]
+    pub interval: (f64, f64),
+}
+
 /// Result of [`Fit::run`](crate::Fit::run). A residual is the measured force minus the computed
 /// force at a point.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -113,6 +124,9 @@ pub struct FitResult {
     /// How well the model describes the curve.
     #[serde(rename = "description")]
     pub grade: Grade,
+    /// Effective modulus after a long time; `None` if the half-space does not relax.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxed_modulus: Option<RelaxedModulus>,
     /// Largest work of adhesion in J/m² that is compatible with a curve without clear adhesion. It
     /// is the upper end of the 95 % interval. `None` if the curve excludes a scene without adhesion
     /// at the level of 5 %, or if the work of adhesion is not free.

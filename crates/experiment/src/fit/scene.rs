@@ -216,7 +216,7 @@ impl MeasuredCurve {
             .set_all(&[self.loading(offset, pause_of(document.scene()))])
     }
 
-    fn loading(&self, offset: f64, pause: f64) -> Change {
+    pub(crate) fn loading(&self, offset: f64, pause: f64) -> Change {
         let last = self.turns.len() - 1;
         let mut stages = String::new();
         for turn in &self.turns[..last] {

@@ -6,6 +6,7 @@ use crate::error::ExperimentError;
 use crate::fit::agreement::Compared;
 use crate::fit::model::Model;
 use crate::fit::population::WRONG_SIDE;
+use crate::fit::scene::pause_of;
 use crate::fit::search::{Search, SearchResult};
 use crate::fit::space::Space;
 use crate::fit::statistics::scale;
@@ -63,6 +64,14 @@ pub(crate) fn search(
     space: &Space<'_>,
     report: &mut dyn FnMut(usize),
 ) -> Result<Searched, ExperimentError> {
+    if space.relaxes() {
+        let with_rest = curve.with_rest(pause_of(document.scene()));
+        let space = Space {
+            curve: with_rest.as_ref().unwrap_or(curve),
+            ..space.clone()
+        };
+        return search_relaxing(document, simulation, &space, report);
+    }
     let of_part = search_part(curve, document, simulation, space, report)?;
     let mut report_all = |evaluations: usize| report(of_part.evaluations + evaluations);
     let mut search = Search {
@@ -78,6 +87,32 @@ pub(crate) fn search(
     let mut searched = compared_with_all(&mut search, result)?;
     searched.evaluations += of_part.evaluations;
     Ok(searched)
+}
+
+/// Searches the parameters of a half-space that relaxes. The time of this search is that of the
+/// curves of the model, so that all points are used from the beginning. The points of a rest count
+/// in the search and in the misfit, but not in the residuals that are returned.
+fn search_relaxing(
+    document: &Document,
+    simulation: &mut Simulation,
+    space: &Space<'_>,
+    report: &mut dyn FnMut(usize),
+) -> Result<Searched, ExperimentError> {
+    let curve = space.curve;
+    let mut search = Search {
+        space,
+        model: Model::new(curve, document.scene(), simulation),
+        report,
+        lines: space.lines(),
+    };
+    let result = search.find()?;
+    let searched = compared_with_all(&mut search, result)?;
+    Ok(Searched {
+        residuals: curve.without_rest(&searched.residuals),
+        in_contact: curve.without_rest(&searched.in_contact),
+        distances_from_jumps: curve.without_rest(&searched.distances_from_jumps),
+        ..searched
+    })
 }
 
 /// Result of a search with a part of the points.

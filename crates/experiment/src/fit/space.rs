@@ -6,6 +6,7 @@ use crate::curve::numerics::Extent;
 use crate::error::{ExperimentError, refused};
 use crate::fit::lines::Lines;
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::relaxation::{other_relaxations, seconds_in_contact, with_relaxation};
 use crate::fit::result::RangeEnd;
 use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::fit::start::{Known, Starts};
@@ -23,12 +24,10 @@ const FACTOR: f64 = 30.0;
 const FACTOR_OF_RADII: f64 = 5.0;
 /// Smallest ratio of the ends of a range that the limits of a scene leave.
 const NARROWEST: f64 = 2.0;
-/// Share of the modulus that relaxes at which a search begins, unless the scene states one.
-const RELAXATION_SHARE: f64 = 0.2;
 /// Largest share of the modulus that relaxes in a search. A larger share leaves hardly any modulus.
 const MOST_RELAXATION: f64 = 0.95;
-/// Time of the approach divided by the relaxation time at which a search begins.
-const RELAXATIONS: f64 = 5.0;
+/// Share up to which its coordinate is linear.
+const LINEAR_SHARE: f64 = 0.01;
 /// Ratio of each end of the range of the relaxation time to this initial value.
 const FACTOR_OF_TIMES: f64 = 300.0;
 /// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
@@ -49,6 +48,12 @@ pub(crate) struct Space<'a> {
     pub most_on_closing: f64,
     /// Sets of parameter values at which further descents of the fit begin.
     pub other_starts: Vec<Values>,
+    /// Sets of parameter values with other relaxations, at which further descents begin.
+    pub relaxations: Vec<Values>,
+    /// Time in s of the motion in contact and of the rest, if the half-space relaxes. The coordinate
+    /// of the share is that of the part of the modulus that relaxes in this time, because a curve
+    /// that is short against the relaxation time determines this part alone.
+    pub seconds_in_contact: Option<f64>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -175,43 +180,6 @@ fn with_two_spheres(
     Ok((document, contacts))
 }
 
-/// Returns the document with a relaxation at which a search begins, if it is free.
-///
-/// # Errors Returns an error if the relaxation is free or stated, and the scene states no speed, or
-/// the curve has further segments than an approach and a retraction.
-fn with_relaxation(
-    document: &Document,
-    curve: &MeasuredCurve,
-    free: &[Free],
-) -> Result<Document, ExperimentError> {
-    let scene = document.scene();
-    let is_free = free.iter().any(|free| free.parameter.is_of_relaxation());
-    if !is_free && scene.material.relaxation.is_none() {
-        return Ok(document.clone());
-    }
-    let Some(speed) = scene.loading_speed else {
-        let found = "relaxation without a speed of the instrument";
-        return refused(found, "loading_speed in m/s, such as 1.0e-6");
-    };
-    if curve.turns.len() > 2 {
-        let found = format!("relaxation, and a curve of {} segments", curve.turns.len());
-        return refused(
-            found,
-            "an approach and a retraction, such as segments 1 and 2",
-        );
-    }
-    if scene.material.relaxation.is_some() {
-        return Ok(document.clone());
-    }
-    let way = curve.turns[0] - curve.touch;
-    let time = ron_float(way / speed / RELAXATIONS);
-    let share = ron_float(RELAXATION_SHARE);
-    let relaxation = format!("(share: {share}, time: {time})");
-    document
-        .set("material.relaxation", &relaxation)
-        .map_err(wrong)
-}
-
 /// Data from which the coordinates of the free parameters follow.
 struct Ranges<'a> {
     curve: &'a MeasuredCurve,
@@ -307,7 +275,7 @@ impl Ranges<'_> {
         match parameter {
             Parameter::Work => self.starts.least_work,
             Parameter::Zero => 0.1 * self.extent_of_force,
-            Parameter::RelaxationShare => 0.1,
+            Parameter::RelaxationShare => LINEAR_SHARE,
             _ => 0.1 * self.starts.way,
         }
     }
@@ -367,15 +335,25 @@ impl<'a> Space<'a> {
         } else {
             Vec::new()
         };
+        let relaxations = other_relaxations(&base, |parameter| is_free(free, parameter));
         let space = Space {
             base,
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
             other_starts,
+            relaxations,
+            seconds_in_contact: seconds_in_contact(curve, document.scene()),
             curve,
             stop,
         };
         Ok((document, space))
+    }
+
+    /// Returns true if the half-space relaxes, or may do so in the search.
+    pub fn relaxes(&self) -> bool {
+        let of_relaxation = |coordinate: &Coordinate| coordinate.parameter.is_of_relaxation();
+        let is_free = self.coordinates.iter().any(of_relaxation);
+        is_free || self.base[Parameter::RelaxationShare as usize] > 0.0
     }
 
     /// Returns the free parameters in the order of the coordinates.
@@ -397,7 +375,47 @@ impl<'a> Space<'a> {
                 values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
             }
         }
+        if let Some(index) = self.share_of_coordinate() {
+            let most = self.coordinates[index].range.1;
+            let share = self.whole_share(&values);
+            values[Parameter::RelaxationShare as usize] = share.min(most);
+        }
         values
+    }
+
+    /// Returns the share that relaxes, if `values` have the part of it that relaxes in contact.
+    fn whole_share(&self, values: &Values) -> f64 {
+        values[Parameter::RelaxationShare as usize] / self.relaxed_part(values)
+    }
+
+    /// Returns the index of the coordinate of the share that relaxes; `None` if the share is not
+    /// free.
+    fn share_of_coordinate(&self) -> Option<usize> {
+        self.coordinates
+            .iter()
+            .position(|coordinate| coordinate.parameter == Parameter::RelaxationShare)
+    }
+
+    /// Returns the part of the relaxation that happens within the time in contact, from 0 to 1.
+    fn relaxed_part(&self, values: &Values) -> f64 {
+        let time = values[Parameter::RelaxationTime as usize];
+        match self.seconds_in_contact {
+            Some(seconds) => -(-seconds / time).exp_m1(),
+            None => 1.0,
+        }
+    }
+
+    /// Returns the coordinates of samples in which that of the share is that of the share itself.
+    pub fn with_whole_shares(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut whole = places.to_vec();
+        if let Some(index) = self.share_of_coordinate() {
+            for place in &mut whole {
+                let values = self.values(place);
+                let share = values[Parameter::RelaxationShare as usize];
+                place[index] = self.coordinates[index].of(share, &values);
+            }
+        }
+        whole
     }
 
     /// Returns the nearest place that lies within the ranges of all coordinates.
@@ -407,18 +425,37 @@ impl<'a> Space<'a> {
             let (low, high) = coordinate.ends();
             position.clamp(low, high)
         });
-        inside.collect()
+        let mut inside: Vec<f64> = inside.collect();
+        if let Some(index) = self.share_of_coordinate() {
+            let values = self.values(&inside);
+            let share = self.coordinates[index];
+            let most = share.range.1 * self.relaxed_part(&values);
+            inside[index] = inside[index].min(share.of(most, &values));
+        }
+        inside
     }
 
     /// Returns true if each coordinate of a place lies within its range.
     pub fn contains(&self, place: &[f64]) -> bool {
-        self.coordinates
+        let are_inside = self
+            .coordinates
             .iter()
             .zip(place)
             .all(|(coordinate, position)| {
                 let (low, high) = coordinate.ends();
                 (low..=high).contains(position)
-            })
+            });
+        let has_share = |index: usize| {
+            let mut values = self.base;
+            for (coordinate, &position) in self.coordinates.iter().zip(place) {
+                if coordinate.parameter.is_of_relaxation() {
+                    let value = coordinate.value(position, &values);
+                    values[coordinate.parameter as usize] = value;
+                }
+            }
+            self.whole_share(&values) <= self.coordinates[index].range.1
+        };
+        are_inside && self.share_of_coordinate().is_none_or(has_share)
     }
 
     /// Returns the free parameters with larger ranges, if a coordinate of `place` lies at an end of
@@ -467,7 +504,12 @@ impl<'a> Space<'a> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
         let room = AT_END * (high - low);
-        let value = place[index];
+        let value = if coordinate.parameter == Parameter::RelaxationShare {
+            let values = self.values(place);
+            coordinate.of(values[Parameter::RelaxationShare as usize], &values)
+        } else {
+            place[index]
+        };
         let is_closing = coordinate.parameter == Parameter::ClosingWork;
         if value > high - room && !is_closing {
             return Some(RangeEnd::High);
@@ -482,15 +524,24 @@ impl<'a> Space<'a> {
     pub fn start(&self) -> Vec<f64> {
         self.coordinates
             .iter()
-            .map(|coordinate| coordinate.of(coordinate.start, &self.base))
+            .map(|coordinate| self.position(coordinate, coordinate.start, &self.base))
             .collect()
+    }
+
+    /// Returns the position of a value along a coordinate. `values` contains the other parameters.
+    fn position(&self, coordinate: &Coordinate, value: f64, values: &Values) -> f64 {
+        if coordinate.parameter == Parameter::RelaxationShare {
+            return coordinate.of(value * self.relaxed_part(values), values);
+        }
+        coordinate.of(value, values)
     }
 
     /// Returns the coordinates that belong to these values of the parameters. A coordinate outside
     /// its range is replaced by the nearer end of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
-        let of =
-            |coordinate: &Coordinate| coordinate.of(values[coordinate.parameter as usize], values);
+        let of = |coordinate: &Coordinate| {
+            self.position(coordinate, values[coordinate.parameter as usize], values)
+        };
         let place: Vec<f64> = self.coordinates.iter().map(of).collect();
         self.inside(&place)
     }

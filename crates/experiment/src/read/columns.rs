@@ -3,8 +3,8 @@
 
 use crate::read::metadata::Metadata;
 use crate::read::names::{
-    APPROACH, DISPLACEMENT, FORCE, OF_BODY, QUANTITIES, Quantity, RETRACTION, SEGMENT, direction,
-    letters, names_unit, unit,
+    APPROACH, DISPLACEMENT, FORCE, OF_BODY, QUANTITIES, Quantity, RETRACTION, SEGMENT, TIME,
+    direction, letters, names_unit, unit,
 };
 use crate::read::options::CurveOptions;
 use asperity_data::text_table::{TextColumn, is_one_of};
@@ -20,6 +20,10 @@ const COLUMNS: &str = "displacement and force by names or numbers of their colum
     approach";
 /// Addition to [`COLUMNS`] in the error message for a file that states neither names nor units.
 const UNITS: &str = ", with their units, since the file states none";
+/// Beginning of the word by which the options state the column of the time.
+const TIME_IS: &str = "time=";
+/// Index of the unit of the time among the units that the options state.
+const UNIT_OF_TIME: usize = 2;
 
 /// A column of displacements and a column of forces. `places` are the indices of these two columns.
 /// `units` are their units, each as the SI value of one unit, such as 1e-9 for nm.
@@ -29,6 +33,14 @@ pub(crate) struct Pair {
     pub units: [f64; 2],
 }
 
+/// The column of the time of each point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimeColumn {
+    pub place: usize,
+    /// SI value of one unit, such as 1e-3 for ms.
+    pub unit: f64,
+}
+
 /// The columns of a file that are used.
 #[derive(Debug)]
 pub(crate) struct Choice {
@@ -36,6 +48,9 @@ pub(crate) struct Choice {
     /// and retraction have columns of their own.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
+    /// Column of the time. `None` if the file has none whose unit is known, and for approach and
+    /// retraction side by side.
+    pub time: Option<TimeColumn>,
     /// Travel of the piezo in m, if the file has forces without displacements. The forces are then
     /// evenly spaced over this travel.
     pub ramp: Option<f64>,
@@ -92,16 +107,17 @@ impl Choice {
             pairs.push(Pair { places, units });
         }
         statements.dedup();
-
         let mut assumed = format!("Columns: {}", descriptions[..2].join(", "));
         if descriptions.len() > 2 {
             let retraction = descriptions[2..].join(", ");
             assumed += &format!(", the retraction in {retraction}");
         }
+        let time = table.time(pairs.len())?;
         Ok(Choice {
             of_body: table.displacement_of_body(places[0][DISPLACEMENT]),
             pairs,
             segment,
+            time,
             ramp,
             assumed,
             statements,
@@ -166,7 +182,7 @@ impl<'a> Table<'a> {
         if ramp.is_some() {
             return Ok(self.with_named_segment(vec![[0, 0]]));
         }
-        match &self.options.columns[..] {
+        match &self.stated_columns()[..] {
             [] if self.is_pair_in_order() => Ok(self.with_named_segment(vec![[0, 1]])),
             [] => {
                 let places = known(&self.named).map_err(|term| {
@@ -192,6 +208,47 @@ impl<'a> Table<'a> {
             }
             other => Err(self.wrong(format!("{} stated columns", other.len()))),
         }
+    }
+
+    /// Returns the columns that the options state, without the column of the time.
+    fn stated_columns(&self) -> Vec<&'a str> {
+        let columns = self.options.columns.iter().map(String::as_str);
+        columns
+            .filter(|column| !column.starts_with(TIME_IS))
+            .collect()
+    }
+
+    /// Returns the column of the time: the one that the options state, or else the one whose name
+    /// and unit mean a time. A stated column without a unit is in s.
+    fn time(&self, pairs: usize) -> Result<Option<TimeColumn>, SurfaceError> {
+        let columns = self.options.columns.iter();
+        let stated = columns
+            .filter_map(|column| column.strip_prefix(TIME_IS))
+            .next_back();
+        if pairs > 1 {
+            return Ok(None);
+        }
+        let place = match stated {
+            Some(wanted) => Some(self.place(wanted)?),
+            None => named_time(&self.named),
+        };
+        let Some(place) = place else {
+            return Ok(None);
+        };
+        let option = self.options.units.get(UNIT_OF_TIME).map(String::as_str);
+        let of_column = self.columns[place].unit.as_deref();
+        let of_file = (self.stated.is_si || stated.is_some()).then_some(TIME.si_unit);
+        let text = option.or(of_column).or(self.named[place].unit.as_deref());
+        let Some(text) = text.or(of_file) else {
+            return Ok(None);
+        };
+        let unit = unit_value(text, TIME.si_unit, option.is_some());
+        if unit.is_none() && (stated.is_some() || option.is_some()) {
+            let found = format!("{:?} is not a unit of the {}", shown(text), TIME.term);
+            let allowed = format!("{}, ms, min and the like", TIME.unit_example);
+            return Err(refused(Place::File, found, allowed));
+        }
+        Ok(unit.map(|unit| TimeColumn { place, unit }))
     }
 
     /// Returns the roles with these pairs of displacement and force. A column whose name means the
@@ -275,7 +332,7 @@ impl<'a> Table<'a> {
     /// Returns a sentence on columns that the options choose as displacement or force although
     /// their names mean something else; `None` if there are no such columns.
     fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
-        if self.options.columns.is_empty() {
+        if self.stated_columns().is_empty() {
             return None;
         }
         let by_name = known(&self.named).ok()?;
@@ -292,7 +349,7 @@ impl<'a> Table<'a> {
     /// the deflection of the instrument. Returns `None` if the options choose the column by its
     /// number, because the meaning of its name is then ignored.
     fn displacement_of_body(&self, place: usize) -> Option<String> {
-        if let Some(typed) = self.options.columns.first()
+        if let Some(typed) = self.stated_columns().first()
             && typed.parse::<usize>().is_ok()
         {
             return None;
@@ -451,6 +508,17 @@ impl Named {
             Some(_) => 2,
         }
     }
+}
+
+/// Returns the index of the column whose name means the time; `None` if no name does.
+fn named_time(named: &[Named]) -> Option<usize> {
+    for name in TIME.names.split(' ') {
+        let column = named.iter().position(|column| column.quantity_name == name);
+        if column.is_some() {
+            return column;
+        }
+    }
+    None
 }
 
 /// Returns the indices of the columns of displacement and force that follow from the names of the

@@ -38,6 +38,13 @@ pub(crate) const QUANTITIES: [Quantity; 2] = [
          cantilever memsdisplacement memsdispl tb fn f forceavg avgforce averageforce meanforce forcemean favg fmean",
     },
 ];
+/// Time of each point, with the names of its columns.
+pub(crate) const TIME: Quantity = Quantity {
+    term: "time",
+    si_unit: "s",
+    unit_example: "s",
+    names: "seriestime time t elapsedtime timestamp times seconds",
+};
 /// Names of columns with the displacement of the body, without the deflection of the instrument.
 pub(crate) const OF_BODY: &str = "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
 /// Names of a column with the segment of each point.

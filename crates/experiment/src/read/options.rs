@@ -96,12 +96,13 @@ pub struct CurveOptions {
     /// By default the names in the header decide; of two columns the first is the displacement.
     /// Four columns are displacement and force of the approach, then displacement and force of
     /// the retraction beside it. Without a column of segments a segment ends where the
-    /// displacement turns.
+    /// displacement turns. time=NAME is the column of the time, which a fit with relaxation
+    /// uses; it is found by its name if its unit is stated.
     #[cfg_attr(
         feature = "clap",
         arg(
             long,
-            value_name = "D,F[,SEGMENT]",
+            value_name = "D,F[,SEGMENT][,time=T]",
             value_delimiter = ',',
             verbatim_doc_comment
         )
@@ -110,6 +111,7 @@ pub struct CurveOptions {
     /// Units of displacement and force: nm,nN; default: units of the file
     ///
     /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
+    /// A third unit is that of the time.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "UNIT,UNIT", value_delimiter = ',')

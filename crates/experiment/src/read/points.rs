@@ -42,6 +42,8 @@ pub(crate) struct Columns {
     pub force: Vec<f64>,
     /// Label of the segment of each point; empty if the file has no names of segments.
     pub labels: Vec<Label>,
+    /// Time of each point in s; empty without a column of the time.
+    pub seconds: Vec<f64>,
     /// True if approach and retraction were in separate columns of the file.
     pub is_beside: bool,
     /// Number of points left out because a value is missing.
@@ -66,7 +68,12 @@ pub(crate) struct Columns {
 impl Columns {
     /// Creates columns from displacements in m and forces in N. A point with a value that is not
     /// finite is left out.
-    pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
+    /// `seconds` are the times of the points in s, or nothing.
+    pub fn of_arrays(
+        displacement: &[f64],
+        force: &[f64],
+        seconds: &[f64],
+    ) -> Result<Self, ExperimentError> {
         if displacement.len() != force.len() {
             let found = format!(
                 "{} displacements and {} forces",
@@ -75,8 +82,18 @@ impl Columns {
             );
             return crate::error::refused(found, "one force for each displacement");
         }
+        let has_time = !seconds.is_empty();
+        if has_time && seconds.len() != force.len() {
+            let found = format!("{} forces and {} times", force.len(), seconds.len());
+            return crate::error::refused(found, "one time for each force");
+        }
+        let assumed = if has_time {
+            "displacements in m, forces in N, times in s"
+        } else {
+            "displacements in m, forces in N"
+        };
         let mut columns = Columns {
-            assumed: "displacements in m, forces in N".to_owned(),
+            assumed: assumed.to_owned(),
             ..Columns::default()
         };
         let pair = Pair {
@@ -84,7 +101,10 @@ impl Columns {
             units: [1.0; 2],
         };
         for (index, (displacement, force)) in displacement.iter().zip(force).enumerate() {
-            columns.push([*displacement, *force], &pair, Place::Point(index + 1))?;
+            let is_added = columns.push([*displacement, *force], &pair, Place::Point(index + 1))?;
+            if is_added && has_time {
+                columns.seconds.push(seconds[index]);
+            }
         }
         columns.check_displacements(Place::Point)?;
         Ok(columns)
@@ -307,6 +327,11 @@ impl Rows {
             let is_added = part.push([displacement, force], pair, place.clone())?;
             if is_added && is_labelled {
                 part.labels.push(self.label);
+            }
+            if is_added && let Some(time) = self.choice.time {
+                // Whatever is no number is no time, and does not make the curve unreadable.
+                let seconds = value(time.place).unwrap_or(f64::NAN);
+                part.seconds.push(in_si(seconds, time.unit));
             }
         }
         self.count += 1;

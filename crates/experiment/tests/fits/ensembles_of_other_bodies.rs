@@ -2,7 +2,15 @@
 //! those of the fit.
 
 use crate::common::bodies::{Body, Specimen};
-use asperity_experiment::IntervalEstimate;
+use crate::common::gauss;
+use crate::common::specimens::document;
+use asperity_contact::Move;
+use asperity_data::Control;
+use asperity_experiment::{
+    CurveOptions, EnsembleOptions, IntervalEstimate, MeasuredCurve, fit_ensemble,
+};
+use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
+use asperity_surface::Form;
 
 /// Number of specimens of each body, and least number of their intervals that hold the truth.
 const SPECIMENS: u64 = 60;
@@ -117,4 +125,75 @@ fn both_intervals_hold_the_truth_of_three_bodies() {
             );
         }
     }
+}
+
+/// Four curves of a sphere of 30 µm with roughness of 20 nm, which is almost smooth, at the
+/// indentations at which they were computed: most points are in contact, and few before it.
+#[test]
+fn curves_with_most_points_in_contact_are_described() {
+    for (modulus, preload, is_modulus_free) in [(2.4e7, 1.1e-6, false), (1.3e5, 7.7e-6, true)] {
+        let mut given = Specimen::new(Body::Sphere, 0).given;
+        given.form = Some(Form::Paraboloid { radius: 3e-5 });
+        given.length = 2.5e-5;
+        given.roughness = Some(Roughness::SelfAffine {
+            hurst: 0.8,
+            rms_height: Some(2e-8),
+            rms_gradient: None,
+            modes: Some((1, 32)),
+            wavelengths: None,
+            roll_off: None,
+            seed: 1,
+        });
+        given.material = Material::effective(modulus);
+        given.adhesion = Some(Adhesion::by_work(0.02));
+        given.loading_stiffness = None;
+        given.loading = vec![Move::ToForce(preload), Move::ToSeparation];
+        given.numerics.points = 1024;
+        given.numerics.samples = 512;
+        let mut simulation = Simulation::default();
+        let mut curves = Vec::new();
+        for seed in 0..4 {
+            let curve = with_points_of_engine(&mut simulation, &given, 100 + seed);
+            curves.push((seed.to_string(), curve));
+        }
+        let options = EnsembleOptions {
+            profiles: 32,
+            is_modulus_free,
+            height_error: None,
+            hurst_error: None,
+        };
+        given.adhesion = Some(Adhesion::by_work(0.002));
+        let control = Control::default().on_threads(2);
+        let fit = fit_ensemble(&curves, &document(&given), &options, &simulation, control).unwrap();
+        let work = fit.work.value / 0.02;
+        assert!((work - 1.0).abs() < 0.05, "{:?}", fit.work);
+        let found = fit.modulus.value / modulus;
+        assert!((found - 1.0).abs() < 0.05, "{:?}", fit.modulus);
+    }
+}
+
+/// The curve of a profile with the points of the engine, and 100 points before and after them
+/// without contact. The noise is 2 nN.
+fn with_points_of_engine(simulation: &mut Simulation, scene: &Scene, seed: u64) -> MeasuredCurve {
+    let mut scene = scene.clone();
+    scene.set_seed(seed);
+    let outcome = simulation
+        .run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
+    let mut points: Vec<(f64, f64)> = (0..100)
+        .map(|index| (1e-8 * f64::from(index) - 1e-6, 0.0))
+        .collect();
+    let stages = outcome.history.stages.iter();
+    points.extend(stages.flat_map(|stage| {
+        let curve = stage.curve.iter();
+        curve.map(|point| (point.indentation, point.force))
+    }));
+    let separated = points[points.len() - 1].0;
+    points.extend((0..100).map(|index| (separated - 1e-8 * f64::from(index), 0.0)));
+    let (displacements, mut forces): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+    let noise = gauss(2e-9, seed).into_iter().cycle();
+    for (force, noise) in forces.iter_mut().zip(noise) {
+        *force += noise;
+    }
+    MeasuredCurve::from_columns(&displacements, &forces, &CurveOptions::default()).unwrap()
 }

@@ -1,5 +1,6 @@
 //! Tests: the intervals of fits hold the known values of their curves.
 
+mod coloured_noise;
 #[path = "../common/mod.rs"]
 mod common;
 mod conditions;

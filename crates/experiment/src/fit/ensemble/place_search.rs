@@ -12,7 +12,7 @@ const COARSE_LINES: u64 = 8;
 /// Nodes of the coarse table in ln(γ/E*).
 const COARSE_RANGES: Axis = Axis {
     step: 0.8,
-    nodes: 13,
+    nodes: 19,
 };
 /// Nodes of the coarse table in ln E*.
 const COARSE_MODULI: Axis = Axis {
@@ -25,7 +25,7 @@ const FINE_STEPS: usize = 6;
 /// the next table lies around this place.
 const MOST_MOVES: usize = 4;
 /// Largest adhesion parameter κ = √(h⟨∇z⟩E*/γ) in the first coarse table. The smallest κ in this
-/// table is about 1.
+/// table is 0.06, that of a soft body which is almost smooth.
 const HIGHEST_KAPPA: f64 = 80.0;
 /// Standard deviation that is added in quadrature to the scatter of each summary, so that no
 /// summary has too large a weight.

@@ -1,14 +1,14 @@
 //! Annealing: members of a population move at random, while the noise that is assumed falls to that
 //! of the curve.
 
-use super::{Cooling, LARGE, SCAN, Search, SearchResult};
+use super::{COARSE, Cooling, LARGE, SCAN, Search, SearchResult};
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
 use crate::fit::agreement::MISFIT;
 use crate::fit::parameter::Coordinate;
 use crate::fit::population::{Member, Population, drawn};
 use asperity_contact::ContactError;
-use asperity_data::Remedy;
+use asperity_data::{Remedy, mean};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
@@ -31,8 +31,16 @@ const ROUNDS: usize = 20;
 
 const GROWN: f64 = 0.05;
 
+/// Growth of the logarithm of the extent of one coordinate in a round, up to which no further round
+/// follows for a half-space that relaxes.
+const GROWN_ALONG_ONE: f64 = 0.15;
+
 /// Number of moves at the end, each of which adds all members to the samples.
 const LAST_MOVES: usize = 32;
+
+/// Number of these moves for a half-space that relaxes, whose curves take long to compute. Its
+/// population is drawn from nearly the distribution of the samples.
+const LAST_MOVES_OF_RELAXATION: usize = 12;
 
 /// Share of the moves that are random steps.
 const RANDOM: f64 = 0.02;
@@ -43,9 +51,6 @@ const DECADES: f64 = 6.0;
 
 /// Number of decades below the whole range over which the distances of members from a start extend.
 const DECADES_OF_CLOUD: f64 = 4.0;
-
-/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
-const COARSE: f64 = 10.0;
 
 /// Factor by which the number of members is larger while the forces have low accuracy.
 const MORE: usize = 2;
@@ -81,7 +86,12 @@ impl Search<'_> {
         let mut samples = Vec::new();
         let mut blocks = Vec::new();
         let parts = self.space.blocks(&population.best.in_contact);
-        for _ in 0..LAST_MOVES {
+        let moves = if self.space.relaxes() {
+            LAST_MOVES_OF_RELAXATION
+        } else {
+            LAST_MOVES
+        };
+        for _ in 0..moves {
             self.move_all(&mut population, generator)?;
             for member in &population.members {
                 samples.push(member.place.clone());
@@ -119,14 +129,23 @@ impl Search<'_> {
         population: &mut Population,
         generator: &mut ChaCha8Rng,
     ) -> Result<(), ExperimentError> {
-        let mut extent = population.log_extent();
+        let mut extents = population.log_extents();
         for _ in 0..ROUNDS {
             for _ in 0..MOVES {
                 self.move_all(population, generator)?;
             }
-            let before = extent;
-            extent = population.log_extent();
-            if extent <= before + GROWN {
+            let before = extents;
+            extents = population.log_extents();
+            let grown: Vec<f64> = extents
+                .iter()
+                .zip(&before)
+                .map(|(now, then)| now - then)
+                .collect();
+            let largest = Extent::of(grown.iter().copied()).high;
+            // Share and time of a relaxation may be on a long and narrow ridge, along which the
+            // population grows slowly.
+            let grows_along_one = self.space.relaxes() && largest > GROWN_ALONG_ONE;
+            if mean(&grown) <= GROWN && !grows_along_one {
                 break;
             }
         }
@@ -170,7 +189,7 @@ impl Search<'_> {
     ) -> Result<Population, ExperimentError> {
         self.model.noise = COARSE;
         let mut population = self.first_members(attempt, start, generator)?;
-        let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
+        let count = self.count_of_members();
         loop {
             let misfit = self.misfit(&population.best, population.noise);
             let least = (misfit / DEEPER).max(1.0);
@@ -195,6 +214,11 @@ impl Search<'_> {
                 }
             }
         }
+    }
+
+    /// Returns the number of members of a population.
+    pub(super) fn count_of_members(&self) -> usize {
+        MEMBERS + FOR_EACH * self.space.coordinates.len()
     }
 
     /// Returns members around a start, at distances of all sizes. Copies of the start alone would
@@ -259,7 +283,7 @@ impl Search<'_> {
     }
 
     /// Sets the noise of a population and computes its costs.
-    fn set_noise(&self, population: &mut Population, noise: f64) {
+    pub(super) fn set_noise(&self, population: &mut Population, noise: f64) {
         population.costs = population
             .members
             .iter()

@@ -15,6 +15,7 @@
 //! would be copied to the whole population.
 
 mod annealing;
+mod local;
 
 use crate::error::ExperimentError;
 use crate::fit::descent::descend;
@@ -61,6 +62,8 @@ const NO_BETTER: f64 = 0.97;
 const CURVES: usize = 40;
 /// Largest noise divided by the noise of the curve.
 const LARGE: f64 = 1e6;
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
+const COARSE: f64 = 10.0;
 /// Residual, in units of the noise, of a point whose computed force is not finite.
 const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
@@ -269,7 +272,18 @@ impl Search<'_> {
     /// minimum, and one in 200 does so twice. Second, the initial values have a lower cost than the
     /// population; they then become a member of the next population. Third, the members of the
     /// population have not spread.
+    ///
+    /// The curves of a half-space that relaxes take long to compute. Descents from starts then
+    /// replace the first population, unless they end at different places that do not describe the
+    /// curve.
     pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
+        if self.space.relaxes() {
+            let mut generator = ChaCha8Rng::seed_from_u64(SEED);
+            let count = self.count_of_members();
+            if let Some(population) = self.near_starts(count, &mut generator)? {
+                return self.sample(population, &mut generator);
+            }
+        }
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
     }
