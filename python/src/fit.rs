@@ -48,7 +48,9 @@ impl Curve {
         if self.1.is_none() {
             let path = PathBuf::from(&self.0);
             let source = CurveSource::new(&path, options);
-            return Ok(Source::File(source.map_err(|error| in_file(&path, &error))?));
+            return Ok(Source::File(
+                source.map_err(|error| in_file(&path, &error))?,
+            ));
         }
         let mut sources = self.sources(options)?;
         sources.pop().ok_or_else(|| "no curve".to_owned().into())

@@ -1,8 +1,12 @@
 //! Peak memory of `asperity run` on a scene.
 
+use rustix::pipe::fcntl_setpipe_size;
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
+
+/// Size of the smallest pipe of the system in bytes.
+const SMALLEST_PIPE: usize = 4096;
 
 /// Name of a scene, and its changed fields.
 pub type Changed<'a> = (&'a str, &'a [(&'a str, &'a str)]);
@@ -21,14 +25,15 @@ pub fn arguments((scene, fields): Changed<'_>) -> Vec<String> {
 
 /// Largest resident memory of `asperity run`, bytes.
 ///
-/// Read at the first byte of the results. With more results than a pipe holds, at least 5000
-/// samples, the process waits there with all its memory allocated.
+/// Read at the first byte of the results. The pipe holds few of them, so that the process waits
+/// there with all its memory allocated.
 pub fn peak(asperity: &str, changed: Changed<'_>) -> u64 {
     let mut run = Command::new(asperity)
         .args(arguments(changed))
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
+    fcntl_setpipe_size(run.stdout.as_ref().unwrap(), SMALLEST_PIPE).unwrap();
     run.stdout.as_mut().unwrap().read_exact(&mut [0]).unwrap();
     let status = fs::read_to_string(format!("/proc/{}/status", run.id())).unwrap();
     run.kill().unwrap();
