@@ -17,6 +17,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "stored_energy": ("J", "elastic energy of the springs"),
     # Events of a loop.
     "mark": ("", "mark of the figure, such as jump-in"),
+    "time": ("s", "time since first touch, of a body that relaxes"),
     "event": ("", "what happens, such as touches or detaches"),
     "energy": ("J", "elastic energy that springs gain (+) or release (-) at this indentation"),
     "springs": ("1", "number of springs, negative if they detach"),

@@ -150,12 +150,17 @@ def _with_contact(fields: dict[str, Any], *contact: Any) -> dict[str, Any]:
     return {**fields, **dict(zip(_CONTACT, contact, strict=True))}
 
 
+def _is_beside(field: str) -> bool:
+    """True for a field of the material or the adhesion that does not state the modulus or the work, and may be given with them."""
+    return field.replace("__", ".") == "adhesion.range" or field.replace("__", ".").startswith("material.relaxation")
+
+
 def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = False) -> Scene:
     """Opens a scene and changes its fields. `takes_heights` is true where a profile of given heights is allowed."""
     contact = {name: fields[name] for name in _CONTACT if fields.get(name) is not None}
     others = {name: value for name, value in fields.items() if name not in _CONTACT}
     for name, group in [("modulus", "material"), ("work", "adhesion"), ("closing_work", "adhesion"), ("stages", "loading")]:
-        twice = [other for other in others if other.replace("__", ".").split(".")[0] == group and other != "adhesion__range"]
+        twice = [other for other in others if other.replace("__", ".").split(".")[0] == group and not _is_beside(other)]
         if name in contact and twice:
             raise refusal(name, contact[name], f"either {name} or {twice[0]}, not both")
     if isinstance(given, Profile):
@@ -173,7 +178,10 @@ def _opened(given: AnyScene, fields: Mapping[str, Any], takes_heights: bool = Fa
     changes = []
     if "modulus" in contact:
         modulus = quantity(contact["modulus"], "Pa", "modulus")
-        changes += in_fields({"material": {"modulus": modulus}})
+        # The relaxation stays, unless another argument changes it.
+        relaxation = opened.value("material.relaxation")
+        beside = "" if relaxation is None else f", relaxation: {relaxation}"
+        changes.append(("material", f"(modulus: {in_scene(modulus, 'modulus')}{beside})"))
     if "stages" in contact:
         changes.append(("loading", _stages(contact["stages"])))
     changes += in_fields(others)
@@ -577,7 +585,8 @@ def load(
     `modulus` is the effective modulus E* in Pa. `work` is the work of adhesion in J/m² that opens the interface. `closing_work`
     in J/m² is gained where the interface closes, by default the same. A stage ends at a force (`"10 µN"`, or a number in N), at
     an indentation (`"200 nm"`), or at a displacement of the instrument (`"displacement 200 nm"`). It may also be `"touch"`,
-    `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. The instrument has the stiffness `loading_stiffness` in N/m, by
+    `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. With `"hold 10 s"` the instrument rests, which matters to a scene
+    whose material relaxes. The instrument has the stiffness `loading_stiffness` in N/m, by
     default infinite. `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The
     force curve has `samples` points on each stage. The smallest and the largest force do not depend on their number.
 
@@ -715,7 +724,8 @@ def find(
     """Finds the value of a field, or of the `preload`, that meets a condition such as `where="F_a/F_a,max = 20 %"`.
 
     The value is found for each of several random profiles. `range` are its limits, by default a hundredth and a hundred times
-    of the value in the scene.
+    of the value in the scene, and from 0 N for a preload. An equation asks for the smallest value with at least the target. A
+    profile that never meets it counts as infinite in median and quartiles.
 
     >>> found = asp.find("preload", "pressure-sensitive", "F_a/F_a,max = 20 %", profiles=4)
     >>> found
@@ -1102,9 +1112,9 @@ def fit(
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
-    of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. In a list, a folder and a file with
-    several curves give all their curves, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
-    radius, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
+    of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
+    stands for all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
+    radius, relaxation_share and relaxation_time, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
     `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
     rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`
     lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     # Profile of given heights, and its loading.
     _Heights: TypeAlias = tuple[Profile, _native._Load]
 
-#: Columns of the force curve.
-_CURVE = ("stage", "indentation", "force", "displacement", "contact_length", "patches", "stored_energy")
+#: Columns of the force curve; `time` only if the body relaxes.
+_CURVE = ("stage", "time", "indentation", "force", "displacement", "contact_length", "patches", "stored_energy")
 _FIGURES = (
     "pull_off_force",
     "pull_off_indentation",
@@ -56,6 +56,7 @@ class Loop(Values):
     displacement = Attribute["npt.NDArray[np.float64]"](
         "m", "displacement D = d + F/k of the instrument, which equals d if the instrument is rigid"
     )
+    time = Attribute["npt.NDArray[np.float64] | None"]("s", "time since first touch; None unless the body relaxes")
     contact_length = Attribute["npt.NDArray[np.float64]"]("m", "length of all contact patches, 2a for a sphere")
     patches = Attribute["npt.NDArray[np.int64]"]("1", "number of contact patches")
     stored_energy = Attribute["npt.NDArray[np.float64]"]("J", "elastic energy of the springs")
@@ -79,11 +80,11 @@ class Loop(Values):
 
     @classmethod
     def _of(cls, native: _native.Loop, source: _native.Scene | _Heights) -> Loop:
-        (stage, patches), (indentation, force, displacement, length, stored, released) = native.columns()
+        (stage, patches), (indentation, force, displacement, length, stored, released, time) = native.columns()
         figures, regime, jumps = native.figures()
         values: dict[str, Any] = dict(zip(_FIGURES, figures, strict=True))
         values.update(stage=stage, indentation=indentation, force=force, displacement=displacement, contact_length=length)
-        values.update(patches=patches, stored_energy=stored, released_energy=released)
+        values.update(patches=patches, stored_energy=stored, released_energy=released, time=time if len(time) else None)
         values.update(jumps=jumps, regime=regime, warnings=native.warnings())
         loop = cls(values)
         loop._source, loop._native = source, native
@@ -143,13 +144,16 @@ class Loop(Values):
         """Returns the loop as JSON text."""
         return json.dumps(self.to_dict(), ensure_ascii=False)
 
+    def _columns(self) -> dict[str, npt.NDArray[Any]]:
+        return {name: self._values[name] for name in _CURVE if self._values[name] is not None}
+
     def to_numpy(self) -> npt.NDArray[np.void]:
         """Returns the curve as an array with named fields."""
         import numpy as np
 
-        columns = [self._values[name] for name in _CURVE]
-        curve = np.empty(len(self), dtype=[(name, column.dtype) for name, column in zip(_CURVE, columns, strict=True)])
-        for name, column in zip(_CURVE, columns, strict=True):
+        columns = self._columns()
+        curve = np.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
+        for name, column in columns.items():
             curve[name] = column
         return curve
 
@@ -157,8 +161,9 @@ class Loop(Values):
         """Returns the curve as a pandas DataFrame with one row for each point, and the units in `attrs["units"]`."""
         import pandas as pd
 
-        frame = pd.DataFrame({name: self._values[name] for name in _CURVE})
-        frame.attrs["units"] = {name: unit_of(name) for name in _CURVE}
+        columns = self._columns()
+        frame = pd.DataFrame(columns)
+        frame.attrs["units"] = {name: unit_of(name) for name in columns}
         return frame
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -168,7 +173,7 @@ class Loop(Values):
         if ending == "json":
             written = self.to_json().encode()
         elif ending == "csv":
-            rows = [",".join(_CURVE), *(",".join(map(repr, row)) for row in self.to_numpy().tolist())]
+            rows = [",".join(self._columns()), *(",".join(map(repr, row)) for row in self.to_numpy().tolist())]
             written = ("\n".join(rows) + "\n").encode()
         elif ending == "npy":
             import numpy as np

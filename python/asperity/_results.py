@@ -104,7 +104,7 @@ class Result(Values):
         return unit_of(name)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the result to a file. Its ending selects the format: json, csv, npy, txt, or svg, png, pdf for a figure."""
+        """Writes the result to a file. Its ending selects the format: json, csv, npy, txt, or svg, png, pdf if notebooks show a figure."""
         name = file_path(path, "path")
         with naming("path", name):
             written = self._report.write(os.path.splitext(name)[1].lstrip(".").lower())
@@ -299,8 +299,8 @@ class Found(Result):
     crossings = Attribute[list[int]]("1", "number of crossings on each profile")
     at_least = Attribute[list[bool]]("", "whether crossings may be missed, for each profile")
     all_crossings = Attribute[list[list[float]]]("", "all crossings on each profile")
-    at_first_touch = Attribute[int | None]("1", "number of profiles that meet the condition without a preload")
-    reachable = Attribute[tuple[float, float] | None]("", "range of the target that all profiles reach")
+    at_first_touch = Attribute[int | None]("1", "number of profiles whose F_a(d=0), after a mere touch, meets the condition")
+    reachable = Attribute[tuple[float, float] | None]("", "smallest and largest value of the quantity over all profiles and all tried values")
     searched = Attribute[tuple[float, float]]("", "searched range of the field")
     answer = Attribute[str]("", "answer in words")
 

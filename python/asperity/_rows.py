@@ -29,6 +29,7 @@ class Event(Row):
     """A jump of the contact or a mark of the figure. A mark without a jump has None for what a jump has."""
 
     stage = Column[int]()
+    time = Column[float | None]()
     indentation = Column[float]()
     mark = Column[str]()
     event = Column[str]()

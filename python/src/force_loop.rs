@@ -283,11 +283,13 @@ impl Loop {
     }
 
     /// Returns the columns of the force curve in the order of `asperity.Loop`: first the columns of
-    /// whole numbers, then the others. The last array is not a column; it has the released energy
-    /// in J of each stage.
-    fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
+    /// whole numbers, then the others. The last array but one is not a column; it has the released
+    /// energy in J of each stage. The last one has the times in s, and is empty if the body does
+    /// not relax.
+    fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 7]) {
         let mut counts = [const { Vec::new() }; 2];
-        let mut columns = [const { Vec::new() }; 6];
+        let mut columns = [const { Vec::new() }; 7];
+        let relaxes = self.stages.iter().any(|stage| stage.times().is_some());
         for (number, stage) in self.stages.iter().enumerate() {
             for point in &stage.curve {
                 counts[0].push(number as i64);
@@ -299,6 +301,12 @@ impl Loop {
             }
             columns[2].extend(displacements(stage, self.stiffness));
             columns[5].push(stage.released_energy);
+            if relaxes && stage.seconds.is_empty() {
+                // The body stays where it is.
+                let last = columns[6].last().copied().unwrap_or(0.0);
+                columns[6].extend(stage.curve.iter().map(|_| last));
+            }
+            columns[6].extend(&stage.seconds);
         }
         (
             counts.map(|column| array(py, column)),

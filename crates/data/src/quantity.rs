@@ -75,7 +75,8 @@ impl QuantityError {
 ///
 /// * The text may omit the unit.
 /// * A single `m` after the number is the prefix milli. If `unit` is `m`, it is the unit metre
-///   instead, so `50m` means fifty metres.
+///   instead, so `50m` means fifty metres. If `unit` is `1`, `0.7 m` with a blank is refused,
+///   because it reads as a length.
 /// * An angle may be in degrees, `30°` or `30 deg`.
 /// * If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
@@ -88,6 +89,8 @@ impl QuantityError {
 /// assert_eq!(parse_quantity("2.5 MPa", "Pa"), Ok(2.5e6));
 /// assert_eq!(parse_quantity("80 %", "1"), Ok(0.8));
 /// assert!(parse_quantity("3 s", "N").is_err());
+/// assert_eq!(parse_quantity("700m", "1"), Ok(0.7));
+/// assert!(parse_quantity("0.7 m", "1").is_err());
 /// ```
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let typed = text.trim();
@@ -95,6 +98,10 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
         return Err(QuantityError::no_number(typed, unit));
     };
     let suffix = number.suffix.trim();
+    let reads_as_length = suffix == "m" && number.suffix.starts_with(char::is_whitespace);
+    if unit == "1" && reads_as_length {
+        return Err(QuantityError::wrong_unit(suffix, unit));
+    }
     let Some(conversion) = Conversion::to_unit(unit, suffix) else {
         return Err(QuantityError::wrong_unit(suffix, unit));
     };

@@ -70,7 +70,9 @@ impl CurveSource {
                 let name = path_name(&path);
                 return refused(
                     found,
-                    format!("one of them, {name}#1 to {name}#{count}, or a fit of all of them"),
+                    format!(
+                        "one of them, {name}#1 to {name}#{count}, or a list of files to fit, which stands for all"
+                    ),
                 );
             }
         };
