@@ -50,8 +50,9 @@ pub struct FitArguments {
     ///
     /// The parameters are work, closing_work, modulus, offset, zero, stiffness and radius.
     ///
-    /// A probe of two spheres has the parameters second_radius and behind too, and a half-space
-    /// that relaxes has relaxation_share and relaxation_time.
+    /// A probe of two spheres has the parameters second_radius and behind too.
+    ///
+    /// A half-space that relaxes has relaxation_share and relaxation_time.
     #[arg(
         long,
         required = true,

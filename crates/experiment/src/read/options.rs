@@ -111,6 +111,7 @@ pub struct CurveOptions {
     /// Units of displacement and force: nm,nN; default: units of the file
     ///
     /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
+    ///
     /// A third unit is that of the time.
     #[cfg_attr(
         feature = "clap",
