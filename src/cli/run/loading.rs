@@ -80,12 +80,6 @@ pub(super) fn run_events(
             "the stepwise solver knows the contact only at its steps; allowed: --set numerics.solver=Exact",
         ));
     }
-    if scene.material.relaxation.is_some() {
-        return Err(CliError::named(
-            "--events",
-            "a body that relaxes has no list of jumps; allowed: --set material.relaxation=None",
-        ));
-    }
     let mut simulation = simulation_of(document);
     let mut jumps = JumpCollector::default();
     let outcome = compute_stages(document, scene, |stop, after| {

@@ -79,7 +79,11 @@ pub fn save_before_leaving(app: &mut App) {
 }
 
 pub fn ask_export(app: &mut App) {
-    let ExportKind { format, width } = app.view.export;
+    let ExportKind { mut format, width } = app.view.export;
+    if app.view.pane == Pane::Events && format.is_picture() {
+        // A list has no figure of its own.
+        format = Format::Csv;
+    }
     let name = format!("{}-{}", stem(app), app.view.pane.file_name());
     let width = match width.filter(|_| format.is_picture()) {
         Some(width) => format!(" {}mm", f64::from(width) / MICROMETRES_IN_MM),

@@ -360,6 +360,7 @@ pub fn plan(app: &App, profiles: u64) -> Result<Plan, String> {
     if !is_axis {
         of_study.numerics.points = scene.numerics.points;
     }
+    // The axis across comes first.
     let axes: Vec<&str> = plan
         .axes
         .iter()
@@ -371,10 +372,16 @@ pub fn plan(app: &App, profiles: u64) -> Result<Plan, String> {
         app.map.quantity.symbol_or_name(),
         axes.join(" × ")
     );
-    Ok(Plan {
+    let mut plan = Plan {
         title,
         lines: if plan.lines > 1 { profiles } else { 1 },
         scene: of_study,
         ..plan
-    })
+    };
+    if let Some(chosen) = &app.map.chosen {
+        // The figure of a study has its first axis across, and draws what it records.
+        plan.axes.reverse();
+        plan.record = vec![chosen.quantity];
+    }
+    Ok(plan)
 }

@@ -44,6 +44,9 @@ fn report(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
+/// Width in columns from which a row also states the energy of a jump. Narrower rows have only room
+/// for what happens.
+const WITH_ENERGY: u16 = 36;
 /// Width in columns from which a row also states the forces.
 const WITH_FORCES: u16 = 56;
 /// Width of the columns of indentation, or of the time if the body relaxes, and energy.
@@ -102,7 +105,11 @@ fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static>
         (None, None) => None,
     };
     let energy_text = energy.map_or_else(String::new, signed_energy);
-    let mut right = format!("{energy_text:>NUMBER_COLUMNS$}");
+    let mut right = if width >= WITH_ENERGY {
+        format!("{energy_text:>NUMBER_COLUMNS$}")
+    } else {
+        String::new()
+    };
     if width >= WITH_FORCES {
         let forces = match event.forces {
             [before, after] if before == after => format_rounded(before, 3, "N"),

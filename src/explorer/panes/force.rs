@@ -13,7 +13,8 @@ use crate::explorer::command_line::curve_arguments;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::snapshot::FollowedPath;
+use crate::explorer::request::Drive;
+use crate::explorer::snapshot::{ContactSnapshot, FollowedPath};
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark, StageRecord};
@@ -372,7 +373,7 @@ fn half_range(residuals: Vec<f64>) -> f64 {
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     if let Some(snapshot) = app.present()
-        && let Some((x, y)) = units(app).place(&snapshot.point, snapshot.seconds)
+        && let Some((x, y)) = units(app).place(&shown_point(app, snapshot), snapshot.seconds)
     {
         let x = x.clamp(chart.x.span.low, chart.x.span.high);
         let y = y.clamp(chart.y.span.low, chart.y.span.high);
@@ -385,6 +386,38 @@ fn shown_chart(app: &App) -> Option<Chart> {
         }
     }
     Some(chart)
+}
+
+/// Returns the point of the force curve at which the present state is marked. While a compliant
+/// instrument jumps, its displacement stays where it was before the jump, and the force is that of
+/// the instrument.
+fn shown_point(app: &App, snapshot: &ContactSnapshot) -> CurvePoint {
+    let point = snapshot.point;
+    let stage = match snapshot.drive {
+        Drive::Stage(number) | Drive::Path(number) => app.played_stages().get(number),
+        Drive::Manual => None,
+    };
+    let (Some(stage), Some(stiffness)) = (stage, stiffness(app)) else {
+        return point;
+    };
+    if stiffness.is_infinite() || quantities(app) != LoopQuantities::ForceDisplacement {
+        return point;
+    }
+    let sign = match stage.direction {
+        Direction::Loading => 1.0,
+        Direction::Unloading => -1.0,
+    };
+    // The largest displacement in the direction of the stage that it has reached up to here.
+    let mut reached = sign * point.displacement(stiffness);
+    for passed in &stage.curve {
+        if sign * passed.indentation <= sign * point.indentation {
+            reached = reached.max(sign * passed.displacement(stiffness));
+        }
+    }
+    CurvePoint {
+        force: stiffness * (sign * reached - point.indentation),
+        ..point
+    }
 }
 
 /// Number of points on the curve of each loading stage beside which the letter of a ghost may be

@@ -8,6 +8,7 @@ use crate::explorer::caption::caption;
 use crate::explorer::manual_path;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel, title_line};
+use crate::explorer::player::At;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::{Tick, Timeline, passed, speed_in_words};
@@ -81,14 +82,17 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Returns the name of the pane, whether the animation plays, and its speed.
 fn title(app: &App) -> String {
-    let playing = if app.playhead().playing {
-        "▶"
-    } else {
-        "❚❚"
-    };
+    let playhead = app.playhead();
+    let playing = if playhead.playing { "▶" } else { "❚❚" };
     let speed = speed_in_words(app.config.speed);
     let repeat = if app.config.repeat { " ↻" } else { "" };
-    format!("Timeline  {playing} {speed}{repeat}")
+    // After its end, the animation goes back to the pull-off.
+    let back = if playhead.at == At::PullOff && !playhead.playing {
+        " · at the pull-off"
+    } else {
+        ""
+    };
+    format!("Timeline  {playing} {speed}{repeat}{back}")
 }
 
 /// Returns the event that the animation has passed last, with the energy of its jump; without an

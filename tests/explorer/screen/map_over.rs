@@ -57,7 +57,10 @@ fn a_map_has_the_selected_row_and_the_row_edited_before() {
         (plan.cells(), plan.lines, plan.scene.numerics.points),
         (81, 16, 1024)
     );
-    assert!(plan.record.contains(&Quantity::AdhesionShare));
+    // It records what the map shows, and the figure of the study has the same axis across.
+    assert_eq!(plan.record, [Quantity::AdhesionShare]);
+    let axes: Vec<&str> = plan.axes.iter().map(|axis| axis.path.as_str()).collect();
+    assert_eq!(axes, ["roughness.rms_height", "material.youngs_modulus"]);
     driver.press("y");
     assert_eq!(
         driver.copied,

@@ -216,6 +216,16 @@ fn a_curve_of_a_map_is_opened_by_its_number() {
     let curve = fs::read_to_string(&path).unwrap();
     let (names, points) = curve.split_once('\n').unwrap();
     let map = format!("{names}\n# x: 1 um, y: 2 um\n{points}# x: 3 um, y: 2 um\n{points}");
+    // The names may also follow each place.
+    let other =
+        format!("# x: 1 um\n# y: 2 um\n{names}\n{points}\n# x: 3 um\n# y: 2 um\n{names}\n{points}");
+    let other_path = folder.path().join("other.csv");
+    fs::write(&other_path, other).unwrap();
+    let mut driver = explorer(None, is_none);
+    driver.press("o");
+    driver.type_text(&format!("{}#2", other_path.display()));
+    driver.press("Enter");
+    driver.shows("the scene has the loading of the measured curve; u closes it");
     let map_path = folder.path().join("map.csv");
     fs::write(&map_path, map).unwrap();
     let mut driver = explorer(None, is_none);

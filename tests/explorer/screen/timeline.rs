@@ -359,3 +359,51 @@ fn a_body_that_relaxes_moves_along_its_time() {
     driver.hides("t (s)");
     driver.shows("d (");
 }
+
+/// While a compliant instrument jumps, its displacement stays, and so does the mark of the present
+/// state over the displacement.
+#[test]
+fn the_mark_stays_at_the_displacement_of_a_jump() {
+    let document = changed(&smooth(), &[("loading_stiffness", "10.0")]);
+    let mut driver = at_beginning(document);
+    driver.resize((120, 36));
+    driver.press("v");
+    let events = listed(&driver);
+    let jump = events
+        .iter()
+        .filter(|event| event.stage == 1)
+        .find_map(|event| event.instrument)
+        .unwrap();
+    let column_of_mark = |driver: &Driver| {
+        let rows = driver.pane(Pane::Force);
+        let plot = &rows[1..rows.len() - 2];
+        plot.iter()
+            .find_map(|row| row.chars().position(|symbol| symbol == '◆'))
+    };
+    let mut columns = Vec::new();
+    for share in [0.02, 0.4, 0.9] {
+        driver.app.set_playhead(Player {
+            stage: 1,
+            at: At::Indentation(jump.from + share * (jump.to - jump.from)),
+            playing: false,
+        });
+        driver.press("Ctrl+l");
+        columns.push(column_of_mark(&driver).expect("the mark is shown"));
+    }
+    let [first, .., last] = columns[..] else {
+        panic!("{columns:?}")
+    };
+    assert!(first.abs_diff(last) <= 1, "{columns:?}");
+}
+
+#[test]
+fn a_narrow_list_of_events_says_what_happens() {
+    let mut driver = at_beginning(rough());
+    driver.resize((80, 24));
+    driver.press("e ; ;");
+    let rows = driver.pane(Pane::Events).join("\n");
+    assert!(
+        rows.contains("spreads") || rows.contains("touches"),
+        "{rows}"
+    );
+}

@@ -16,6 +16,7 @@ use crate::error::{CountedPart, ExperimentError, refused, refused_with};
 use crate::read;
 use crate::read::options::CurveOptions;
 use crate::read::points::Columns;
+use crate::read::several::SeveralCurves;
 use asperity_data::{Remedy, mean};
 use asperity_surface::files::content;
 use std::path::Path;
@@ -118,8 +119,15 @@ impl MeasuredCurve {
     /// Returns true if the file at `path` can be read and has columns of displacement and force, of
     /// one curve or of several.
     pub fn is_in(path: &Path) -> bool {
-        let parse = |bytes: Vec<u8>| read::parse(path, &bytes, &CurveOptions::default());
-        content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
+        let Ok(bytes) = content(path) else {
+            return false;
+        };
+        let options = CurveOptions::default();
+        match read::parse(path, &bytes, &options) {
+            Ok(columns) => !columns.force.is_empty(),
+            // The lines between several curves are no rows of one table.
+            Err(_) => SeveralCurves::parse(path, &bytes, &options).is_some(),
+        }
     }
 
     /// Prepares a curve for fits: finds its segments, averages its points, reverses signs, finds
