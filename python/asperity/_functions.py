@@ -1113,7 +1113,7 @@ def fit(
 
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
     of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
-    stands for all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
+    gives all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
     radius, relaxation_share and relaxation_time, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
     `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
     rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`

@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
 impl Curve {
-    /// Returns the curves that this one stands for: those of a folder, and those of a file with
+    /// Returns the curves that this one names: those of a folder, and those of a file with
     /// several.
     fn sources(&self, options: &CurveOptions) -> Result<Vec<Source<'_>>, Failure> {
         if let Some((displacement, force)) = &self.1 {
@@ -43,7 +43,7 @@ impl Curve {
         Ok(sources.map(Source::File).collect())
     }
 
-    /// Returns the only curve that this one stands for.
+    /// Returns the only curve that this one names.
     fn source(&self, options: &CurveOptions) -> Result<Source<'_>, Failure> {
         if self.1.is_none() {
             let path = PathBuf::from(&self.0);
@@ -108,7 +108,7 @@ fn in_file(path: &Path, error: &ExperimentError) -> Failure {
     Failure::of_files(&[path.to_owned()], message)
 }
 
-/// Returns the curves that these ones stand for.
+/// Returns the curves that these ones name.
 fn all_sources<'a>(
     curves: &'a [Curve],
     options: &CurveOptions,

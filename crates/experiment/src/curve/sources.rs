@@ -71,7 +71,7 @@ impl CurveSource {
                 return refused(
                     found,
                     format!(
-                        "one of them, {name}#1 to {name}#{count}, or a list of files to fit, which stands for all"
+                        "one of them, {name}#1 to {name}#{count}, or a list of files to fit, which takes all"
                     ),
                 );
             }
