@@ -226,10 +226,14 @@ impl JumpCollector {
     }
 
     /// Returns the jumps of the instrument in a stage with at least `least_share` of the largest
-    /// energy of all such jumps, and at most the `most` first of them.
+    /// energy of a jump of the contact, and at most the `most` first of them. If the contact has no
+    /// jumps, the largest energy is that of a jump of the instrument.
     fn listed_instrument_jumps(&self, stage: usize, least_share: f64, most: usize) -> Vec<Event> {
-        let jumps = self.stages.iter().flat_map(|stage| &stage.instrument);
-        let largest = jumps.fold(0.0, |largest, jump| jump.energy.max(largest));
+        let mut largest = self.largest_energy();
+        if largest == 0.0 {
+            let jumps = self.stages.iter().flat_map(|stage| &stage.instrument);
+            largest = jumps.fold(0.0, |largest, jump| jump.energy.max(largest));
+        }
         let mut events = Vec::new();
         let Some(of_stage) = self.stages.get(stage) else {
             return events;

@@ -48,6 +48,19 @@ pub fn event_words(event: &Event) -> String {
     parts.join(" · ")
 }
 
+/// Returns how many jumps of the instrument are listed, to be added to the number of jumps of the
+/// contact; empty if there is none.
+pub fn jumps_of_instrument(events: &Events) -> String {
+    let of_instrument = events
+        .list
+        .iter()
+        .filter(|event| event.instrument.is_some());
+    match of_instrument.count() {
+        0 => String::new(),
+        count => format!(" and {} of the instrument", grouped(count as u64)),
+    }
+}
+
 fn jump_words(jump: &Jump) -> String {
     let number = jump.number + 1;
     match jump.kind {
@@ -101,12 +114,13 @@ impl EventsReport<'_> {
                 .to_owned();
         }
         let all = counted(events.jumps as u64, "jump");
+        let of_instrument = jumps_of_instrument(events);
         if events.listed_jumps == events.jumps {
-            return all;
+            return format!("{all}{of_instrument}");
         }
         let listed = grouped(events.listed_jumps as u64);
         let share = percent(self.least_share, 4);
-        format!("{listed} of {all}: those of at least {share} of the largest energy")
+        format!("{listed} of {all}{of_instrument}: those of at least {share} of the largest energy")
     }
 
     fn row(&self, event: &Event) -> Vec<String> {

@@ -46,7 +46,7 @@ mod workload;
 pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
 pub use event::event;
-pub use events::{EventsReport, event_words, events_table, signed_energy};
+pub use events::{EventsReport, event_words, events_table, jumps_of_instrument, signed_energy};
 pub use find::{AnswerPart, FindReport, found_briefly, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport, RowWarning};

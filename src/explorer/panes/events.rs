@@ -11,7 +11,7 @@ use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use asperity_contact::{Event, Events};
 use asperity_data::{counted, format_range, format_rounded, grouped};
-use asperity_report::{EventsReport, event_words, signed_energy};
+use asperity_report::{EventsReport, event_words, jumps_of_instrument, signed_energy};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -81,7 +81,14 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// Returns how many of all jumps are listed.
 fn count_in_words(listed: &Events) -> String {
-    let all = counted(listed.jumps as u64, "jump");
+    if listed.list.iter().any(|event| event.seconds.is_some()) {
+        return "marks only".to_owned();
+    }
+    let all = format!(
+        "{}{}",
+        counted(listed.jumps as u64, "jump"),
+        jumps_of_instrument(listed)
+    );
     if listed.listed_jumps == listed.jumps {
         return all;
     }
