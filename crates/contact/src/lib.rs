@@ -10,11 +10,11 @@
 //!   also takes [`LoadOptions`]. [`Contact::reversals`] computes a [`Reversal`], the unloading to
 //!   separation, for each of many turning points.
 //! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
-//!   a [`StageRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
-//!   a special point of the curve. A [`Branch`] joins successive stages in one direction. A
-//!   [`Patch`] is a group of neighbouring springs in contact. [`Events`] are the jumps and marks of
-//!   a loading, each as an [`Event`]. A [`History`], which the module [`motion`] returns, has the
-//!   records of all stages and counts of computing [`Work`].
+//!   a [`StageRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`]
+//!   names a special point of the curve, and a [`MarkedPoint`] has its place. A [`Branch`] joins
+//!   successive stages in one direction. A [`Patch`] is a group of neighbouring springs in contact.
+//!   [`Events`] are the jumps and marks of a loading, each as an [`Event`]. A [`History`], which
+//!   the module [`motion`] returns, has the records of all stages and counts of computing [`Work`].
 //! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by
 //!   theory.
 //! * Errors: [`ContactError`] names the value or the stage that is refused.

@@ -9,8 +9,9 @@
 //! * Reading several curves: [`CurveSource::all`] finds those of folders and of files with several
 //!   ([`SeveralCurves`]), and reads each of them with its place ([`PlacedCurve`]).
 //! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. A [`FitResult`] has a
-//!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes, and
-//!   a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit of a [`Parameter`].
+//!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes,
+//!   and a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit
+//!   of a [`Parameter`].
 //! * Fitting the curves of one rough specimen: [`fit_ensemble`] fits several curves together, with
 //!   [`EnsembleOptions`]. The result is an [`EnsembleFit`], which has [`IntervalEstimate`]s,
 //!   [`Shares`], [`Prospect`]s, [`RoughnessShifts`], [`SummaryDeviation`]s and a

@@ -103,8 +103,9 @@ pub fn theories_briefly(scene: &Scene, outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// Returns the errors of the pull-off force from each source: number of springs, steps in time of
-/// a half-space that relaxes, sample of profiles, measured surface, and model. Each row has a source and its relative error in words.
+/// Returns the errors of the pull-off force from each source: number of springs, steps in time of a
+/// half-space that relaxes, sample of profiles, measured surface, and model. Each row has a source
+/// and its relative error in words.
 /// `reference` is a comparison with an elastic half-space in three dimensions; if it is given, a
 /// further row has the difference that this comparison has found. The last row names the largest
 /// error.
@@ -269,7 +270,8 @@ mod tests {
         );
     }
 
-    /// Only a half-space that relaxes has steps in time. Their error is a share of the largest force.
+    /// Only a half-space that relaxes has steps in time. Their error is a share of the largest
+    /// force.
     #[test]
     fn the_error_of_the_steps_is_stated_with_relaxation_only() {
         let relaxation = "(modulus: 2.0e6, relaxation: (share: 0.4, time: 1.0))";

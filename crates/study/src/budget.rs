@@ -17,8 +17,8 @@ pub struct Budget {
     /// Error due to the finite number of springs, for the profile with the seed of the scene;
     /// `None` if it is unknown.
     pub grid: Option<f64>,
-    /// Error due to the steps in time of a half-space that relaxes; `None` without relaxation, where
-    /// there are no such steps.
+    /// Error due to the steps in time of a half-space that relaxes; `None` without relaxation,
+    /// where there are no such steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<f64>,
     /// Error of the median over random profiles, due to the finite number of these profiles; `None`

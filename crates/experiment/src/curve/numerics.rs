@@ -203,8 +203,8 @@ pub(crate) fn correlated(residuals: &[f64]) -> f64 {
 /// ρ)/(1 − ρ). Few residuals have too few parts for the sum of [`correlated`] over many lags.
 ///
 /// The correlation of neighbours in n residuals about their mean is expected to be ρ − (1 + 4ρ)/n
-/// (Kendall, Biometrika 41, 403, 1954), for which ρ is corrected. Residuals whose correlation may be
-/// chance are taken to be uncorrelated.
+/// (Kendall, Biometrika 41, 403, 1954), for which ρ is corrected. Residuals whose correlation may
+/// be chance are taken to be uncorrelated.
 pub(crate) fn correlated_few(residuals: &[f64]) -> f64 {
     let factor = correlated(residuals);
     let count = residuals.len() as f64;
@@ -320,8 +320,9 @@ pub(crate) mod tests {
         assert_eq!(correlated(&alternating), 1.0);
     }
 
-    /// Over many series of an autoregression, the mean factor is near the true one, and uncorrelated
-    /// residuals keep about 1. The sum over a few lags alone gives half of the true factor.
+    /// Over many series of an autoregression, the mean factor is near the true one, and
+    /// uncorrelated residuals keep about 1. The sum over a few lags alone gives half of the true
+    /// factor.
     #[test]
     fn few_correlated_residuals_count_by_an_autoregression() {
         for (count, ratio, least, most) in [

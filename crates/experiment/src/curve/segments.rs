@@ -30,8 +30,8 @@ const FEWEST: usize = 10;
 /// Smallest ratio of the number of points of a pause to the number of points of a motion over the
 /// same distance.
 const MORE: f64 = 8.0;
-/// Distance between the quartiles of the displacements near a turn, as a share of the distance up to
-/// which they count as near, above which they may be those of a motion. An even motion has 0.5.
+/// Distance between the quartiles of the displacements near a turn, as a share of the distance up
+/// to which they count as near, above which they may be those of a motion. An even motion has 0.5.
 const SPREAD: f64 = 0.2;
 /// Share of the steps near a turn that a steady motion has in its direction.
 const STEADILY: f64 = 0.85;

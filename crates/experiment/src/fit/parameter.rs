@@ -355,8 +355,8 @@ fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
 
 /// Coordinate in which a free parameter is searched. For the offset and the zero, the coordinate is
 /// the value divided by [`Coordinate::unit`]. For the work of adhesion on closing, it is the ratio
-/// of this work to the work of adhesion. For the work of adhesion and for the share that relaxes, it
-/// is linear up to `unit` and logarithmic above it, so that they can be 0. If a curve is short
+/// of this work to the work of adhesion. For the work of adhesion and for the share that relaxes,
+/// it is linear up to `unit` and logarithmic above it, so that they can be 0. If a curve is short
 /// against the relaxation time, it determines only the ratio of share and time, and this ratio is
 /// straight in logarithms. For other parameters the coordinate is a logarithm.
 #[derive(Clone, Copy, Debug, PartialEq)]
