@@ -999,7 +999,7 @@ def _analysed(
     along, across = (quantity(cast("Quantity", distance), "m", "spacing") for distance in distances)
     if not (1e-18 <= min(along, across) and max(along, across) <= 1e9):
         raise refusal("spacing", spacing, "from 1e-18 to 1e9 m")
-    scene = _scene_of(_measured(["array"], False, None, reading))
+    scene = _scene_of(_measured(["array in memory"], False, None, reading))
     map_of_heights = (heights.reshape(-1, heights.shape[-1]), [along, across])
     with naming("heights", f"an array of the shape {heights.shape}"):
         return Surface(*_native.surface(scene, figures, count, threads, map_of_heights))

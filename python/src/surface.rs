@@ -106,7 +106,7 @@ fn faces_of_map(
 ) -> Result<Vec<MeasuredFace>, Failure> {
     let options = task.options();
     let surface = Topography::from_map_with(heights, columns, spacing, &options.reading)?;
-    let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
+    let files = vec![SurfaceFile::new(PathBuf::from("array in memory"), &surface)];
     let mut faces = vec![MeasuredFace {
         files,
         analysis: analyse(&[surface], &options.spectrum)?,
