@@ -1152,6 +1152,10 @@ def fit(
             report = _native.fit(call, (all_curves, is_single), words)
     else:
         check_executor(executor)
+        with naming("curves", shown):
+            names = _native.curve_names(call, (all_curves, words))
+        arrays = (curve for curve in all_curves if curve[1] is not None)
+        all_curves = [next(arrays) if name is None else (name, None) for name in names]
         several = ranges(len(all_curves))
         tasks = [(_in_process(call, jobs), (all_curves[first:end], words)) for first, end in several]
         parts = gathered(executor, _native.fits_part, tasks, [end - first for first, end in several], progress)

@@ -114,10 +114,40 @@ fn all_sources<'a>(
     options: &CurveOptions,
 ) -> Result<Vec<Source<'a>>, Failure> {
     let mut sources = Vec::with_capacity(curves.len());
-    for curve in curves {
-        sources.extend(curve.sources(options)?);
+    // Files beside each other are found together, so that a file with several curves is read once.
+    for group in curves.chunk_by(|one, next| one.1.is_none() && next.1.is_none()) {
+        if let [curve] = group {
+            sources.extend(curve.sources(options)?);
+            continue;
+        }
+        let paths: Vec<PathBuf> = group.iter().map(|curve| PathBuf::from(&curve.0)).collect();
+        let found = CurveSource::all(&paths, None, options);
+        let found = found.map_err(|error| Failure::of_files(&paths, error.in_words(argument)))?;
+        sources.extend(found.into_iter().map(Source::File));
     }
     Ok(sources)
+}
+
+/// Returns the names of all curves that these ones name: those of folders and of files with several
+/// curves one by one. `words` are options of the command `asperity fit`.
+#[pyfunction]
+pub fn curve_names(
+    py: Python<'_>,
+    call: Call,
+    given: CurvesToFit,
+) -> PyResult<Vec<Option<String>>> {
+    let CurvesToFit(curves, words) = given;
+    call.computed(py, move |case| {
+        let asked = Asked::new(&case, words)?;
+        let mut names = Vec::new();
+        for source in all_sources(&curves, &asked.reading)? {
+            names.push(match source {
+                Source::Columns { .. } => None,
+                Source::File(source) => Some(source.name()),
+            });
+        }
+        Ok(names)
+    })
 }
 
 /// Returns an error if no curve was fitted. The error states the reason for the first curve.

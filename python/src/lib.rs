@@ -23,7 +23,7 @@ mod _native {
 
     #[pymodule_export]
     use super::{
-        fit::{fit, fits_of_parts, fits_part},
+        fit::{curve_names, fit, fits_of_parts, fits_part},
         force_loop::{Loop, Profile},
         parts::{ensemble_of_parts, ensemble_part, profiles_of, study_of_parts, study_part},
         press::press,

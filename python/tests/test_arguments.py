@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -618,6 +619,14 @@ class Words(InFolder):
             self.assertEqual([row.file for row in found.curves], [f"{place}#{number}" for number in (1, 2, 3)])
             second = asp.fit(f"{place}#2", "jkr-sphere", ["work"], **fields)
             self.assertEqual(second.work.value, found.curves[1].work)
+            steps = []
+            with ThreadPoolExecutor(2) as executor:
+                divided = asp.fit(
+                    [place, (d, force), place], "jkr-sphere", ["work"], executor=executor, progress=lambda *step: steps.append(step), **fields
+                )
+            self.assertEqual(steps[-1], (7, 7))
+            self.assertEqual(list(divided.curves["work"])[:3], list(found.curves["work"]))
+            self.assertEqual(list(divided.curves["work"])[4:], list(found.curves["work"]))
             in_folder = asp.fit([folder], "jkr-sphere", ["work"], **fields)
             self.assertEqual(list(in_folder.curves["work"]), list(found.curves["work"]))
             self.refused(asp.fit, place, "jkr-sphere", ["work"], says="3 curves in one file; allowed: one of them")

@@ -97,8 +97,12 @@ impl CurveSource {
         skipped: Option<&Path>,
         options: &CurveOptions,
     ) -> Result<Vec<Self>, ExperimentError> {
-        let mut sources = Vec::new();
+        let mut sources: Vec<CurveSource> = Vec::new();
         for path in files_of(paths, skipped)? {
+            if let Some(next) = sources.last().and_then(|last| last.sibling(&path)) {
+                sources.push(next);
+                continue;
+            }
             if path.exists()
                 && let Some(several) = SeveralCurves::read(&path, options)
             {
@@ -115,6 +119,26 @@ impl CurveSource {
             sources.push(source.map_err(|error| in_curve(&path, error))?);
         }
         Ok(sources)
+    }
+
+    /// Returns the curve that a path names in the same file as this one, without reading the file
+    /// again; `None` for a path of another file, and for a number that the file does not have.
+    fn sibling(&self, path: &Path) -> Option<CurveSource> {
+        let Part::OneOf(several, _) = &self.part else {
+            return None;
+        };
+        let Named {
+            path,
+            number: Some(number),
+        } = Named::new(path)
+        else {
+            return None;
+        };
+        let is_in_file = path == self.path && (1..=several.count()).contains(&number);
+        is_in_file.then(|| CurveSource {
+            path,
+            part: Part::OneOf(Arc::clone(several), number - 1),
+        })
     }
 
     /// Returns the path of the file.
