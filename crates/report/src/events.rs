@@ -42,7 +42,7 @@ pub fn event_words(event: &Event) -> String {
     let jump = event.jump.as_ref().map(jump_words);
     let instrument = event.instrument.map(|jump| {
         let target = format_rounded(jump.to, DIGITS, "m");
-        format!("the instrument jumps to {target}")
+        format!("instrument jumps to {target}")
     });
     let parts: Vec<String> = [mark, jump, instrument].into_iter().flatten().collect();
     parts.join(" · ")
@@ -477,6 +477,6 @@ mod tests {
                 .rows()
                 .any(|row| row[3] == "instrument" && row[16].as_f64() > Some(0.0))
         );
-        assert!(report.text().unwrap().contains("the instrument jumps"));
+        assert!(report.text().unwrap().contains("instrument jumps"));
     }
 }
