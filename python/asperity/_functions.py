@@ -585,7 +585,8 @@ def load(
     `modulus` is the effective modulus E* in Pa. `work` is the work of adhesion in J/m² that opens the interface. `closing_work`
     in J/m² is gained where the interface closes, by default the same. A stage ends at a force (`"10 µN"`, or a number in N), at
     an indentation (`"200 nm"`), or at a displacement of the instrument (`"displacement 200 nm"`). It may also be `"touch"`,
-    `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`. With `"hold 10 s"` the instrument rests, which matters to a scene
+    `"zero force"`, `"separation"`, or `"3 loops 0 N to 10 µN"`: to
+    10 µN, and then three times to 0 N and back. With `"hold 10 s"` the instrument rests, which matters to a scene
     whose material relaxes. The instrument has the stiffness `loading_stiffness` in N/m, by
     default infinite. `edges` is `"sub_cell"` for edges of contact patches between springs, or `"grid"` for whole springs. The
     force curve has `samples` points on each stage. The smallest and the largest force do not depend on their number.
@@ -873,7 +874,8 @@ def study(
 ) -> Study:
     """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles, by default 16.
 
-    A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
+    An axis is a field, such as `adhesion.kappa`, or `loading.0.0` for the number of the first stage. It may also be `preload`, in
+    units of E* h L, `preload_in_N` or `springs_per_wave`. A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
     The fields of a measured roughness in memory are no axes, since its array has no file to be read again.
 
     >>> axes = {"adhesion.kappa": [1, 4, 16], "roughness.hurst": [0.2, 0.8]}

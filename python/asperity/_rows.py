@@ -13,6 +13,14 @@ class Recorded(Column[T]):
         self.describe(*_QUANTITIES[name])
 
 
+class PreloadOnAxis(Column[T]):
+    """The column `preload` of a study, whose unit depends on the axis."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        super().__set_name__(owner, name)
+        self.describe("", "preload: in units of E* h L on the axis `preload`, in N on the axis `preload_in_N`")
+
+
 class CurvePoint(Row):
     """A point of a force curve."""
 
@@ -95,7 +103,7 @@ class StudyRecord(Row):
 
     cell = Column[int]()
     seed = Column[int]()
-    preload = Column[float | None]()
+    preload = PreloadOnAxis[float | None]()
     reason = Column[str]()
     kappa = Recorded[float | None]()
     elastic_energy = Recorded[float | None]()
