@@ -132,18 +132,23 @@ pub enum Reason {
         format_rounded(100.0 * .0, 2, "1")
     )]
     HysteresisOfAdhesion(f64),
-    /// The body relaxes: its hysteresis in compression is large, or its force falls in a pause.
+    /// The body relaxes: its hysteresis in compression is large, or its force falls in a pause. If
+    /// it does not fall, the cause may also be a much smaller work of adhesion on closing.
     #[error(
-        "The hysteresis in compression is {} % of the loading{}: the body relaxes (viscoelasticity). E* by the loading is that of \
-         its speed. The retraction alone gives γ.",
+        "The hysteresis in compression is {} % of the loading{}: the body relaxes (viscoelasticity){}. E* by the loading is that \
+         of its speed. The retraction alone gives γ.",
         format_rounded(100.0 * .hysteresis, 2, "1"),
-        in_pause(*.fall_in_pause)
+        in_pause(*.fall_in_pause),
+        if *.may_adhere_less { ", or it adheres far less on closing than on opening" } else { "" }
     )]
     Relaxation {
         /// Hysteresis in compression divided by the area under the loading curve.
         hysteresis: f64,
         /// Largest fall of the force in a pause divided by the largest force; 0 without a pause.
         fall_in_pause: f64,
+        /// True if a much smaller work of adhesion on closing is another possible cause: it was
+        /// not fitted, and the force does not fall in a pause.
+        may_adhere_less: bool,
     },
     /// Approach and retraction deviate from the model in the same way. The stiffness of the
     /// instrument, the form or the profile of the scene is likely to be wrong.
@@ -178,6 +183,10 @@ impl Reason {
             Reason::Stiffness(..) => vec![Remedy::Columns],
             Reason::StiffnessFarFromStated { .. } => vec![Remedy::Units],
             Reason::HysteresisOfAdhesion(_) => vec![free(Parameter::ClosingWork)],
+            Reason::Relaxation {
+                may_adhere_less: true,
+                ..
+            } => vec![free(Parameter::ClosingWork), Remedy::Segment(2)],
             Reason::Relaxation { .. } => vec![Remedy::Segment(2)],
             Reason::StiffnessOrForm => vec![free(Parameter::Stiffness)],
             Reason::ShortProfile(_)
@@ -300,6 +309,7 @@ fn of_features(curve: &MeasuredCurve, contacts: usize, free: &[Parameter]) -> Op
     relaxes.then_some(Reason::Relaxation {
         hysteresis,
         fall_in_pause,
+        may_adhere_less: fall_in_pause <= FALLS && !is_closing_free,
     })
 }
 
