@@ -309,7 +309,7 @@ pub fn reversals(
             .fold(0.0, f64::max);
         let mut preloads = None;
         let mut staircase = None;
-        // There is no axis if no turning point presses the bodies together.
+        // The chart needs at least one turning point at which the bodies are pressed together.
         if let Ok(axis) =
             Axis::of_preloads(ends.unwrap_or((0.0, largest)), count, AxisScale::Linear)
         {
@@ -394,7 +394,7 @@ pub enum AxisValue {
 /// Path of the field that varies along an axis, and the values on the axis.
 type GivenAxis = (String, Vec<AxisValue>);
 
-/// What a study varies and what it records: its axes, and the names of the quantities.
+/// Axes of a study, and the names of the quantities that it records.
 #[derive(FromPyObject)]
 pub struct StudyDesign(Vec<GivenAxis>, Vec<String>);
 

@@ -10,8 +10,8 @@ use asperity_report::{ForceLoop, LoopCurve, LoopQuantities, LoopUnits, letter, l
 use asperity_scene::Outcome;
 use asperity_study::half_space::SquareLoops;
 
-/// Returns the pair of quantities that the pane shows: the one that the user has chosen. Without
-/// relaxation there is no time to show.
+/// Returns the pair of quantities that the pane shows. It is the pair that the user has chosen, but
+/// the force over the time can be shown only for a body that relaxes.
 pub fn quantities(app: &App) -> LoopQuantities {
     let chosen = app.view.curve.quantities;
     let is_timed = |outcome| LoopQuantities::of_scene(outcome).contains(&LoopQuantities::ForceTime);
@@ -104,8 +104,8 @@ pub fn shows_measured(app: &App) -> bool {
     units(app).shows_force() && quantities(app) != LoopQuantities::ForceTime
 }
 
-/// Returns the points of the measured curve; `None` if there is no measured curve, if the chart
-/// cannot show it, or if no scene has been computed.
+/// Returns the points of the measured curve. Returns `None` without a measured curve, before a scene
+/// is computed, and if the chart cannot show the curve.
 fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     if !shows_measured(app) {
         return None;

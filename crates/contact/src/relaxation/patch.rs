@@ -59,7 +59,7 @@ struct Receding<'a> {
     jumps: bool,
 }
 
-/// What a patch does until it bears its tension.
+/// How the edges of a patch move until the patch can bear its tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Settling {
     /// Nothing detaches.

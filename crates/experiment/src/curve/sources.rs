@@ -85,9 +85,9 @@ impl CurveSource {
         Named::new(path).path
     }
 
-    /// Finds the curves that paths name, in the order of the paths. In place of a folder, the
-    /// result has the curves of its files, sorted by their names, and in place of a file with
-    /// several curves all of them. The file `skipped` is no curve of a folder.
+    /// Finds the curves that paths name, in the order of the paths. A folder gives the curves of
+    /// all its files except `skipped`, sorted by their names. A file with several curves gives all
+    /// of them.
     ///
     /// # Errors
     /// Returns an error if a folder cannot be read or has no files, and for a number of a curve

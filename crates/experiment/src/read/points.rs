@@ -329,7 +329,7 @@ impl Rows {
                 part.labels.push(self.label);
             }
             if is_added && let Some(time) = self.choice.time {
-                // Whatever is no number is no time, and does not make the curve unreadable.
+                // A cell without a number has no time, but the curve can still be read.
                 let seconds = value(time.place).unwrap_or(f64::NAN);
                 part.seconds.push(in_si(seconds, time.unit));
             }
