@@ -47,7 +47,7 @@ impl Probe {
             (
                 "form",
                 format!(
-                    "TwoSpheres(radius: {radius:e}, second_radius: {second_radius:e}, behind: {behind:e})"
+                    "Spheres([(radius: {radius:e}), (radius: {second_radius:e}, behind: {behind:e})])"
                 ),
             ),
             ("loading_stiffness", format!("{STIFFNESS:e}")),
@@ -213,7 +213,7 @@ fn other_bodies_are_refused() {
             .unwrap_err();
         let text = error.to_string();
         assert!(
-            text.contains(parameter.name()) && text.contains("TwoSpheres"),
+            text.contains(parameter.name()) && text.contains("Spheres"),
             "{text}"
         );
     }
