@@ -7,6 +7,7 @@ use asperity_data::{Control, between};
 use asperity_experiment::{
     CurveOptions, EnsembleFit, EnsembleOptions, MeasuredCurve, Negate, fit_ensemble,
 };
+use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use asperity_surface::Form;
 use rand::rngs::ChaCha8Rng;
@@ -196,8 +197,11 @@ pub(crate) fn curve_at(
                 (0..100).map(move |index| (place(index), 0.0))
             };
             points.extend(free(low, pressed[0].0));
-            points.extend(&pressed);
-            points.extend(pulled.iter().map(mirrored));
+            for stage in &outcome.history.stages {
+                let curve = DisplacementCurve::new(stage.direction, &stage.curve, stiffness);
+                let computed = curve.points().iter();
+                points.extend(computed.map(|point| (point.displacement, point.force)));
+            }
             let mut behind: Vec<(f64, f64)> = free(low, end).collect();
             behind.reverse();
             points.extend(behind);
