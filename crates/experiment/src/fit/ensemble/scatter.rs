@@ -9,6 +9,9 @@ const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
 /// Sum of the squares of these coefficients: the variance of the difference of independent errors,
 /// in units of their variance.
 const SQUARES: f64 = 924.0;
+/// Smallest mean square of the differences of the means, in units of the mean square that
+/// independent profiles cause, that shows differences which all profiles have in common.
+const LEAST_COMMON: f64 = 2.0;
 /// Number of differences on each side of a node whose mean square counts for this node.
 const NEAR: usize = 3;
 
@@ -225,61 +228,87 @@ impl Scatter {
 
 /// Returns the covariance at each range of those errors of the means that all profiles have in
 /// common. `values` has the values of all profiles at each node. The errors follow from differences
-/// of sixth order along the ranges, which the smooth part of the means hardly has. Differences that
-/// come from the random profiles are left out, because the covariance of the profiles contains
-/// them. An axis of fewer nodes than [`DIFFERENCE`] gives no errors.
+/// of sixth order along the ranges, which the smooth part of the means hardly has. An axis of fewer
+/// nodes than [`DIFFERENCE`] gives no errors.
 fn unevenness(values: &[Vec<[f64; 2]>], ranges: usize, moduli: usize) -> Vec<[f64; 3]> {
     let count = (ranges + 1).saturating_sub(DIFFERENCE.len());
     let mut errors = vec![[0.0; 3]; ranges];
     if count == 0 {
         return errors;
     }
-    let mut common = vec![[0.0; 3]; count];
-    for (first, squares) in common.iter_mut().enumerate() {
+    let mut of_windows = vec![Steps::default(); count];
+    for (first, steps) in of_windows.iter_mut().enumerate() {
         for modulus in 0..moduli {
             let nodes = (first..).map(|range| &values[range * moduli + modulus]);
-            let of_row = common_square(&nodes.take(DIFFERENCE.len()).collect::<Vec<_>>());
-            for (sum, square) in squares.iter_mut().zip(of_row) {
-                *sum += square / (SQUARES * moduli as f64);
-            }
+            let nodes: Vec<&Vec<[f64; 2]>> = nodes.take(DIFFERENCE.len()).collect();
+            steps.add(&Steps::of(&nodes));
         }
     }
     for (node, error) in errors.iter_mut().enumerate() {
         let centre = node.saturating_sub(DIFFERENCE.len() / 2).min(count - 1);
-        let near = &common[centre.saturating_sub(NEAR)..(centre + NEAR + 1).min(count)];
-        for squares in near {
-            for (sum, square) in error.iter_mut().zip(squares) {
-                *sum += square / near.len() as f64;
-            }
+        let near = &of_windows[centre.saturating_sub(NEAR)..(centre + NEAR + 1).min(count)];
+        let mut sum = Steps::default();
+        for steps in near {
+            sum.add(steps);
         }
-        *error = as_covariance(*error);
+        *error = sum.common(SQUARES * (near.len() * moduli) as f64);
     }
     errors
 }
 
-/// Returns an estimate of the squares and of the product of both differences that all profiles have
-/// in common. `nodes` has the values of all profiles at the nodes of the difference.
-fn common_square(nodes: &[&Vec<[f64; 2]>]) -> [f64; 3] {
-    let mut differences = vec![[0.0; 2]; nodes[0].len()];
-    for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
-        for (difference, value) in differences.iter_mut().zip(values.iter()) {
-            difference[0] += coefficient * value[0];
-            difference[1] += coefficient * value[1];
-        }
-    }
-    let Moments { mean, covariance } = Moments::of(&differences);
-    let profiles = differences.len() as f64;
-    let products = [mean[0] * mean[0], mean[0] * mean[1], mean[1] * mean[1]];
-    [0, 1, 2].map(|index| products[index] - covariance[index] / profiles)
+/// Squares and product of the differences of two values along the ranges, in the order of
+/// [`Moments::covariance`].
+#[derive(Clone, Default)]
+struct Steps {
+    /// Of the mean over the profiles.
+    of_mean: [f64; 3],
+    /// Those of the mean that are expected if each profile has differences of its own.
+    by_profiles: [f64; 3],
 }
 
-/// Returns the nearest covariance matrix to three estimated elements, whose variances may be
-/// negative by chance.
-fn as_covariance([first, both, second]: [f64; 3]) -> [f64; 3] {
-    let first = first.max(0.0);
-    let second = second.max(0.0);
-    let most = (first * second).sqrt();
-    [first, both.clamp(-most, most), second]
+impl Steps {
+    /// `nodes` has the values of all profiles at the nodes of the difference.
+    fn of(nodes: &[&Vec<[f64; 2]>]) -> Self {
+        let mut differences = vec![[0.0; 2]; nodes[0].len()];
+        for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
+            for (difference, value) in differences.iter_mut().zip(values.iter()) {
+                difference[0] += coefficient * value[0];
+                difference[1] += coefficient * value[1];
+            }
+        }
+        let Moments { mean, covariance } = Moments::of(&differences);
+        let profiles = differences.len() as f64;
+        Steps {
+            of_mean: [mean[0] * mean[0], mean[0] * mean[1], mean[1] * mean[1]],
+            by_profiles: covariance.map(|element| element / profiles),
+        }
+    }
+
+    fn add(&mut self, other: &Steps) {
+        for index in 0..3 {
+            self.of_mean[index] += other.of_mean[index];
+            self.by_profiles[index] += other.by_profiles[index];
+        }
+    }
+
+    /// Returns the covariance of the errors that all profiles have in common, if these sums are
+    /// `scale` times as large as the covariance of the errors. A value whose differences may come
+    /// from the random profiles has no errors, because the covariance of the profiles contains
+    /// them.
+    fn common(&self, scale: f64) -> [f64; 3] {
+        let mut errors = [0.0; 3];
+        for (index, error) in errors.iter_mut().enumerate() {
+            *error = (self.of_mean[index] - self.by_profiles[index]) / scale;
+        }
+        for index in [0, 2] {
+            if self.of_mean[index] <= LEAST_COMMON * self.by_profiles[index] {
+                errors[index] = 0.0;
+            }
+        }
+        let most = (errors[0] * errors[2]).sqrt();
+        errors[1] = errors[1].clamp(-most, most);
+        errors
+    }
 }
 
 fn clamp_to(axis: &[f64], place: f64) -> f64 {
