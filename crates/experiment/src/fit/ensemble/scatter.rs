@@ -11,7 +11,7 @@ const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
 const SQUARES: f64 = 924.0;
 /// Smallest mean square of the differences of the means, in units of the mean square that
 /// independent profiles cause, that shows differences which all profiles have in common.
-const LEAST_COMMON: f64 = 2.0;
+const LEAST_COMMON: f64 = 4.0;
 /// Number of differences on each side of a node whose mean square counts for this node.
 const NEAR: usize = 3;
 
