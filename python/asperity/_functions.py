@@ -71,7 +71,7 @@ AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 _PLAIN = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
 _DETRENDS = {"none": "Nothing", "nothing": "Nothing", "mean": "Mean", "tilt": "Tilt", "curvature": "Curvature"}
-_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "TwoSpheres", "Table")
+_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "Spheres", "Table")
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
@@ -310,20 +310,32 @@ def rounded_cone(radius: Quantity, angle: Quantity) -> Form:
     )
 
 
-def two_spheres(radius: Quantity, second_radius: Quantity, behind: Quantity) -> Form:
-    """Returns two spheres side by side on one probe, each above a half of the length of the profile.
+def spheres(spheres: Sequence[Quantity | tuple[Quantity, Quantity]]) -> Form:
+    """Returns spheres side by side on one probe, each above an equal part of the length of the profile.
 
-    The radii are in m. `behind` is the depth in m of the apex of the second sphere below the apex of the first one.
+    Each sphere is a pair of its radius and the depth of its apex below that of the sphere ahead, both in m. A radius alone is a
+    sphere ahead.
 
-    >>> asp.two_spheres("100 µm", "80 µm", behind="50 nm")
-    TwoSpheres(radius: 0.0001, second_radius: 8e-05, behind: 5e-08)
+    >>> asp.spheres(["100 µm", ("80 µm", "50 nm")])
+    Spheres([(radius: 0.0001, behind: 0.0), (radius: 8e-05, behind: 5e-08)])
     """
-    return Form(
-        "TwoSpheres",
-        radius=field_number(radius, "form.radius", "TwoSpheres", "radius"),
-        second_radius=field_number(second_radius, "form.second_radius", "TwoSpheres", "second_radius"),
-        behind=field_number(behind, "form.behind", "TwoSpheres", "behind"),
-    )
+    if isinstance(spheres, (str, bytes)) or not isinstance(spheres, Sequence):
+        raise refused_type("spheres", spheres, "a list of radii, or of pairs of a radius and a distance behind")
+    listed = []
+    for index, given in enumerate(spheres):
+        if isinstance(given, (tuple, list)):
+            if len(given) != 2:
+                raise refusal(f"spheres[{index}]", given, "a radius, or a pair of a radius and a distance behind")
+            radius, behind = given
+        else:
+            radius, behind = given, 0.0
+        listed.append(
+            {
+                "radius": field_number(radius, "form.0.radius", "Spheres", f"spheres[{index}]"),
+                "behind": field_number(behind, "form.0.behind", "Spheres", f"spheres[{index}]"),
+            }
+        )
+    return _checked("form", Form("Spheres", listed))
 
 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
@@ -1116,7 +1128,7 @@ def fit(
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
     of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
     gives all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
-    radius, relaxation_share and relaxation_time, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
+    radius, relaxation_share and relaxation_time, and second_radius and behind of the second of several spheres. A dictionary gives their ranges as well:
     `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
     rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`
     lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.

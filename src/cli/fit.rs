@@ -50,7 +50,7 @@ pub struct FitArguments {
     ///
     /// The parameters are work, closing_work, modulus, offset, zero, stiffness and radius.
     ///
-    /// A probe of two spheres has the parameters second_radius and behind too.
+    /// A probe of several spheres has second_radius and behind of the second one too.
     ///
     /// A half-space that relaxes has relaxation_share and relaxation_time.
     #[arg(

@@ -23,6 +23,23 @@ pub(crate) struct Made {
     pub drift: f64,
 }
 
+/// Number of cases of a slow test: `TEST_EFFORT` of the environment, or `usual`.
+pub(crate) fn effort(usual: u64) -> u64 {
+    of_environment("TEST_EFFORT").unwrap_or(usual)
+}
+
+/// Seed of the first case of a slow test: `TEST_SEED` of the environment, or 0. Another seed draws
+/// cases that no result has been judged by.
+pub(crate) fn first_seed() -> u64 {
+    of_environment("TEST_SEED").unwrap_or(0)
+}
+
+fn of_environment(name: &str) -> Option<u64> {
+    std::env::var(name)
+        .ok()
+        .and_then(|value| value.parse().ok())
+}
+
 pub(crate) fn stiffness(scene: &Scene) -> f64 {
     scene.loading_stiffness.unwrap()
 }

@@ -6,6 +6,7 @@ mod common;
 mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
+mod nearly_smooth;
 mod relaxation;
 mod simple_curves;
 mod single_curves;

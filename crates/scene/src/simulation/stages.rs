@@ -491,6 +491,9 @@ impl Simulation {
             without_preload,
         } = loaded;
         let mut warnings = history.warnings(contact.profile());
+        if !warnings.iter().any(Warning::leaves_errors_unknown) {
+            warnings.extend(scene.wide_sphere(&history, &governing));
+        }
         warnings.extend(scene.coarse_steps(&history));
         warnings.extend(scene.steep_form(&history));
         warnings.extend(warnings_before_loading);
