@@ -55,10 +55,33 @@ struct Measured {
     seconds: Vec<f64>,
 }
 
+/// How a curve is measured.
+#[derive(Clone, Copy)]
+struct Protocol {
+    /// Displacement in m at which the instrument turns.
+    top: f64,
+    /// Distance in m between points.
+    step: f64,
+    /// Time in s for which the instrument rests.
+    rest: f64,
+    /// Number of points of the rest.
+    resting: usize,
+    /// Speeds above the half of the top and on the retraction, divided by the first speed.
+    upper: f64,
+    faster: f64,
+}
+
 impl Measured {
-    /// Presses the body of a scene to the displacement `top`, lets it rest and retracts it, with
-    /// points every `step` m and `resting` points of the rest.
-    fn new(document: &Document, top: f64, step: f64, rest: f64, resting: usize) -> Self {
+    /// Presses the body of a scene, lets it rest and retracts it.
+    fn new(document: &Document, protocol: Protocol) -> Self {
+        let Protocol {
+            top,
+            step,
+            rest,
+            resting,
+            upper,
+            faster,
+        } = protocol;
         let scene = document.scene();
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
         let speed = scene.loading_speed.unwrap();
@@ -66,17 +89,26 @@ impl Measured {
         let mut body = RelaxingBody::new(&contact)
             .unwrap()
             .with_tolerance(TOLERANCE);
-        let press = if stiffness.is_finite() {
-            Move::ToDisplacement(top)
-        } else {
-            Move::ToIndentation(top)
+        let to = |end: f64| {
+            if stiffness.is_finite() {
+                Move::ToDisplacement(end)
+            } else {
+                Move::ToIndentation(end)
+            }
         };
-        let approach = body.advance(press).unwrap();
+        let mut pressed = Vec::new();
+        if upper != 1.0 {
+            pressed.extend(body.advance(to(0.5 * top)).unwrap().curve);
+            pressed.pop();
+            body.set_speed(upper * speed).unwrap();
+        }
+        pressed.extend(body.advance(to(top)).unwrap().curve);
         let held = (rest > 0.0).then(|| body.advance(Move::Hold(rest)).unwrap());
+        body.set_speed(faster * speed).unwrap();
         let retraction = body.advance(Move::ToSeparation).unwrap();
         let over_displacement =
             |direction, points: &[CurvePoint]| DisplacementCurve::new(direction, points, stiffness);
-        let approach = over_displacement(Direction::Loading, &approach.curve);
+        let approach = over_displacement(Direction::Loading, &pressed);
         let retraction = over_displacement(Direction::Unloading, &retraction.curve);
         let separation = retraction.points().last().unwrap().displacement;
         let way = top - separation;
@@ -97,7 +129,10 @@ impl Measured {
         };
         let free = (-0.5 * way).min(separation - 0.2 * way);
         for at in path(&[free, top], step) {
-            measured.add(at, force(&approach, at), (at - top) / speed);
+            let above = at.max(0.5 * top) - top;
+            let below = at.min(0.5 * top) - 0.5 * top;
+            let seconds = (below + above / upper) / speed;
+            measured.add(at, force(&approach, at), seconds);
         }
         if let Some(held) = held {
             let begin = held.seconds[0];
@@ -111,7 +146,11 @@ impl Measured {
             }
         }
         for at in path(&[top, separation - way], step).into_iter().skip(1) {
-            measured.add(at, force(&retraction, at), rest + (top - at) / speed);
+            measured.add(
+                at,
+                force(&retraction, at),
+                rest + (top - at) / (faster * speed),
+            );
         }
         measured
     }
@@ -134,8 +173,17 @@ impl Measured {
 
 /// The curve of a scene of rubber with noise of 1 nN.
 fn curve_of(document: &Document, seed: u64) -> MeasuredCurve {
-    Measured::new(document, TOP, 1e-8, 1.0, 0).curve(1e-9, seed, false)
+    Measured::new(document, PROTOCOL).curve(1e-9, seed, false)
 }
+
+const PROTOCOL: Protocol = Protocol {
+    top: TOP,
+    step: 1e-8,
+    rest: 1.0,
+    resting: 0,
+    upper: 1.0,
+    faster: 1.0,
+};
 
 /// Returns the number of intervals that hold the truth.
 fn held(fit: &FitResult, truth: &[(Parameter, f64)]) -> usize {
@@ -181,6 +229,27 @@ fn the_relaxation_of_rubber_is_found() {
     let relaxation = fit.document.scene().material.relaxation.unwrap();
     assert!((relaxation.share / 0.3 - 1.0).abs() < 0.2);
     assert!(run(&fit.document).unwrap().figures.pull_off_force.is_some());
+}
+
+/// The model moves as the times of the curve state. The relaxation is known here, so that a wrong
+/// speed has no way out.
+#[test]
+fn a_curve_of_several_speeds_is_computed_at_these_speeds() {
+    let document = document(0.05, 1.5e6, 0.3, 2.0, 1.0);
+    let protocol = Protocol {
+        upper: 0.3,
+        faster: 10.0,
+        ..PROTOCOL
+    };
+    let curve = Measured::new(&document, protocol).curve(1e-9, 1, true);
+    let fit = fit_from(&curve, &document, "work,modulus,offset");
+    let truth = [(Parameter::Work, 0.05), (Parameter::Modulus, 1.5e6)];
+    assert_eq!(held(&fit, &truth), 2);
+    assert!(fit.misfit < 1.2, "{}", fit.misfit);
+    let notes: Vec<String> = fit.assumptions.iter().map(ToString::to_string).collect();
+    for said in ["times as fast as the approach", "changes within a motion"] {
+        assert!(notes.iter().any(|note| note.contains(said)), "{notes:?}");
+    }
 }
 
 /// A sphere with its truth and its curve.
@@ -252,7 +321,14 @@ impl Case {
         let step = way / between(100.0, 250.0);
         let noise = pull_off * between(0.001, 0.01);
         let resting = between(20.0, 200.0) as usize;
-        let measured = Measured::new(&document, top, step, rest, resting);
+        let protocol = Protocol {
+            top,
+            step,
+            rest,
+            resting,
+            ..PROTOCOL
+        };
+        let measured = Measured::new(&document, protocol);
         let changes = [
             ("material", format!("(modulus: {:e})", 0.3 * modulus)),
             ("adhesion.work", format!("{:e}", 5.0 * work)),
