@@ -7,9 +7,9 @@ use crate::common::fit_from;
 use crate::common::sphere::{Sphere, add_noise, path};
 use asperity_contact::motion::{MovingBody, RelaxingBody};
 use asperity_contact::{CurvePoint, Direction, Move};
-use asperity_data::on_threads;
+use asperity_data::{Control, on_threads};
 use asperity_experiment::{
-    CurveOptions, ExperimentError, FitResult, Free, MeasuredCurve, Parameter,
+    CurveOptions, ExperimentError, Fit, FitResult, FittedParameter, Free, MeasuredCurve, Parameter,
 };
 use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{Document, Simulation, open, run};
@@ -250,6 +250,110 @@ fn a_curve_of_several_speeds_is_computed_at_these_speeds() {
     for said in ["times as fast as the approach", "changes within a motion"] {
         assert!(notes.iter().any(|note| note.contains(said)), "{notes:?}");
     }
+}
+
+/// Curves of one specimen at three speeds, with noise of 1 % of the pull-off force, and the scene at
+/// which their fit begins.
+fn curves_of_three_speeds(is_timed: bool) -> (Vec<(String, MeasuredCurve)>, Document) {
+    let mut curves = Vec::new();
+    for (number, speed) in [1e-7, 1e-6, 1e-5].into_iter().enumerate() {
+        let document = document(0.05, 1.5e6, 0.3, 5.0, 0.0)
+            .set("loading_speed", &format!("{speed:e}"))
+            .unwrap();
+        let protocol = Protocol {
+            step: 2e-8,
+            rest: 0.0,
+            ..PROTOCOL
+        };
+        let mut measured = Measured::new(&document, protocol);
+        // Each curve has a displacement of its own at first touch.
+        for displacement in &mut measured.displacements {
+            *displacement += OWN_OFFSET * number as f64;
+        }
+        let curve = measured.curve(1.5e-8, number as u64, is_timed);
+        curves.push((format!("{speed:e} m/s"), curve));
+    }
+    let start = document(0.02, 1e6, 0.3, 5.0, 0.0);
+    let changes = [("material", "(modulus: 1.0e6)"), ("loading_speed", "None")];
+    let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
+    (curves, start.set_all(&changes).unwrap())
+}
+
+/// Difference in m between the displacements at first touch of one curve and the next.
+const OWN_OFFSET: f64 = 1e-7;
+
+fn run_together(
+    curves: &[(String, MeasuredCurve)],
+    start: &Document,
+    free: &str,
+) -> Result<Vec<FitResult>, ExperimentError> {
+    let mut fit = Fit::of(start);
+    for name in free.split(',') {
+        fit = fit.free(name.parse::<Free>().unwrap());
+    }
+    fit.run_together(curves, Control::default())
+}
+
+/// Ratio of the ends of the interval of the relaxation time.
+fn width_of_time(fit: &FitResult) -> f64 {
+    let is_time = |found: &&FittedParameter| found.parameter == Parameter::RelaxationTime;
+    let (low, high) = fit.parameters.iter().find(is_time).unwrap().interval;
+    high / low
+}
+
+#[test]
+#[ignore = "fits of relaxation take seconds each"]
+fn curves_of_several_speeds_give_one_relaxation() {
+    let (curves, start) = curves_of_three_speeds(true);
+    let free = "work,modulus,offset,relaxation_share,relaxation_time";
+    let truth = [
+        (Parameter::Work, 0.05),
+        (Parameter::Modulus, 1.5e6),
+        (Parameter::RelaxationShare, 0.3),
+        (Parameter::RelaxationTime, 5.0),
+    ];
+    let clock = std::time::Instant::now();
+    let together = run_together(&curves, &start, free).unwrap();
+    println!("{:.1} s", clock.elapsed().as_secs_f64());
+    assert_eq!(together.len(), 3);
+    for (number, fit) in together.iter().enumerate() {
+        assert_eq!(held(fit, &truth), 4);
+        assert!(fit.misfit < 1.3, "{}", fit.misfit);
+        for (index, found) in fit.parameters.iter().enumerate() {
+            if found.parameter == Parameter::Offset {
+                let expected = OWN_OFFSET * number as f64;
+                assert!((found.value - expected).abs() < 1e-8, "{found:?}");
+            } else {
+                assert_eq!(found, &together[0].parameters[index]);
+            }
+        }
+        let speed = curves[number].0.clone();
+        println!("{speed} {}", fit.assumptions[0]);
+    }
+    let alone = fit_from(&curves[2].1, &start, free);
+    held(&alone, &truth);
+    println!("{} {}", width_of_time(&together[0]), width_of_time(&alone));
+    assert!(width_of_time(&together[0]) < 1.2);
+    assert!(width_of_time(&alone) > 5.0);
+    // One curve in the list gives the same as alone.
+    let one = run_together(&curves[2..], &start, free).unwrap();
+    assert_eq!(one, [alone]);
+}
+
+/// Without times in the files all curves have the stated speed, and without a stated speed the
+/// error names the curve.
+#[test]
+fn curves_together_without_times_have_the_stated_speed() {
+    let (mut curves, start) = curves_of_three_speeds(true);
+    let (untimed, _) = curves_of_three_speeds(false);
+    curves[1] = untimed[1].clone();
+    curves.pop();
+    let free = "work=0.04..0.06,relaxation_share=0.2..0.4";
+    let refused = run_together(&curves, &start, free).unwrap_err().to_string();
+    assert!(refused.starts_with("1e-6 m/s: "), "{refused}");
+    assert!(refused.contains("loading_speed"), "{refused}");
+    let none = run_together(&[], &start, free).unwrap_err().to_string();
+    assert!(none.contains("0 curves"), "{none}");
 }
 
 /// A sphere with its truth and its curve.
