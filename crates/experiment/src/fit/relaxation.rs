@@ -138,7 +138,9 @@ pub(crate) fn notes_on_time(curve: &MeasuredCurve, scene: &Scene) -> Vec<Note> {
     }
     let points = grouped(timing.points.len() as u64);
     let rest = timing.rest.unwrap_or(pause_of(scene));
-    if rest > 0.0 {
+    if timing.rest.is_some() && timing.points.is_empty() {
+        // The instrument turns between two points.
+    } else if rest > 0.0 {
         let source = if timing.rest.is_some() {
             "times of the file"
         } else {

@@ -15,8 +15,8 @@ use crate::fit::searched::{compared_with_all, without_rest};
 use crate::fit::space::Space;
 use crate::fit::touch::{Touch, fixed_contact_point, touch_of_best};
 use crate::fit::{EXTENSIONS, Fit};
-use asperity_data::{Control, Note, counted, median};
-use asperity_scene::{Document, Simulation};
+use asperity_data::{Control, Note, counted, format_quantity, median};
+use asperity_scene::{Document, Scene, Simulation};
 
 /// Largest number of curves that are fitted together.
 pub(crate) const MOST_TOGETHER: usize = 10;
@@ -227,7 +227,8 @@ impl Specimen<'_> {
                 result.assumptions.push(note);
             }
             if space.relaxes() {
-                let notes = notes_on_time(part.curve, self.given.scene());
+                let mut notes = notes_on_time(part.curve, self.given.scene());
+                notes.extend(speed_of_scene(part.curve, document.scene()));
                 result.assumptions.splice(..0, notes);
             }
             let (_, instrument) = part.curve.with_instrument(self.given).map_err(wrong)?;
@@ -254,6 +255,17 @@ impl Specimen<'_> {
             "{count} curves of one specimen together give {symbols}."
         ))
     }
+}
+
+/// Returns a sentence on the speed of a curve without times; `None` for a curve with times.
+fn speed_of_scene(curve: &MeasuredCurve, scene: &Scene) -> Option<Note> {
+    let speed = scene
+        .loading_speed
+        .filter(|_| curve.timing.speeds.is_none())?;
+    let speed = format_quantity(speed, "m/s");
+    Some(Note::new(format!(
+        "Loading speed {speed} by the scene, since the file has no times."
+    )))
 }
 
 /// Result of a search, and the number of force curves that it computed.

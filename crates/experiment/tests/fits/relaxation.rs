@@ -348,12 +348,23 @@ fn curves_together_without_times_have_the_stated_speed() {
     let (untimed, _) = curves_of_three_speeds(false);
     curves[1] = untimed[1].clone();
     curves.pop();
-    let free = "work=0.04..0.06,relaxation_share=0.2..0.4";
+    let free = "work,offset,relaxation_share";
     let refused = run_together(&curves, &start, free).unwrap_err().to_string();
     assert!(refused.starts_with("1e-6 m/s: "), "{refused}");
     assert!(refused.contains("loading_speed"), "{refused}");
     let none = run_together(&[], &start, free).unwrap_err().to_string();
-    assert!(none.contains("0 curves"), "{none}");
+    assert!(none.starts_with("0 curves"), "{none}");
+
+    let start = document(0.02, 1.5e6, 0.2, 5.0, 0.0);
+    let fits = run_together(&curves, &start, free).unwrap();
+    let truth = [(Parameter::Work, 0.05), (Parameter::RelaxationShare, 0.3)];
+    assert_eq!(held(&fits[0], &truth), 2);
+    let says = |fit: &FitResult, words: &str| {
+        let mut notes = fit.assumptions.iter();
+        notes.any(|note| note.to_string().contains(words))
+    };
+    assert!(says(&fits[0], "100 nm/s by the times of the file"));
+    assert!(says(&fits[1], "1 µm/s by the scene"));
 }
 
 /// A sphere with its truth and its curve.
