@@ -6,6 +6,7 @@ mod closed_forms;
 mod cost;
 mod instrument;
 mod limits;
+mod published;
 mod refusals;
 mod springs;
 
