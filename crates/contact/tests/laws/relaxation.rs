@@ -5,6 +5,7 @@ mod climb;
 mod closed_forms;
 mod cost;
 mod instrument;
+mod interpolated;
 mod limits;
 mod published;
 mod refusals;

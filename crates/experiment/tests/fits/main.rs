@@ -7,6 +7,7 @@ mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
 mod relaxation;
+mod relaxing_specimens;
 mod simple_curves;
 mod single_curves;
 mod stiffness;
