@@ -283,12 +283,20 @@ impl App {
         };
         let is_changed = self.edit.is_unsaved();
         let saved = self.edit.saved.get(document.name());
-        let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
+        let saved_notice = saved.map_or("", |saved| &saved.scene().notice);
+        // A change of a built-in scene removes its notice.
+        let is_notice_hidden =
+            is_changed && (scene.notice.is_empty() || scene.notice == saved_notice);
+        let notice = if is_notice_hidden {
+            saved_notice
+        } else {
+            &scene.notice
+        };
         SceneTitle {
             name: name.to_owned(),
             is_changed,
-            notice: on_one_line(&scene.notice),
-            is_notice_hidden: is_changed && is_saved_notice,
+            notice: on_one_line(notice),
+            is_notice_hidden,
         }
     }
 
