@@ -12,6 +12,7 @@ use crossterm::style::Print;
 use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
+use ratatui::style::Color;
 use std::collections::VecDeque;
 use std::io;
 use std::io::Write;
@@ -92,10 +93,24 @@ impl<W: Write> CellWriter<W> {
 /// thousands of runs; a frame of a usual window has fewer.
 const MOST_COMPARED: usize = 400;
 
+/// Smallest number of bytes of a control sequence that moves the cursor within a row. A gap in a row
+/// with so many bytes is written again.
+const SHORTEST_MOVEMENT: usize = 3;
+/// Number of columns of the widest gap that is written again.
+const WIDEST_GAP: u16 = SHORTEST_MOVEMENT as u16;
+
+/// Smallest number of blanks that a control sequence erases. It has at least four bytes.
+const FEWEST_ERASED: u16 = 5;
+/// Smallest number of erased blanks with text after them. The cursor stays before erased blanks, so
+/// that another control sequence moves it to the text.
+const FEWEST_ERASED_BEFORE_TEXT: u16 = 10;
+
 /// Cells side by side in one style.
 struct Run {
     start: Position,
     text: String,
+    /// Number of blanks after the text.
+    blanks: u16,
     pen: Pen,
     /// True while the run has only blanks, so that it can take any ink.
     is_blank: bool,
@@ -110,6 +125,7 @@ impl Run {
         let mut run = Run {
             start,
             text: String::new(),
+            blanks: 0,
             pen: Pen::of(cell, Pen::PLAIN),
             is_blank: !shows_ink(cell),
             end: Cursor {
@@ -122,33 +138,79 @@ impl Run {
         run
     }
 
-    /// Returns true if the cell at `place` continues the run, and then appends it.
-    fn takes(&mut self, place: Position, cell: &Cell) -> bool {
-        if self.end.row != place.y || self.end.column != Some(place.x) {
+    /// Returns true if the cell at `place` continues the run, and then appends it. Cells in a short
+    /// gap before it are written again.
+    fn takes(&mut self, place: Position, cell: &Cell, shown: &ShownCells) -> bool {
+        let Some(column) = self.end.column else {
+            return false;
+        };
+        if self.end.row != place.y || column > place.x || place.x - column > WIDEST_GAP {
+            return false;
+        }
+        let has_gap = column < place.x;
+        let gap = shown.bytes(column, place.x, place.y, self.pen, SHORTEST_MOVEMENT + 1);
+        if has_gap && gap.is_none() {
+            return false;
+        }
+        if self.can_erase() && self.blanks >= FEWEST_ERASED_BEFORE_TEXT && cell.symbol() != " " {
             return false;
         }
         let pen = Pen::of(cell, self.pen);
-        if self.is_blank && shows_ink(cell) && pen.ground == self.pen.ground && !pen.shows_blanks()
-        {
+        let takes_ink = self.is_blank && shows_ink(cell) && !pen.shows_blanks();
+        if pen != self.pen && !(takes_ink && pen.ground == self.pen.ground) {
+            return false;
+        }
+        for x in column..place.x {
+            if let Some(cell) = shown.get(x, place.y) {
+                self.push(cell);
+            }
+        }
+        if takes_ink {
             self.pen = pen;
             self.is_blank = false;
         }
-        let fits = pen == self.pen;
-        if fits {
-            self.push(cell);
-        }
-        fits
+        self.push(cell);
+        true
     }
 
     fn push(&mut self, cell: &Cell) {
         let symbol = cell.symbol();
-        self.text.push_str(symbol);
+        if symbol == " " {
+            self.blanks += 1;
+        } else {
+            self.write_blanks();
+            self.text.push_str(symbol);
+        }
         if is_narrow(symbol) {
             self.next_column += 1;
             self.end.column = Some(self.next_column);
         } else {
             self.next_column += 2;
             self.end.column = None;
+        }
+    }
+
+    fn write_blanks(&mut self) {
+        self.text
+            .extend(std::iter::repeat_n(' ', self.blanks.into()));
+        self.blanks = 0;
+    }
+
+    /// Returns true if an erased cell looks like a blank of this run. Terminals differ in the ground
+    /// of erased cells, unless it is their own.
+    fn can_erase(&self) -> bool {
+        self.pen.ground == Color::Reset && !self.pen.shows_blanks()
+    }
+
+    /// Adds the blanks at the end to the text: blanks, or the control sequence that erases the cells
+    /// and leaves the cursor before them.
+    fn finish(&mut self) {
+        if self.can_erase() && self.blanks >= FEWEST_ERASED {
+            self.text.push_str(&format!("\x1b[{}X", self.blanks));
+            self.next_column -= self.blanks;
+            self.end.column = Some(self.next_column);
+        } else {
+            self.write_blanks();
         }
     }
 
@@ -185,11 +247,13 @@ impl<W: Write> Backend for CellWriter<W> {
             let place = Position { x, y };
             last_column = last_column.max(x);
             self.shown.set(place, cell);
-            let is_taken = runs.last_mut().is_some_and(|run| run.takes(place, cell));
+            let last = runs.last_mut();
+            let is_taken = last.is_some_and(|run| run.takes(place, cell, &self.shown));
             if !is_taken {
                 runs.push(Run::new(place, cell));
             }
         }
+        runs.iter_mut().for_each(Run::finish);
         // A colour takes more bytes than a movement of the cursor, so the runs of one style are
         // next to each other.
         runs.sort_by_cached_key(|run| run.pen.order());
@@ -243,7 +307,7 @@ mod tests {
     use proptest::prelude::*;
     use ratatui::buffer::Buffer;
     use ratatui::layout::Rect;
-    use ratatui::style::{Color, Modifier, Style};
+    use ratatui::style::{Modifier, Style};
 
     const COLUMNS: u16 = 24;
     const ROWS: u16 = 4;
@@ -343,21 +407,28 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// After each frame, the screen is the one that the backend of ratatui draws, with no more
-        /// bytes. It is also the same in a terminal where a line feed loses the column.
+        /// After all frames, the screen is the last frame drawn anew by the backend of ratatui. It is
+        /// also this frame in a terminal where a line feed loses the column, and the frames take no
+        /// more bytes than with the backend of ratatui.
         #[test]
         fn the_screen_is_that_of_the_usual_backend(
             frames in prop::collection::vec(frame(), 1..5),
             cleared in prop::collection::vec(prop::bool::weighted(0.2), 4),
         ) {
-            let (mut usual, mut short, mut without) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut anew, mut usual, mut usual_of_bare) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut short, mut without) = (Vec::new(), Vec::new());
+            let last = frames.len() - 1;
+            draw(CrosstermBackend::new(&mut anew), &frames[last..], &[false]);
             draw(CrosstermBackend::new(&mut usual), &frames, &cleared);
             let mut bare = frames;
             bare.iter_mut().for_each(remove_ink_of_blanks);
+            draw(CrosstermBackend::new(&mut usual_of_bare), &bare, &cleared);
+            // Half of a character of two columns may be left over, also by the usual backend.
+            prop_assume!(cells(&usual_of_bare) == cells(&anew));
             draw(CellWriter::new(&mut short, LineFeeds::KeepColumn), &bare, &cleared);
             draw(CellWriter::new(&mut without, LineFeeds::Unknown), &bare, &cleared);
-            prop_assert_eq!(cells(&usual), cells(&short));
-            prop_assert_eq!(cells(&usual), cells(&with_carriage_returns(&without)));
+            prop_assert_eq!(cells(&anew), cells(&short));
+            prop_assert_eq!(cells(&anew), cells(&with_carriage_returns(&without)));
             prop_assert!(short.len() <= usual.len());
         }
     }
@@ -397,6 +468,11 @@ mod tests {
     fn the_cursor_moves_by_the_shortest_text() {
         let before = plain(["a b c ⣿ d e", "f g h", "    xyz"]);
         for (after, text) in [
+            // Many blanks are erased, and the cursor stays before them.
+            (
+                plain(["a          ", "f g h", "     yz"]),
+                "\x1b[1;3H\x1b[9X\n\n   ",
+            ),
             // A narrow gap is written again.
             (plain(["A B c ⣿ d e", "f g h", "    xyz"]), "\x1b[1;1HA B"),
             (

@@ -15,8 +15,8 @@ pub struct Cursor {
 }
 
 /// Cells that the terminal shows. Before the screen is first cleared, the cells that have not been
-/// written are unknown. A cell is also unknown if the character in it or before it may be wider
-/// than a column.
+/// written are unknown. A cell is also unknown if the character before it may be wider than a
+/// column.
 #[derive(Default)]
 pub struct ShownCells {
     rows: Vec<Vec<Option<Cell>>>,
@@ -29,6 +29,7 @@ impl ShownCells {
         self.is_cleared = true;
     }
 
+    /// Stores a written cell.
     pub fn set(&mut self, place: Position, cell: &Cell) {
         let (x, y) = (usize::from(place.x), usize::from(place.y));
         if self.rows.len() <= y {
@@ -39,16 +40,18 @@ impl ShownCells {
             let blank = self.is_cleared.then_some(Cell::EMPTY);
             row.resize(x + 2, blank);
         }
-        if is_narrow(cell.symbol()) {
-            row[x] = Some(cell.clone());
-        } else {
-            row[x] = None;
+        let before = row[x].replace(cell.clone());
+        let is_next_known = match before {
+            Some(before) => is_narrow(before.symbol()) && is_narrow(cell.symbol()),
+            None => is_narrow(cell.symbol()),
+        };
+        if !is_next_known {
             row[x + 1] = None;
         }
     }
 
     /// Returns the cell at a place; `None` if it is unknown.
-    fn get(&self, x: u16, y: u16) -> Option<&Cell> {
+    pub fn get(&self, x: u16, y: u16) -> Option<&Cell> {
         let row = self.rows.get(usize::from(y));
         match row.and_then(|row| row.get(usize::from(x))) {
             Some(cell) => cell.as_ref(),
@@ -57,13 +60,13 @@ impl ShownCells {
     }
 
     /// Returns the number of bytes of the cells from column `first` to column `end` of a row, if all
-    /// of them have the style `pen` and take fewer than `most` bytes.
-    fn bytes(&self, first: u16, end: u16, row: u16, pen: Pen, most: usize) -> Option<usize> {
+    /// of them are one column wide, have the style `pen` and take fewer than `most` bytes.
+    pub fn bytes(&self, first: u16, end: u16, row: u16, pen: Pen, most: usize) -> Option<usize> {
         let mut bytes = 0;
         for x in first..end {
             let cell = self.get(x, row)?;
             bytes += cell.symbol().len();
-            if bytes >= most || Pen::of(cell, pen) != pen {
+            if bytes >= most || !is_narrow(cell.symbol()) || Pen::of(cell, pen) != pen {
                 return None;
             }
         }

@@ -210,7 +210,9 @@ fn assert_few_bytes(document: Document, theme: Theme, rows: &[&str]) {
         }
     }
     for edit in &edits {
-        if edit.bytes > MOST_OF_EDIT { println!("TOO MANY {name}: {} {}", edit.name, edit.bytes); }
+        if edit.bytes > MOST_OF_EDIT {
+            println!("TOO MANY {name}: {} {}", edit.name, edit.bytes);
+        }
     }
     let profile = counted.cost_of("R");
     println!("{name:22} R: {profile:5}");

@@ -51,9 +51,16 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text(title.to_owned(), "computing…");
     };
     let ensemble = app.studies.value::<Ensemble>();
+    let former = if ensemble.is_none() && awaits_profiles(app) {
+        app.studies.former::<Ensemble>()
+    } else {
+        None
+    };
     let mut lines = Vec::new();
     if size.height >= WITH_STRIP {
-        lines.extend(match ensemble {
+        // Over a slow line, a strip that disappears and comes back would be transmitted
+        // twice.
+        lines.extend(match ensemble.or(former) {
             Some(ensemble) => strip(app, outcome, ensemble, size.width.into()),
             // The lines below stay in their places when the strip appears.
             None if awaits_profiles(app) => vec![Line::default(); STRIP_ROWS + 1],
@@ -64,7 +71,7 @@ fn panel(app: &App, size: Size) -> Panel {
         lines.push(line_of_result(app, &result, size.width));
     }
     let mut panel = Panel::of_text(title.to_owned(), "");
-    panel.edge = edge(ensemble);
+    panel.edge = edge(ensemble, former);
     panel.body = Body::Lines(lines);
     panel
 }
@@ -75,14 +82,16 @@ fn awaits_profiles(app: &App) -> bool {
     Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1 && !has_failed
 }
 
-/// Returns the number of profiles that are computed.
-fn edge(ensemble: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
-    let Some(ensemble) = ensemble else {
+/// Returns the number of profiles that are computed, or that were computed before the last change.
+fn edge(ensemble: Option<&Ensemble>, former: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
+    let Some(shown) = ensemble.or(former) else {
         return Vec::new();
     };
-    let all = counted(ensemble.profiles(), "profile");
-    let text = if ensemble.computed() < ensemble.profiles() {
-        format!("{} of {all}", grouped(ensemble.computed()))
+    let all = counted(shown.profiles(), "profile");
+    let text = if ensemble.is_none() {
+        format!("{all} before the change")
+    } else if shown.computed() < shown.profiles() {
+        format!("{} of {all}", grouped(shown.computed()))
     } else {
         all
     };
