@@ -96,8 +96,8 @@ const MOST_COMPARED: usize = 400;
 /// Smallest number of bytes of a control sequence that moves the cursor within a row. A gap in a row
 /// with so many bytes is written again.
 const SHORTEST_MOVEMENT: usize = 3;
-/// Number of columns of the widest gap that is written again.
-const WIDEST_GAP: u16 = SHORTEST_MOVEMENT as u16;
+/// Number of bytes of a gap between blanks that is written again, because it may be erased with them.
+const GAP_BETWEEN_BLANKS: usize = 6;
 
 /// Smallest number of blanks that a control sequence erases. It has at least four bytes.
 const FEWEST_ERASED: u16 = 5;
@@ -144,12 +144,17 @@ impl Run {
         let Some(column) = self.end.column else {
             return false;
         };
-        if self.end.row != place.y || column > place.x || place.x - column > WIDEST_GAP {
+        if self.end.row != place.y || column > place.x {
             return false;
         }
-        let has_gap = column < place.x;
-        let gap = shown.bytes(column, place.x, place.y, self.pen, SHORTEST_MOVEMENT + 1);
-        if has_gap && gap.is_none() {
+        let is_between_blanks = self.can_erase() && self.blanks > 0 && cell.symbol() == " ";
+        let most_bytes = if is_between_blanks {
+            GAP_BETWEEN_BLANKS
+        } else {
+            SHORTEST_MOVEMENT
+        };
+        let gap = shown.bytes(column, place.x, place.y, self.pen, most_bytes + 1);
+        if gap.is_none() {
             return false;
         }
         if self.can_erase() && self.blanks >= FEWEST_ERASED_BEFORE_TEXT && cell.symbol() != " " {
