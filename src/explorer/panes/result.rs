@@ -291,14 +291,36 @@ fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
     }
 }
 
+/// Shorter wordings of results, in the order in which they are used.
+const SHORTER: [[&str; 2]; 5] = [
+    [": a premise does not hold", ": see the premises"],
+    ["sample of profiles", "sample"],
+    ["insensitive", "insens."],
+    ["sensitive", "sens."],
+    ["more than ", "> "],
+];
+
+/// Returns a text with as few shorter wordings as it needs to fit into this width.
+fn shortened(text: &str, width: usize) -> String {
+    let mut text = text.to_owned();
+    for [long, short] in SHORTER {
+        if text.chars().count() <= width {
+            break;
+        }
+        text = text.replace(long, short);
+    }
+    text
+}
+
 /// Number of columns of the names of results.
 const NAME_COLUMNS: usize = 12;
 
 fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
     let name = format!("{:NAME_COLUMNS$} ", result.name);
+    let room = usize::from(width).saturating_sub(name.chars().count());
     let mut line = Line::from(vec![
         Span::styled(name, app.style(Meaning::Title)),
-        Span::raw(result.value.clone()),
+        Span::raw(shortened(&result.value, room)),
     ]);
     let taken = line.width() + result.range.chars().count() + 1;
     if !result.range.is_empty() && taken <= usize::from(width) {
