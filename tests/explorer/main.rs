@@ -9,6 +9,7 @@ mod common {
     pub mod script;
     pub mod study;
 }
+mod bytes;
 mod path;
 mod random;
 mod random_bytes;
