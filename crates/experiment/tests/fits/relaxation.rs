@@ -3,8 +3,8 @@
 //! The curves are those of the engine with much smaller steps, and of a profile with other springs,
 //! than the fit has.
 
-use crate::common::fit_from;
 use crate::common::sphere::{Sphere, add_noise, path};
+use crate::common::{cases, fit_from};
 use asperity_contact::motion::{MovingBody, RelaxingBody};
 use asperity_contact::{CurvePoint, Direction, Move};
 use asperity_data::{Control, on_threads};
@@ -531,14 +531,11 @@ fn held_in(count: u64, speeds: &'static [f64]) -> [usize; 4] {
 /// Largest number of curves.
 const MOST: u64 = 60;
 
-/// As many curves as `TEST_EFFORT` says, at least 4 and at most 60.
+/// Four curves, times `TEST_EFFORT`, and at most 60.
 #[test]
 #[ignore = "fits of relaxation take seconds each"]
 fn most_relaxations_are_held() {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count: u64 = effort.unwrap_or(4).clamp(4, MOST);
+    let count = cases(4, MOST);
     let [work, modulus, share, _] = held_in(count, &[1.0]);
     let held = work + modulus + share;
     // Of the few intervals of a usual run, two may miss the truth by chance.
@@ -546,15 +543,12 @@ fn most_relaxations_are_held() {
     assert!(held as f64 >= least * 3.0 * count as f64, "{held}");
 }
 
-/// Three curves at speeds of 1:10:100 determine all four parameters, for as many specimens as
-/// `TEST_EFFORT` says, at least 2 and at most 60.
+/// Three curves at speeds of 1:10:100 determine all four parameters, for two specimens, times
+/// `TEST_EFFORT`, and at most 60.
 #[test]
 #[ignore = "fits of relaxation take seconds each"]
 fn most_relaxations_of_several_speeds_are_held() {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count: u64 = effort.unwrap_or(2).clamp(2, MOST);
+    let count = cases(2, MOST);
     let held: usize = held_in(count, &[1.0, 10.0, 100.0]).iter().sum();
     let least = if count < MOST { 0.75 } else { 0.93 };
     assert!(held as f64 >= least * 4.0 * count as f64, "{held}");
