@@ -1072,7 +1072,10 @@ def fit(
 ) -> Fit: ...
 @overload
 def fit(
-    curves: list[str] | list[Path] | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]],
+    curves: list[str]
+    | list[Path]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],

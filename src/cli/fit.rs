@@ -25,7 +25,7 @@ Examples:
   asperity fit places/*.csv rough.ron --free work,modulus --profiles 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
   asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o all.csv --curves models
-  asperity fit a.csv b.csv soft.ron --free work,modulus,offset,relaxation_share,relaxation_time
+  asperity fit slow.csv fast.csv soft.ron --free work,offset,relaxation_share,relaxation_time
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or only a retraction that ends without contact. The scene is the last argument. A
@@ -53,9 +53,9 @@ pub struct FitArguments {
     ///
     /// A probe of several spheres has second_radius and behind of the second one too.
     ///
-    /// A half-space that relaxes has relaxation_share and relaxation_time. Several files are then
-    /// curves of one specimen, such as curves at several speeds: they are fitted together, and
-    /// share all parameters but offset and zero.
+    /// A half-space that relaxes has relaxation_share and relaxation_time.
+    ///
+    /// Several files are then curves of one specimen, and share all but offset and zero.
     #[arg(
         long,
         required = true,

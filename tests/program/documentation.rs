@@ -334,7 +334,7 @@ fn pictures_are_those_of_their_commands() {
     assert!(read("docs/learn.md").contains(sweep));
     succeeded(folder.path(), sweep);
     let time = "asperity sweep plot time --quantity pull_off_force -o docs/learn/time.svg";
-    let rest = "asperity run docs/examples/soft-pad.ron --set \"loading=1 mN, hold 100 s, separation\" \
+    let rest = "asperity run docs/examples/soft-pad.ron --set \"loading=[ToForce(1e-3),Hold(100.0),ToSeparation]\" \
                 -o docs/learn/rest.svg";
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";

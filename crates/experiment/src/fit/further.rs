@@ -2,7 +2,6 @@
 
 use crate::fit::model::Model;
 use crate::fit::population::Member;
-use crate::fit::search::SearchResult;
 use crate::fit::space::Space;
 use std::ops::Range;
 
@@ -41,31 +40,12 @@ pub(crate) struct PartOfSearch {
 
 impl PartOfSearch {
     /// Returns the coordinates of the curve at a place of the search.
-    fn place(&self, place: &[f64]) -> Vec<f64> {
+    pub fn place(&self, place: &[f64]) -> Vec<f64> {
         self.coordinates.iter().map(|index| place[*index]).collect()
     }
 
     /// Returns the coordinates of the curve at several places of the search.
-    fn places(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    pub fn places(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
         places.iter().map(|place| self.place(place)).collect()
-    }
-
-    /// Returns the result of a search for the curve alone. Its samples are those of the search
-    /// without the coordinates of other curves. All residuals and blocks stay, since all curves
-    /// determine the parameters.
-    pub fn result(&self, all: &SearchResult) -> SearchResult {
-        SearchResult {
-            best: Member {
-                place: self.place(&all.best.place),
-                residuals: all.best.residuals[self.points.clone()].to_vec(),
-                in_contact: all.best.in_contact[self.points.clone()].to_vec(),
-            },
-            residuals: all.residuals.clone(),
-            noise: all.noise,
-            samples: self.places(&all.samples),
-            alternatives: self.places(&all.alternatives),
-            blocks: all.blocks.clone(),
-            without_adhesion: all.without_adhesion,
-        }
     }
 }

@@ -7,6 +7,7 @@ use crate::fit::evaluation::fit_result;
 use crate::fit::further::{FurtherCurve, PartOfSearch};
 use crate::fit::model::Model;
 use crate::fit::parameter::{Free, Parameter};
+use crate::fit::population::Member;
 use crate::fit::relaxation::{notes_on_time, other_relaxations};
 use crate::fit::result::FitResult;
 use crate::fit::scene::{pause_of, wrong};
@@ -216,7 +217,7 @@ impl Specimen<'_> {
                 further: Vec::new(),
                 report: &mut |_| {},
             };
-            let result = joint.parts[index].result(found);
+            let result = result_of(&joint.parts[index], found);
             let searched = compared_with_all(&mut search, result)?;
             let mut searched = without_rest(searched, space.curve);
             searched.evaluations = evaluations;
@@ -304,6 +305,25 @@ impl<'a> Joint<'a> {
             first = end;
         }
         Joint { space, parts }
+    }
+}
+
+/// Returns the result of a search for one of its curves alone. Its samples are those of the search
+/// without the coordinates of other curves. All residuals and blocks stay, since all curves
+/// determine the parameters.
+fn result_of(part: &PartOfSearch, all: &SearchResult) -> SearchResult {
+    SearchResult {
+        best: Member {
+            place: part.place(&all.best.place),
+            residuals: all.best.residuals[part.points.clone()].to_vec(),
+            in_contact: all.best.in_contact[part.points.clone()].to_vec(),
+        },
+        residuals: all.residuals.clone(),
+        noise: all.noise,
+        samples: part.places(&all.samples),
+        alternatives: part.places(&all.alternatives),
+        blocks: all.blocks.clone(),
+        without_adhesion: all.without_adhesion,
     }
 }
 
