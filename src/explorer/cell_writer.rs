@@ -9,6 +9,7 @@ use super::cursor::{Cursor, LineFeeds, Movement, ShownCells, is_narrow};
 use super::pen::{Pen, shows_ink};
 use crossterm::queue;
 use crossterm::style::Print;
+use crossterm::terminal::Clear;
 use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
@@ -283,12 +284,16 @@ impl<W: Write> Backend for CellWriter<W> {
     }
 
     fn clear(&mut self) -> io::Result<()> {
-        self.shown.clear();
-        self.inner.clear()
+        self.clear_region(ClearType::All)
     }
 
     fn clear_region(&mut self, clear_type: ClearType) -> io::Result<()> {
-        self.shown.clear();
+        if clear_type == ClearType::All {
+            self.shown.clear();
+            // It is written with the next frame, so that no empty screen is shown before.
+            return queue!(self.inner, Clear(crossterm::terminal::ClearType::All));
+        }
+        self.shown = ShownCells::default();
         self.inner.clear_region(clear_type)
     }
 

@@ -76,8 +76,13 @@ fn status_of_prompt(
         | Purpose::Topics {
             is_typed: false, ..
         } => None,
-        Purpose::Overwrite(file) => {
-            let question = format!("{} exists. Overwrite it?", file.path.display());
+        Purpose::Overwrite { file, is_changed } => {
+            let state = if *is_changed {
+                "was changed by another program since it was opened"
+            } else {
+                "exists"
+            };
+            let question = format!("{} {state}. Overwrite it?", file.path.display());
             Some(vec![Line::styled(question, app.style(Meaning::Error))])
         }
         Purpose::Leave => {
@@ -187,7 +192,7 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
 fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
-        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
+        Purpose::Value | Purpose::Overwrite { .. } | Purpose::Leave => String::new(),
         Purpose::Target => format!("{} for ", target::name(app)),
         Purpose::Map => "Map ".to_owned(),
         Purpose::SavePlan if is_narrow => "Plan: ".to_owned(),
