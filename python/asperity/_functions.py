@@ -1054,7 +1054,7 @@ def fit(
 ) -> EnsembleFit: ...
 @overload
 def fit(
-    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike],
+    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike] | tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
@@ -1072,7 +1072,10 @@ def fit(
 ) -> Fit: ...
 @overload
 def fit(
-    curves: list[str] | list[Path] | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]],
+    curves: list[str]
+    | list[Path]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
@@ -1126,11 +1129,12 @@ def fit(
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
-    of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
+    of pandas with two columns. A third array of a tuple has times in s. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
     gives all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
     radius, relaxation_share and relaxation_time, and second_radius and behind of the second of several spheres. A dictionary gives their ranges as well:
     `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
-    rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`
+    rough body, by comparison with so many random profiles. With relaxation, several files or arrays are curves of one specimen,
+    such as curves at several speeds, and share all parameters but offset and zero. `options` state how to read the curves, as `asperity fit --help`
     lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
 
     >>> ball = asp.profile("100 µm", 1024, form=asp.sphere("100 µm"))
@@ -1168,6 +1172,8 @@ def fit(
         check_executor(executor)
         with naming("curves", shown):
             names = _native.curve_names(call, (all_curves, words))
+        if len(names) == len(all_curves) > 1 and any(name.startswith("relaxation") for name, _ in _ranges(free)):
+            raise refusal("executor", executor, "None, since curves of one specimen that relaxes are fitted together")
         arrays = (curve for curve in all_curves if curve[1] is not None)
         all_curves = [next(arrays) if name is None else (name, None) for name in names]
         several = ranges(len(all_curves))
@@ -1186,12 +1192,13 @@ def fit(
     return found
 
 
-def _columns(curve: Any) -> tuple[Any, Any] | None:
-    """Returns the displacements and the forces of a curve that is given by numbers; None if it is given otherwise."""
+def _columns(curve: Any) -> tuple[Any, ...] | None:
+    """Returns the displacements, forces and perhaps times of a curve that is given by numbers; None if it is given otherwise."""
     if hasattr(curve, "to_numpy"):
         curve = curve.to_numpy()
-    if isinstance(curve, tuple) and len(curve) == 2 and not any(isinstance(part, (str, os.PathLike)) for part in curve):
-        return curve[0], curve[1]
+    if isinstance(curve, tuple) and len(curve) in (2, 3) and not any(isinstance(part, (str, os.PathLike)) for part in curve):
+        if len(curve) == 2 or all(_is_row_of_numbers(part) for part in curve):
+            return curve
     shape = getattr(curve, "shape", None)
     if shape is not None and len(shape) == 2 and 2 in shape:
         rows = curve if shape[0] == 2 else curve.T
@@ -1214,10 +1221,11 @@ def _is_curve(curves: Any) -> bool:
 def _curve(index: int, curve: Any) -> tuple[str, Any]:
     columns = _columns(curve)
     if columns is not None:
-        return f"curve {index + 1}", (numbers(columns[0], "displacement"), numbers(columns[1], "force"))
+        rows = [numbers(column, name) for column, name in zip(columns, ("displacement", "force", "time"), strict=False)]
+        return f"curve {index + 1}", (rows[0], rows[1], rows[2] if len(rows) == 3 else [])
     if isinstance(curve, (str, os.PathLike)):
         return path(curve, "curves"), None
-    allowed = "a file, or two arrays with displacements and forces"
+    allowed = "a file, or two arrays with displacements and forces, and perhaps a third with times"
     raise refusal("curves", f"curve {index}, counted from 0, of the type {type(curve).__name__}", allowed)
 
 

@@ -81,7 +81,9 @@ pub struct OutputFile {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
-    Exists,
+    /// The file exists. If `is_changed` is true, it is the file of the scene, and another program
+    /// has changed it since the explorer opened or saved it.
+    Exists { is_changed: bool },
     /// The explorer could not write the file because the system refused it, or because there is
     /// nothing to write. The text is the reason.
     Refused(String),

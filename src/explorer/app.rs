@@ -113,6 +113,8 @@ pub struct SceneTitle {
     pub is_changed: bool,
     /// Notes on the scene; empty if there are none.
     pub notice: String,
+    /// True if the scene has changed since the notice was written, so that it may be wrong now.
+    pub is_notice_hidden: bool,
 }
 
 impl SceneTitle {
@@ -121,24 +123,21 @@ impl SceneTitle {
         if self.is_changed { " [changed]" } else { "" }
     }
 
-    /// Returns the notice with blanks before it; empty if there is none.
+    /// Returns the notice with blanks before it; empty if there is none or if it is hidden.
     pub fn notice_apart(&self) -> String {
-        if self.notice.is_empty() {
+        if self.notice.is_empty() || self.is_notice_hidden {
             String::new()
         } else {
             format!("  {}", self.notice)
         }
     }
 
-    /// Returns the number of columns of the whole title on one line.
+    /// Returns the number of columns of the whole title on one line. A hidden notice counts too: if
+    /// its line were left out, the first change of a scene would move all panes, and over a slow
+    /// line its answer would take twice as long.
     pub fn columns(&self) -> usize {
-        Span::raw(format!(
-            "{}{}{}",
-            self.name,
-            self.sign(),
-            self.notice_apart()
-        ))
-        .width()
+        let title = format!("{}{}  {}", self.name, self.sign(), self.notice);
+        Span::raw(title.trim_end()).width()
     }
 }
 
@@ -272,7 +271,7 @@ impl App {
     }
 
     /// Returns what the title line shows. If the scene has changed and its notice has not, the
-    /// notice is left out, because it may be wrong now.
+    /// notice is hidden, because it may be wrong now.
     pub fn title(&self) -> SceneTitle {
         let document = &self.edit.document;
         let scene = document.scene();
@@ -284,16 +283,20 @@ impl App {
         };
         let is_changed = self.edit.is_unsaved();
         let saved = self.edit.saved.get(document.name());
-        let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
-        let notice = if is_changed && is_saved_notice {
-            String::new()
+        let saved_notice = saved.map_or("", |saved| &saved.scene().notice);
+        // A change of a built-in scene removes its notice.
+        let is_notice_hidden =
+            is_changed && (scene.notice.is_empty() || scene.notice == saved_notice);
+        let notice = if is_notice_hidden {
+            saved_notice
         } else {
-            on_one_line(&scene.notice)
+            &scene.notice
         };
         SceneTitle {
             name: name.to_owned(),
             is_changed,
-            notice,
+            notice: on_one_line(notice),
+            is_notice_hidden,
         }
     }
 

@@ -26,7 +26,8 @@ impl Layout {
         // In a small window, the lines around the panes are left out first, and panes only if this
         // is not enough.
         let has_footer = height >= 6;
-        // A second line of the title is for a notice that does not fit into the first one.
+        // A second line of the title is for a notice that does not fit into the first one, also after
+        // the scene has changed and the notice is hidden.
         let has_second = height >= 32 && app.title().columns() > width.into();
         let top = if has_second {
             2
@@ -167,8 +168,13 @@ const WITH_RESULT: u16 = 20;
 /// Height in rows from which both the results and the list of events are below the parameters.
 const WITH_BOTH: u16 = 40;
 
+/// Rows of the pane of parameters beside the list: title, derived values and explanation.
+const BESIDE_PARAMETERS: u16 = 8;
+/// Smallest height in rows of a list of events that is shown because there is room for it.
+const FEWEST_EVENT_ROWS: u16 = 6;
+
 /// Returns the list of parameters, and below it the results or the list of events or, in a high
-/// window, both.
+/// window, both. If the parameters leave enough rows free, the list of events is always shown.
 fn panes_of_list(app: &App, area: Rect) -> Vec<(Pane, Rect)> {
     if area.height < WITH_RESULT {
         return vec![(Pane::Parameters, area)];
@@ -178,14 +184,23 @@ fn panes_of_list(app: &App, area: Rect) -> Vec<(Pane, Rect)> {
         26.. => 8,
         _ => 5,
     };
+    // Rows that neither the parameters nor the results need.
+    let needed = u16::try_from(app.edit.parameters.len()).unwrap_or(u16::MAX);
+    let spare = area
+        .height
+        .saturating_sub(needed.saturating_add(BESIDE_PARAMETERS + result_rows));
+    let has_room = spare >= FEWEST_EVENT_ROWS;
     let lists_both = app.view.lists_events && area.height >= WITH_BOTH;
     let mut lower = Vec::new();
     if !app.view.lists_events || lists_both {
         lower.push((Pane::Result, result_rows));
     }
-    if app.view.lists_events {
-        let rows = if lists_both { 12 } else { area.height / 2 };
-        lower.push((Pane::Events, rows));
+    if lists_both {
+        lower.push((Pane::Events, spare.max(12)));
+    } else if app.view.lists_events {
+        lower.push((Pane::Events, area.height / 2));
+    } else if has_room {
+        lower.push((Pane::Events, spare));
     }
     let taken: u16 = lower.iter().map(|(_, rows)| rows).sum();
     let mut panes = vec![(

@@ -66,7 +66,12 @@ pub enum Purpose {
         topics: Vec<Topic>,
         is_typed: bool,
     },
-    Overwrite(OutputFile),
+    /// The question whether to overwrite a file that exists. `is_changed` is true if another program
+    /// has changed the file of the scene.
+    Overwrite {
+        file: OutputFile,
+        is_changed: bool,
+    },
     Leave,
 }
 
@@ -228,7 +233,7 @@ impl Prompt {
                 is_typed: false, ..
             } => Context::Help,
             Purpose::Open(_) | Purpose::Parameter { .. } | Purpose::Topics { .. } => Context::List,
-            Purpose::Overwrite(_) => Context::Overwrite,
+            Purpose::Overwrite { .. } => Context::Overwrite,
             Purpose::Leave => Context::Leave,
             _ => Context::Line,
         }

@@ -4,12 +4,13 @@
 use super::action::{Action, Task};
 use super::app::App;
 use super::autosave::{Autosave, Kept, Unsaved};
-use super::cell_writer::{CellWriter, remove_ink_of_blanks};
+use super::cell_writer::CellWriter;
 use super::commands::opening::begin;
 use super::config::Config;
 use super::editor::Editor;
 use super::manual_path::ManualPath;
 use super::opening::Opening;
+use super::pen::remove_ink_of_blanks;
 use super::runtime::{Engine, Runtime};
 use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
@@ -127,7 +128,10 @@ pub fn open(
     // run: if the terminal is gone, it would write to standard error, and would panic if standard
     // error is gone too.
     let writer = FrameWriter::new(io::stdout());
-    let mut terminal = ManuallyDrop::new(Terminal::new(CellWriter::new(writer))?);
+    let mut terminal = ManuallyDrop::new(Terminal::new(CellWriter::new(
+        writer,
+        terminal::line_feeds(),
+    ))?);
     let appearance = chosen_appearance(&options);
     let asks_background = asks_background(&options, appearance);
     if asks_background {
@@ -154,7 +158,7 @@ pub fn open(
         },
         terminal: &mut terminal,
         guard,
-        redraw: false,
+        redraw: true,
         draw,
         remote,
         frame_time,

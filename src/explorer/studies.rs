@@ -144,11 +144,15 @@ struct Slot {
 
 /// Newest value of each study (background computation). There is at most one value of each type.
 #[derive(Clone, Debug, Default)]
-pub struct Findings(HashMap<TypeId, Slot>);
+pub struct Findings {
+    slots: HashMap<TypeId, Slot>,
+    /// Final values of the scene before the last change.
+    former: HashMap<TypeId, Value>,
+}
 
 impl Findings {
     fn slot<T: Any>(&self) -> Option<&Slot> {
-        self.0.get(&TypeId::of::<T>())
+        self.slots.get(&TypeId::of::<T>())
     }
 
     /// Returns the newest value of the type `T`, which may be an intermediate value; `None` if
@@ -176,14 +180,14 @@ impl Findings {
 
     /// Returns true if all studies that have begun have ended.
     pub fn are_all_done(&self) -> bool {
-        self.0.values().all(|slot| slot.end.is_some())
+        self.slots.values().all(|slot| slot.end.is_some())
     }
 
     /// Sets the value of the type `T`. If `is_done` is true, the value is final. Otherwise the
     /// study with this key still has to compute the final value.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
-        self.0.insert(
+        self.slots.insert(
             TypeId::of::<T>(),
             Slot {
                 key: key.to_string(),
@@ -194,19 +198,35 @@ impl Findings {
     }
 
     pub fn forget<T: Any>(&mut self) {
-        self.0.remove(&TypeId::of::<T>());
+        self.slots.remove(&TypeId::of::<T>());
     }
 
-    /// Removes all values whose key is not one of `keys`.
+    /// Removes all values whose key is not one of `keys`. The final values among them can still be
+    /// shown as former values.
     pub fn keep(&mut self, keys: &[&str]) {
-        self.0.retain(|_, slot| keys.contains(&slot.key.as_str()));
+        let is_kept = |slot: &Slot| keys.contains(&slot.key.as_str());
+        for (kind, slot) in &self.slots {
+            if let Some(value) = &slot.value
+                && slot.end == Some(Ok(()))
+                && !is_kept(slot)
+            {
+                self.former.insert(*kind, Arc::clone(value));
+            }
+        }
+        self.slots.retain(|_, slot| is_kept(slot));
+    }
+
+    /// Returns the last final value of the type `T` that was removed because the scene has changed;
+    /// `None` if there is none.
+    pub fn former<T: Any>(&self) -> Option<&T> {
+        self.former.get(&TypeId::of::<T>())?.downcast_ref()
     }
 
     /// Stores a message from a study. The message is ignored if the value of this type has been
     /// removed or now has another key.
     pub fn take_in(&mut self, finding: Finding) {
         if let Some(slot) = self
-            .0
+            .slots
             .get_mut(&finding.kind)
             .filter(|slot| slot.key == finding.slot.key)
         {
@@ -219,7 +239,7 @@ impl Findings {
     /// now on, the messages of the listed studies are stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
-            let slot = self.0.entry(study.kind).or_insert_with(|| Slot {
+            let slot = self.slots.entry(study.kind).or_insert_with(|| Slot {
                 key: study.key.clone(),
                 value: None,
                 end: None,

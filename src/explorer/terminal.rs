@@ -1,6 +1,7 @@
 //! The terminal. The explorer takes the terminal over when it starts. When the explorer ends, the
 //! terminal is restored, even after a panic.
 
+use super::cursor::LineFeeds;
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
 use crossterm::style::Print;
@@ -140,6 +141,22 @@ pub fn checked(size: Size) -> io::Result<Size> {
 pub fn window() -> io::Result<Size> {
     let (width, height) = crossterm::terminal::size()?;
     checked(Size { width, height })
+}
+
+/// Returns what a line feed does to the column of the cursor. Raw mode belongs to the terminal of the
+/// input, and the output may go to another terminal, which is not in raw mode.
+#[cfg(unix)]
+pub fn line_feeds() -> LineFeeds {
+    use rustix::termios::{OutputModes, tcgetattr};
+    match tcgetattr(rustix::stdio::stdout()) {
+        Ok(state) if !state.output_modes.contains(OutputModes::OPOST) => LineFeeds::KeepColumn,
+        _ => LineFeeds::Unknown,
+    }
+}
+
+#[cfg(not(unix))]
+pub fn line_feeds() -> LineFeeds {
+    LineFeeds::Unknown
 }
 
 /// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue the

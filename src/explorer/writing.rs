@@ -18,7 +18,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use serde::Serialize;
-use std::fs::create_dir_all;
+use std::fs::{create_dir_all, read_to_string};
 use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
@@ -33,10 +33,25 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
         file.path.set_extension("ron");
     }
     let result = write_file(app, folder, &file).map_err(|error| match error {
-        WriteError::Exists { .. } => WriteFailure::Exists,
+        WriteError::Exists { .. } => WriteFailure::Exists {
+            is_changed: file.content == Content::Scene && is_changed(app, folder, &file.path),
+        },
         other => WriteFailure::Refused(other.to_string()),
     });
     Action::Written(file, result)
+}
+
+/// Returns true if a file is the one of the scene, and its text is not the one that the explorer has
+/// last read from it or written to it.
+fn is_changed(app: &App, folder: &Path, path: &Path) -> bool {
+    let name = app.edit.document.name();
+    let Some(saved) = app.edit.saved.get(name) else {
+        return false;
+    };
+    let is_own = Path::new(name) == path;
+    is_own
+        && read_to_string(folder.join(path))
+            .is_ok_and(|text| text != saved.text() && text != saved.text_for_own_file())
 }
 
 /// Returns true if the path leads to a file, or if nothing exists at the path and the path does not

@@ -3,12 +3,14 @@
 #[path = "../common"]
 mod common {
     pub mod deadline;
+    pub mod draws;
     pub mod driver;
     pub mod effort;
     pub mod scenes;
     pub mod script;
     pub mod study;
 }
+mod bytes;
 mod path;
 mod random;
 mod random_bytes;

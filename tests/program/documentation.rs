@@ -334,6 +334,8 @@ fn pictures_are_those_of_their_commands() {
     assert!(read("docs/learn.md").contains(sweep));
     succeeded(folder.path(), sweep);
     let time = "asperity sweep plot time --quantity pull_off_force -o docs/learn/time.svg";
+    let rest = "asperity run docs/examples/soft-pad.ron --set \"loading=[ToForce(1e-3),Hold(100.0),ToSeparation]\" \
+                -o docs/learn/rest.svg";
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
@@ -345,6 +347,7 @@ fn pictures_are_those_of_their_commands() {
         ),
         ("docs/learn.md", protocols),
         ("docs/learn.md", time),
+        ("docs/learn.md", rest),
         (
             "README.md",
             "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg",

@@ -43,10 +43,12 @@ pub fn event(records: &[StageRecord], branch: &Branch, point: CurvePoint) -> Opt
                 "separated"
             } else if is_near(first) {
                 "turning point"
+            } else if point.indentation < smallest.indentation {
+                // The pull-off is the point with the smallest force, and not the state after the
+                // jump that begins there.
+                "detachment"
             } else if is_near(&smallest) {
                 "pull-off"
-            } else if point.indentation < smallest.indentation {
-                "detachment"
             } else if is_under_tension {
                 "under tension"
             } else {

@@ -204,7 +204,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             accept_topic(app, topic);
             Ok(())
         }
-        Purpose::Overwrite(file) => {
+        Purpose::Overwrite { file, .. } => {
             app.effects.push(Task::Write(OutputFile {
                 overwrite: true,
                 ..file.clone()

@@ -173,7 +173,9 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
                 ask_quit(app);
             }
         }
-        Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), ""),
+        Err(WriteFailure::Exists { is_changed }) => {
+            app.ask(Purpose::Overwrite { file, is_changed }, "");
+        }
         Err(WriteFailure::Refused(error)) => {
             let purpose = if is_scene {
                 Purpose::Save {

@@ -2,7 +2,7 @@
 
 use super::Demo;
 use crate::explorer::cell_writer::CellWriter;
-use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
+use crate::explorer::terminal::{FrameWriter, TerminalGuard, line_feeds, window};
 use crate::explorer::terminal_input::Input;
 use crate::explorer::{input, view};
 use crossterm::event::{Event, KeyEventKind};
@@ -19,7 +19,7 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;
-    let backend = CellWriter::new(FrameWriter::new(io::stdout()));
+    let backend = CellWriter::new(FrameWriter::new(io::stdout()), line_feeds());
     let mut terminal = ManuallyDrop::new(Terminal::new(backend)?);
     let frame = Duration::from_secs_f64(frames_per_second.recip());
     let begun = Instant::now();

@@ -34,7 +34,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Profile",
         "rigid profile below, elastic surface above. Springs in contact are filled: amber and above the dotted level \
-         of the free surface they are pressed, blue and below it they are pulled; the filled area is the force. In \
+         of the free surface they are pressed, blue and below it they are pulled, as lines above the profile; the filled area is the force. In \
          the row below, █ is in contact, ▪ in part, · free; without colours ▒ and ▫ are pulled. [ ] is the part in \
          the pane Patch. On the right the histogram of heights, and dotted a normal distribution",
     )],

@@ -51,9 +51,16 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text(title.to_owned(), "computing…");
     };
     let ensemble = app.studies.value::<Ensemble>();
+    let former = if ensemble.is_none() && awaits_profiles(app) {
+        app.studies.former::<Ensemble>()
+    } else {
+        None
+    };
     let mut lines = Vec::new();
     if size.height >= WITH_STRIP {
-        lines.extend(match ensemble {
+        // Over a slow line, a strip that disappears and comes back would be transmitted
+        // twice.
+        lines.extend(match ensemble.or(former) {
             Some(ensemble) => strip(app, outcome, ensemble, size.width.into()),
             // The lines below stay in their places when the strip appears.
             None if awaits_profiles(app) => vec![Line::default(); STRIP_ROWS + 1],
@@ -64,7 +71,7 @@ fn panel(app: &App, size: Size) -> Panel {
         lines.push(line_of_result(app, &result, size.width));
     }
     let mut panel = Panel::of_text(title.to_owned(), "");
-    panel.edge = edge(ensemble);
+    panel.edge = edge(ensemble, former);
     panel.body = Body::Lines(lines);
     panel
 }
@@ -75,14 +82,16 @@ fn awaits_profiles(app: &App) -> bool {
     Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1 && !has_failed
 }
 
-/// Returns the number of profiles that are computed.
-fn edge(ensemble: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
-    let Some(ensemble) = ensemble else {
+/// Returns the number of profiles that are computed, or that were computed before the last change.
+fn edge(ensemble: Option<&Ensemble>, former: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
+    let Some(shown) = ensemble.or(former) else {
         return Vec::new();
     };
-    let all = counted(ensemble.profiles(), "profile");
-    let text = if ensemble.computed() < ensemble.profiles() {
-        format!("{} of {all}", grouped(ensemble.computed()))
+    let all = counted(shown.profiles(), "profile");
+    let text = if ensemble.is_none() {
+        format!("{all} before the change")
+    } else if shown.computed() < shown.profiles() {
+        format!("{} of {all}", grouped(shown.computed()))
     } else {
         all
     };
@@ -282,14 +291,36 @@ fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
     }
 }
 
+/// Shorter wordings of results, in the order in which they are used.
+const SHORTER: [[&str; 2]; 5] = [
+    [": a premise does not hold", ": see the premises"],
+    ["sample of profiles", "sample"],
+    ["insensitive", "insens."],
+    ["sensitive", "sens."],
+    ["more than ", "> "],
+];
+
+/// Returns a text with as few shorter wordings as it needs to fit into this width.
+fn shortened(text: &str, width: usize) -> String {
+    let mut text = text.to_owned();
+    for [long, short] in SHORTER {
+        if text.chars().count() <= width {
+            break;
+        }
+        text = text.replace(long, short);
+    }
+    text
+}
+
 /// Number of columns of the names of results.
 const NAME_COLUMNS: usize = 12;
 
 fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
     let name = format!("{:NAME_COLUMNS$} ", result.name);
+    let room = usize::from(width).saturating_sub(name.chars().count());
     let mut line = Line::from(vec![
         Span::styled(name, app.style(Meaning::Title)),
-        Span::raw(result.value.clone()),
+        Span::raw(shortened(&result.value, room)),
     ]);
     let taken = line.width() + result.range.chars().count() + 1;
     if !result.range.is_empty() && taken <= usize::from(width) {

@@ -108,7 +108,12 @@ fn event(app: &App) -> Vec<Part> {
     let last = passed(records, &listed.list, app.playhead()).checked_sub(1);
     match last.map(|index| &listed.list[index]) {
         Some(event) => {
-            parts.push(vec![Span::raw(event_words(event))]);
+            let mut words = event_words(event);
+            if event.mark == Some(Mark::PullOff) && event.jump.is_some() {
+                // The shown state is the one after the jump, and the pull-off is the one before it.
+                words = format!("after {words}");
+            }
+            parts.push(vec![Span::raw(words)]);
             if let Some(jump) = event.jump {
                 let palette = app.view.appearance.palette();
                 let style = palette.ink(ink_of(jump.energy > 0.0));

@@ -12,10 +12,11 @@ use crate::explorer::pane::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text::{Part, filled, wrapped_within};
 use crate::explorer::theme::Meaning;
+use crate::explorer::timeline::passed;
 use crate::explorer::typed;
+use asperity_contact::Move;
 use asperity_data::{counted, format_quantity, format_range, format_rounded};
-
-use asperity_report::square_loops_words;
+use asperity_report::{event_words, square_loops_words};
 use asperity_scene::{Estimate, Outcome};
 use asperity_study::half_space::SquareLoops;
 use asperity_study::{Ensemble, Quantity};
@@ -75,8 +76,13 @@ fn status_of_prompt(
         | Purpose::Topics {
             is_typed: false, ..
         } => None,
-        Purpose::Overwrite(file) => {
-            let question = format!("{} exists. Overwrite it?", file.path.display());
+        Purpose::Overwrite { file, is_changed } => {
+            let state = if *is_changed {
+                "was changed by another program since it was opened"
+            } else {
+                "exists"
+            };
+            let question = format!("{} {state}. Overwrite it?", file.path.display());
             Some(vec![Line::styled(question, app.style(Meaning::Error))])
         }
         Purpose::Leave => {
@@ -186,7 +192,7 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
 fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
-        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
+        Purpose::Value | Purpose::Overwrite { .. } | Purpose::Leave => String::new(),
         Purpose::Target => format!("{} for ", target::name(app)),
         Purpose::Map => "Map ".to_owned(),
         Purpose::SavePlan if is_narrow => "Plan: ".to_owned(),
@@ -270,6 +276,27 @@ impl Fact {
     }
 }
 
+/// Returns what happens while the animation plays: a rest, or the last mark or jump of the
+/// instrument that it has passed. The jumps of patches follow each other too fast to be read.
+fn event_of_animation(app: &App) -> Option<String> {
+    if !app.is_playing() {
+        return None;
+    }
+    let records = app.played_stages();
+    let player = app.playhead();
+    if let Move::Hold(seconds) = records.get(player.stage)?.target {
+        return Some(format!("rest for {}", format_quantity(seconds, "s")));
+    }
+    let events = &app.listed_events()?.ok()?.list;
+    let passed = &events[..passed(records, events, player)];
+    let named = passed
+        .iter()
+        .rfind(|event| event.mark.is_some() || event.instrument.is_some())?;
+    let mut without_patches = *named;
+    without_patches.jump = None;
+    Some(event_words(&without_patches))
+}
+
 /// Returns the main results of the loop for a line of this width, the most important first.
 fn facts(app: &App, width: usize) -> Vec<Fact> {
     let Some(outcome) = app.outcome() else {
@@ -281,6 +308,9 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
         let stages = app.edit.document.scene().loading.len();
         let text = format!("computing, stage {stage} of {stages}");
         facts.push(Fact::new(text, Meaning::Quiet));
+    }
+    if let Some(event) = event_of_animation(app) {
+        facts.push(Fact::new(event, Meaning::Heading));
     }
     if app.view.squares {
         facts.push(fact_of_squares(app, width));

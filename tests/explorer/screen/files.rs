@@ -341,6 +341,14 @@ fn a_saved_scene_goes_on_under_its_new_name() {
     driver.answers("s Enter", "Overwrite it?");
     driver.press("y");
     assert_eq!(fs::read_to_string(&path).unwrap(), driver.document().text());
+    // Another explorer saves its own version in the meantime.
+    fs::write(&path, "theirs").unwrap();
+    driver.answers(
+        "s Enter",
+        "was changed by another program since it was opened. Overwrite it?",
+    );
+    driver.press("n");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
     driver.press("q");
     assert!(driver.app.finished);
 }

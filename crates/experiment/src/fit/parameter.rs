@@ -131,7 +131,7 @@ impl Parameter {
     }
 
     /// Returns true for a parameter that only a body on a half-space that relaxes has.
-    pub(crate) fn is_of_relaxation(self) -> bool {
+    pub fn is_of_relaxation(self) -> bool {
         matches!(self, Parameter::RelaxationShare | Parameter::RelaxationTime)
     }
 

@@ -46,6 +46,8 @@ const AT_END: f64 = 0.01;
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
+    /// Number of coordinates of the curve. Coordinates after these belong to further curves.
+    pub own: usize,
     /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
     /// Sets of parameter values at which further descents of the fit begin.
@@ -348,6 +350,7 @@ impl<'a> Space<'a> {
         let relaxations = other_relaxations(&base, |parameter| is_free(free, parameter));
         let space = Space {
             base,
+            own: coordinates.len(),
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
             other_starts,
@@ -375,10 +378,11 @@ impl<'a> Space<'a> {
     }
 
     /// Returns the values of all parameters at a place, which has one coordinate for each free
-    /// parameter.
+    /// parameter. The coordinates of further curves do not count.
     pub fn values(&self, place: &[f64]) -> Values {
         let mut values = self.base;
-        for (coordinate, &position) in self.coordinates.iter().zip(place) {
+        let coordinates = self.coordinates.iter().zip(place);
+        for (coordinate, &position) in coordinates.take(self.own) {
             values[coordinate.parameter as usize] = coordinate.value(position, &values);
             if coordinate.parameter == Parameter::Work {
                 let work = values[Parameter::Work as usize];
@@ -546,13 +550,19 @@ impl<'a> Space<'a> {
         coordinate.of(value, values)
     }
 
-    /// Returns the coordinates that belong to these values of the parameters. A coordinate outside
-    /// its range is replaced by the nearer end of the range.
+    /// Returns the coordinates that belong to these values of the parameters. Further curves have
+    /// the coordinates of their starts. A coordinate outside its range is replaced by the nearer end
+    /// of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
-        let of = |coordinate: &Coordinate| {
-            self.position(coordinate, values[coordinate.parameter as usize], values)
-        };
-        let place: Vec<f64> = self.coordinates.iter().map(of).collect();
+        let mut place = Vec::with_capacity(self.coordinates.len());
+        for (index, coordinate) in self.coordinates.iter().enumerate() {
+            let value = if index < self.own {
+                values[coordinate.parameter as usize]
+            } else {
+                coordinate.start
+            };
+            place.push(self.position(coordinate, value, values));
+        }
         self.inside(&place)
     }
 

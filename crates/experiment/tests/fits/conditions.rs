@@ -2,7 +2,7 @@
 //! starts a thousand times off.
 
 use crate::common::sphere::{DragOf, Sphere, add_drag, add_noise, path};
-use crate::common::{effort, first_seed, fit_from};
+use crate::common::{cases, first_seed, fit_from};
 use asperity_data::on_threads;
 use asperity_experiment::{
     CurveOptions, ExperimentError, FitResult, MeasuredCurve, Parameter, RangeEnd, Reason, Tilt,
@@ -204,11 +204,11 @@ fn curves_of_all_conditions_are_held() {
     assert_held(10);
 }
 
-/// As many curves as `TEST_EFFORT` says, at least 40 and at most 200.
+/// Forty curves, times `TEST_EFFORT`, and at most 200.
 #[test]
 #[ignore = "fits of many curves take a minute or more"]
 fn most_curves_of_all_conditions_are_held() {
-    assert_held(effort(40).clamp(40, 200));
+    assert_held(cases(40, 200));
 }
 
 /// The curve of a soft gel in a liquid: a sphere of 5 µm with γ = 10 µJ/m² on an instrument of

@@ -3,7 +3,7 @@
 
 use crate::common::bodies::{Body, Specimen};
 use crate::common::specimens::document;
-use crate::common::{effort, first_seed, gauss};
+use crate::common::{cases, first_seed, gauss};
 use asperity_contact::Move;
 use asperity_data::Control;
 use asperity_experiment::{
@@ -49,7 +49,7 @@ impl Tally {
 /// Fits specimens of a body, each with its number of curves, and asserts that nearly all intervals
 /// hold the truth.
 fn check(body: Body) {
-    let count = effort(4).clamp(4, SPECIMENS);
+    let count = cases(4, SPECIMENS);
     let mut tallies = [Tally::default(), Tally::default()];
     for index in 0..count {
         let number = first_seed() + index;

@@ -8,6 +8,7 @@ mod ensembles;
 mod ensembles_of_other_bodies;
 mod nearly_smooth;
 mod relaxation;
+mod relaxing_specimens;
 mod simple_curves;
 mod single_curves;
 mod stiffness;

@@ -4,7 +4,7 @@
 use crate::common::bodies::{Sampled, curve_at};
 use crate::common::specimens::document;
 use crate::common::sphere::Sphere;
-use crate::common::{effort, first_seed};
+use crate::common::{cases, first_seed};
 use asperity_contact::Move;
 use asperity_data::Control;
 use asperity_experiment::{EnsembleFit, EnsembleOptions, fit_ensemble};
@@ -161,9 +161,9 @@ fn assert_held(count: u64) {
     assert!(share >= LEAST_HELD, "{share}");
 }
 
-/// As many specimens as `TEST_EFFORT` says, at least 12.
+/// Four specimens, times `TEST_EFFORT`.
 #[test]
 #[ignore = "comparisons of many specimens take minutes"]
 fn intervals_hold_the_truth_of_nearly_smooth_bodies() {
-    assert_held(effort(12).max(12));
+    assert_held(cases(4, u64::MAX));
 }

@@ -1,6 +1,6 @@
 //! Test: the intervals of many fits hold the known values of their curves.
 
-use crate::common::{effort, first_seed, fitted, free, measured, noise, random, truth};
+use crate::common::{cases, first_seed, fitted, free, measured, noise, random, truth};
 use asperity_data::on_threads;
 use asperity_experiment::{ExperimentError, FitResult, FittedParameter, Parameter};
 use std::fmt;
@@ -25,11 +25,11 @@ impl fmt::Display for Held {
 }
 
 /// Even seeds give smooth spheres and odd seeds rough ones: 8 curves, or 200 with
-/// `TEST_EFFORT=200`.
+/// `TEST_EFFORT=25`.
 #[test]
 #[ignore = "fits of many curves take ten seconds or more"]
 fn intervals_hold_the_truth_of_most_spheres() {
-    let count = effort(8).clamp(8, 200);
+    let count = cases(8, 200);
     let first = first_seed();
     let worker = || {
         move |index: u64| {

@@ -78,8 +78,9 @@ impl LayerShape<'_> {
     }
 
     /// Fills the area between a profile and the level without stress. The colour of each row of
-    /// dots shows the stress at its height. Without colours, pulled springs have only every second
-    /// dot, and the dots along the profile.
+    /// dots shows the stress at its height. Above the profile, pulled springs are lines with gaps,
+    /// so that they do not hide its peaks. Without colours, they have only every second dot, and
+    /// the dots along the profile.
     fn fill(
         &self,
         painter: &mut Painter<'_, '_>,
@@ -126,9 +127,16 @@ impl LayerShape<'_> {
             };
             let top = edge.min(level);
             let bottom = edge.max(level);
+            let highest = row_at(high);
             for column in first..end {
                 for (row, colour) in (top..).zip(&colours[top..=bottom]) {
-                    if !is_thinned || row == edge || (column + row).is_multiple_of(2) {
+                    let is_above = self.ink == Ink::Pull && row < highest;
+                    let is_painted = if is_thinned {
+                        row == edge || (column + row).is_multiple_of(2)
+                    } else {
+                        !is_above || column.is_multiple_of(2)
+                    };
+                    if is_painted {
                         painter.paint(column, row, *colour);
                     }
                 }
