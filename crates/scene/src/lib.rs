@@ -126,9 +126,9 @@ pub mod instrument {
 
 /// Parts of the computation of a scene, with their times and memory.
 pub mod workload {
+    pub use crate::simulation::loading::AfterStage;
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};
     pub use crate::simulation::roughness::equivalent_springs;
-    pub use crate::simulation::stages::AfterStage;
     pub use crate::simulation::workload::{PlannedPart, WorkPart, Workload};
 }
