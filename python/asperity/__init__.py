@@ -35,10 +35,10 @@ from ._functions import (
     self_affine,
     spectrum,
     sphere,
+    spheres,
     study,
     surface,
     table,
-    two_spheres,
     wavy_sphere,
 )
 from ._loop import Loop
@@ -203,9 +203,9 @@ __all__ = [
     "self_affine",
     "spectrum",
     "sphere",
+    "spheres",
     "study",
     "surface",
     "table",
-    "two_spheres",
     "wavy_sphere",
 ]

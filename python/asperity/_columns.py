@@ -52,6 +52,8 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "radius": ("m", "radius of the sphere"),
     "second_radius": ("m", "radius of the second sphere"),
     "behind": ("m", "distance of the second apex behind the first one"),
+    "relaxation_share": ("1", "share of the modulus that relaxes"),
+    "relaxation_time": ("s", "relaxation time"),
     "pull_off_work": ("J/m²", "work of adhesion of a smooth sphere with the pull-off force of the curve"),
     "residual_over_noise": ("1", "rms residual in contact divided by the noise"),
     "residual_over_largest_force": ("1", "rms residual in contact divided by the largest force"),
@@ -76,6 +78,9 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "waves": ("1", "number of waves averaged"),
     "fit_change": ("N", "change of F_a by a random change of the spectrum within the uncertainty of its fit"),
 }
-for _name in ("work", "closing_work", "modulus", "offset", "zero", "stiffness", "radius", "second_radius", "behind"):
+for _name in (
+    *("work", "closing_work", "modulus", "offset", "zero", "stiffness", "radius", "second_radius", "behind"),
+    *("relaxation_share", "relaxation_time"),
+):
     for _end, _meaning in (("low", "lower"), ("high", "upper")):
         COLUMNS[f"{_name}_{_end}"] = (COLUMNS[_name][0], f"{_meaning} end of the 95 % interval")

@@ -71,7 +71,7 @@ AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 _PLAIN = "(version: 1, material: (modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
 _DETRENDS = {"none": "Nothing", "nothing": "Nothing", "mean": "Mean", "tilt": "Tilt", "curvature": "Curvature"}
-_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "TwoSpheres", "Table")
+_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "Spheres", "Table")
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
@@ -310,20 +310,32 @@ def rounded_cone(radius: Quantity, angle: Quantity) -> Form:
     )
 
 
-def two_spheres(radius: Quantity, second_radius: Quantity, behind: Quantity) -> Form:
-    """Returns two spheres side by side on one probe, each above a half of the length of the profile.
+def spheres(spheres: Sequence[Quantity | tuple[Quantity, Quantity]]) -> Form:
+    """Returns spheres side by side on one probe, each above an equal part of the length of the profile.
 
-    The radii are in m. `behind` is the depth in m of the apex of the second sphere below the apex of the first one.
+    Each sphere is a pair of its radius and the depth of its apex below that of the sphere ahead, both in m. A radius alone is a
+    sphere ahead.
 
-    >>> asp.two_spheres("100 µm", "80 µm", behind="50 nm")
-    TwoSpheres(radius: 0.0001, second_radius: 8e-05, behind: 5e-08)
+    >>> asp.spheres(["100 µm", ("80 µm", "50 nm")])
+    Spheres([(radius: 0.0001, behind: 0.0), (radius: 8e-05, behind: 5e-08)])
     """
-    return Form(
-        "TwoSpheres",
-        radius=field_number(radius, "form.radius", "TwoSpheres", "radius"),
-        second_radius=field_number(second_radius, "form.second_radius", "TwoSpheres", "second_radius"),
-        behind=field_number(behind, "form.behind", "TwoSpheres", "behind"),
-    )
+    if isinstance(spheres, (str, bytes)) or not isinstance(spheres, Sequence):
+        raise refused_type("spheres", spheres, "a list of radii, or of pairs of a radius and a distance behind")
+    listed = []
+    for index, given in enumerate(spheres):
+        if isinstance(given, (tuple, list)):
+            if len(given) != 2:
+                raise refusal(f"spheres[{index}]", given, "a radius, or a pair of a radius and a distance behind")
+            radius, behind = given
+        else:
+            radius, behind = given, 0.0
+        listed.append(
+            {
+                "radius": field_number(radius, "form.0.radius", "Spheres", f"spheres[{index}]"),
+                "behind": field_number(behind, "form.0.behind", "Spheres", f"spheres[{index}]"),
+            }
+        )
+    return _checked("form", Form("Spheres", listed))
 
 
 def table(file: str | os.PathLike[str], unit: str | None = None) -> Form:
@@ -1042,7 +1054,7 @@ def fit(
 ) -> EnsembleFit: ...
 @overload
 def fit(
-    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike],
+    curves: AnyPath | tuple[npt.ArrayLike, npt.ArrayLike] | tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
@@ -1060,7 +1072,10 @@ def fit(
 ) -> Fit: ...
 @overload
 def fit(
-    curves: list[str] | list[Path] | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]],
+    curves: list[str]
+    | list[Path]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any]]]
+    | list[tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]],
     scene: AnyScene,
     /,
     free: str | Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
@@ -1114,11 +1129,12 @@ def fit(
     """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
 
     A curve is a file, or two arrays with displacements in m and forces in N: a pair, an array of two rows or columns, or a table
-    of pandas with two columns. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
+    of pandas with two columns. A third array of a tuple has times in s. `"map.txt#3"` is the third curve of a file with several. A list `["map.txt"]` or `["folder"]`
     gives all curves of this file or folder, each with its place. `free` names the parameters to fit: work, closing_work, modulus, offset, zero, stiffness,
-    radius, relaxation_share and relaxation_time, and second_radius and behind of two spheres. A dictionary gives their ranges as well:
+    radius, relaxation_share and relaxation_time, and second_radius and behind of the second of several spheres. A dictionary gives their ranges as well:
     `{"work": ("1 mJ/m²", "1 J/m²"), "offset": (-1e-6, 1e-6)}`. With `profiles`, one work of adhesion is found for all curves of a
-    rough body, by comparison with so many random profiles. `options` state how to read the curves, as `asperity fit --help`
+    rough body, by comparison with so many random profiles. With relaxation, several files or arrays are curves of one specimen,
+    such as curves at several speeds, and share all parameters but offset and zero. `options` state how to read the curves, as `asperity fit --help`
     lists them: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}`.
 
     >>> ball = asp.profile("100 µm", 1024, form=asp.sphere("100 µm"))
@@ -1156,6 +1172,8 @@ def fit(
         check_executor(executor)
         with naming("curves", shown):
             names = _native.curve_names(call, (all_curves, words))
+        if len(names) == len(all_curves) > 1 and any(name.startswith("relaxation") for name, _ in _ranges(free)):
+            raise refusal("executor", executor, "None, since curves of one specimen that relaxes are fitted together")
         arrays = (curve for curve in all_curves if curve[1] is not None)
         all_curves = [next(arrays) if name is None else (name, None) for name in names]
         several = ranges(len(all_curves))
@@ -1174,12 +1192,13 @@ def fit(
     return found
 
 
-def _columns(curve: Any) -> tuple[Any, Any] | None:
-    """Returns the displacements and the forces of a curve that is given by numbers; None if it is given otherwise."""
+def _columns(curve: Any) -> tuple[Any, ...] | None:
+    """Returns the displacements, forces and perhaps times of a curve that is given by numbers; None if it is given otherwise."""
     if hasattr(curve, "to_numpy"):
         curve = curve.to_numpy()
-    if isinstance(curve, tuple) and len(curve) == 2 and not any(isinstance(part, (str, os.PathLike)) for part in curve):
-        return curve[0], curve[1]
+    if isinstance(curve, tuple) and len(curve) in (2, 3) and not any(isinstance(part, (str, os.PathLike)) for part in curve):
+        if len(curve) == 2 or all(_is_row_of_numbers(part) for part in curve):
+            return curve
     shape = getattr(curve, "shape", None)
     if shape is not None and len(shape) == 2 and 2 in shape:
         rows = curve if shape[0] == 2 else curve.T
@@ -1202,10 +1221,11 @@ def _is_curve(curves: Any) -> bool:
 def _curve(index: int, curve: Any) -> tuple[str, Any]:
     columns = _columns(curve)
     if columns is not None:
-        return f"curve {index + 1}", (numbers(columns[0], "displacement"), numbers(columns[1], "force"))
+        rows = [numbers(column, name) for column, name in zip(columns, ("displacement", "force", "time"), strict=False)]
+        return f"curve {index + 1}", (rows[0], rows[1], rows[2] if len(rows) == 3 else [])
     if isinstance(curve, (str, os.PathLike)):
         return path(curve, "curves"), None
-    allowed = "a file, or two arrays with displacements and forces"
+    allowed = "a file, or two arrays with displacements and forces, and perhaps a third with times"
     raise refusal("curves", f"curve {index}, counted from 0, of the type {type(curve).__name__}", allowed)
 
 

@@ -29,13 +29,14 @@ class Text(str):
 class Form:
     """Form or roughness of a body, as functions such as `sphere` and `self_affine` return it."""
 
-    def __init__(self, kind: str, **values: Any) -> None:
+    def __init__(self, kind: str, *elements: Any, **values: Any) -> None:
         self.kind = kind
+        self.elements = elements
         self.values = {name: value for name, value in values.items() if value is not None}
 
     def notation(self) -> str:
         """Returns the form or roughness as a scene file has it."""
-        return self.kind + in_scene(self.values, "values")
+        return self.kind + in_scene(self.elements or self.values, "values")
 
     def __repr__(self) -> str:
         text = self.notation()

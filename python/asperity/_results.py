@@ -588,6 +588,8 @@ class Fit(Drawn):
     radius = _Parameter("m", "radius of the sphere")
     second_radius = _Parameter("m", "radius of the second sphere")
     behind = _Parameter("m", "distance of the apex of the second sphere behind the first one")
+    relaxation_share = _Parameter("1", "share of the modulus that relaxes")
+    relaxation_time = _Parameter("s", "relaxation time")
     described = Attribute[bool]("", "whether the model describes the curve within its noise")
     description = Attribute[str]("", "how well the model describes the curve")
     reason = Attribute[str | None]("", "why the model does not describe the curve within its noise")
@@ -653,6 +655,7 @@ class Fits(Drawn):
     described = Attribute[Distribution | None]("", "first parameter over the curves that the model describes")
     all = Attribute[Distribution | None]("", "first parameter over all fitted curves")
     spreads = Attribute[list[Spread]]("", "median and scatter of each quantity over all fitted curves")
+    together = Attribute[bool]("", "whether all curves were fitted together, so that they share parameters")
     curves = Attribute[Table[FittedCurve]](
         "", "one row for each curve: values and intervals of the parameters, or the reason why there are none"
     )

@@ -10,8 +10,8 @@ use asperity::cli::arguments::Command;
 use asperity::cli::fit::FitArguments;
 use asperity::data::{Control, Remedied, counted, on_threads, path_name};
 use asperity::experiment::{
-    CurveOptions, CurveSource, EnsembleOptions, ExperimentError, Fit, Free, MeasuredCurve,
-    Parameter, fit_ensemble,
+    CurveOptions, CurveSource, EnsembleOptions, ExperimentError, Fit, FitResult, MeasuredCurve,
+    Parameter, SeveralCurves, fit_ensemble,
 };
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
 use pyo3::prelude::*;
@@ -19,20 +19,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A measured curve, given by its name and its columns: displacements in m and forces in N. If the
-/// columns are `None`, the curve is read from a file, and the name is the path of this file.
+/// A measured curve, given by its name and its columns: displacements in m, forces in N, and times
+/// in s or nothing. If the columns are `None`, the curve is read from a file, and the name is the
+/// path of this file.
 #[derive(FromPyObject)]
-pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
+pub struct Curve(String, Option<(Vec<f64>, Vec<f64>, Vec<f64>)>);
 
 impl Curve {
     /// Returns the curves that this one names: those of a folder, and those of a file with
     /// several.
     fn sources(&self, options: &CurveOptions) -> Result<Vec<Source<'_>>, Failure> {
-        if let Some((displacement, force)) = &self.1 {
+        if let Some((displacement, force, seconds)) = &self.1 {
             return Ok(vec![Source::Columns {
                 name: &self.0,
                 displacement,
                 force,
+                seconds,
             }]);
         }
         let path = PathBuf::from(&self.0);
@@ -41,6 +43,12 @@ impl Curve {
             .map_err(|error| Failure::of_files(&[path], error.in_words(argument)))?
             .into_iter();
         Ok(sources.map(Source::File).collect())
+    }
+
+    /// Returns true unless this one names a folder or a file with several curves.
+    fn is_one(&self, options: &CurveOptions) -> bool {
+        let path = Path::new(&self.0);
+        self.1.is_some() || !path.is_dir() && SeveralCurves::read(path, options).is_none()
     }
 
     /// Returns the only curve that this one names.
@@ -63,6 +71,7 @@ enum Source<'a> {
         name: &'a str,
         displacement: &'a [f64],
         force: &'a [f64],
+        seconds: &'a [f64],
     },
     File(CurveSource),
 }
@@ -86,9 +95,10 @@ impl Source<'_> {
             Source::Columns {
                 displacement,
                 force,
+                seconds,
                 ..
             } => Ok(Placed {
-                curve: MeasuredCurve::from_columns(displacement, force, options)?,
+                curve: MeasuredCurve::from_timed_columns(displacement, force, seconds, options)?,
                 position: None,
             }),
             Source::File(source) => {
@@ -191,6 +201,26 @@ impl Asked {
         Ok(Asked { arguments, reading })
     }
 
+    /// Returns true if these are several curves of one specimen, which are fitted together: with
+    /// relaxation, and without folders and files of several curves.
+    fn shares_parameters(&self, curves: &[Curve]) -> bool {
+        let mut free = self.arguments.free.iter();
+        let relaxes = free.any(|free| free.parameter.is_of_relaxation());
+        relaxes && curves.len() > 1 && curves.iter().all(|curve| curve.is_one(&self.reading))
+    }
+
+    /// Returns the free parameters in the order of tables.
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = Vec::new();
+        for parameter in Parameter::ALL {
+            let mut free = self.arguments.free.iter();
+            if free.any(|free| free.parameter == parameter) {
+                parameters.push(parameter);
+            }
+        }
+        parameters
+    }
+
     fn fit<'a>(&self, case: &'a Case) -> Fit<'a> {
         let mut fit = Fit::of(&case.document);
         if let Some(measured) = &case.in_memory {
@@ -221,14 +251,15 @@ pub fn fit(
                 .ensemble
                 .options(&asked.arguments.free, profiles)
                 .map_err(|error| error.to_string())?;
-            return fit_together(&case, &curves, &asked.reading, &options);
+            return fit_profiles(&case, &curves, &asked.reading, &options);
         }
         let fit = asked.fit(&case);
         match &curves[..] {
             [curve] if is_one => fit_single(&case, &fit, curve, &asked.reading),
+            _ if asked.shares_parameters(&curves) => fit_together(&case, &fit, &curves, &asked),
             _ => {
                 let rows = fit_each(&case, &fit, &curves, &asked.reading)?;
-                report_of_rows(&case, &asked.arguments.free, &curves, rows)
+                report_of_rows(&case, &asked, &curves, rows)
             }
         }
     })
@@ -265,7 +296,7 @@ pub fn fits_of_parts(
         for part in &parts {
             rows.extend(read_again::<Vec<CurveRow>>(part)?);
         }
-        report_of_rows(&case, &asked.arguments.free, &curves, rows)
+        report_of_rows(&case, &asked, &curves, rows)
     })
 }
 
@@ -275,7 +306,7 @@ fn computed_curves(computed: &u64) -> Option<u64> {
 }
 
 /// Fits a scene with random profiles to all curves together.
-fn fit_together(
+fn fit_profiles(
     case: &Case,
     curves: &[Curve],
     reading: &CurveOptions,
@@ -301,6 +332,37 @@ fn fit_together(
         };
         bytes(named(&document, &in_memory), &report, format)
     }))
+}
+
+/// Fits a scene to several curves of one specimen together.
+fn fit_together(
+    case: &Case,
+    fit: &Fit,
+    curves: &[Curve],
+    asked: &Asked,
+) -> Result<Report, Failure> {
+    let mut measured = Vec::with_capacity(curves.len());
+    let mut positions = Vec::with_capacity(curves.len());
+    for curve in curves {
+        let source = curve.source(&asked.reading)?;
+        let placed = source.read(&asked.reading)?;
+        measured.push((source.name(), placed.curve));
+        positions.push(placed.position);
+    }
+    let together = case.watched(0, computed_curves, |control| {
+        fit.run_together(&measured, control)
+    })?;
+    let mut rows = Vec::with_capacity(together.len());
+    for (((name, curve), found), position) in measured.iter().zip(&together).zip(positions) {
+        let report = FitReport {
+            title: name,
+            curve,
+            fit: found,
+            wording: argument,
+        };
+        rows.push(CurveRow::fitted(&report, position));
+    }
+    Ok(report_of(case, asked.parameters(), rows, together))
 }
 
 /// Fits a scene to a single curve.
@@ -379,26 +441,32 @@ fn row_of(
 /// Returns the report on several curves, of which at least one must be fitted.
 fn report_of_rows(
     case: &Case,
-    free: &[Free],
+    asked: &Asked,
     curves: &[Curve],
     rows: Vec<CurveRow>,
 ) -> Result<Report, Failure> {
     check_any_fitted(curves, &rows)?;
-    let mut parameters = Vec::new();
-    for parameter in Parameter::ALL {
-        if free.iter().any(|free| free.parameter == parameter) {
-            parameters.push(parameter);
-        }
-    }
+    Ok(report_of(case, asked.parameters(), rows, Vec::new()))
+}
+
+/// Returns the report on several curves with these free parameters. `together` has the results of
+/// curves that were fitted together.
+fn report_of(
+    case: &Case,
+    parameters: Vec<Parameter>,
+    rows: Vec<CurveRow>,
+    together: Vec<FitResult>,
+) -> Report {
     let document = case.document.clone();
     let in_memory = case.in_memory.clone();
-    Ok(Report::new(move |format| {
+    Report::new(move |format| {
         let report = FitsReport {
             scene: document.scene(),
             free: &parameters,
             rows: &rows,
+            together: &together,
             wording: argument,
         };
         bytes(named(&document, &in_memory), &report, format)
-    }))
+    })
 }

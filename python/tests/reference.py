@@ -29,7 +29,7 @@ FUNCTIONS = {
         "punch",
         "power",
         "wavy_sphere",
-        "two_spheres",
+        "spheres",
         "revolve",
         "table",
         "self_affine",

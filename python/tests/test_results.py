@@ -158,6 +158,38 @@ class Objects(unittest.TestCase):
         for error in [asp.FieldError("a", "b", "c", "d"), asp.LoadingError("a", 1, None)]:
             self.assertEqual(vars(pickle.loads(pickle.dumps(error))), vars(error))
 
+    def test_curves_of_several_speeds_share_one_relaxation(self):
+        fields = {"numerics__points": 512, "form__radius": 7.5e-6, "length": 2.4e-5, "loading_stiffness": 3}
+        relaxing = {"modulus": 1.5e6, "work": 0.05, "material__relaxation": "(share: 0.3, time: 5.0)", **fields}
+        curves = []
+        for seed, speed in enumerate((1e-7, 1e-6)):
+            stages = "displacement 2 µm, separation"
+            loop = asp.run("jkr-sphere", stages=stages, loading_speed=speed, **relaxing).loop
+            seconds = np.linspace(0, loop.time[-1], 150)
+            step = seconds[1] * np.arange(1, 51)
+            d, force = (np.interp(seconds, loop.time, column) for column in (loop.displacement, loop.force))
+            d = np.r_[-speed * step[::-1], d, d[-1] - speed * step]
+            force = np.r_[0 * step, force, 0 * step] + 2e-8 * np.random.default_rng(seed).standard_normal(len(d))
+            curves.append((d, force, np.r_[-step[::-1], seconds, seconds[-1] + step]))
+        free = ["work", "modulus", "offset", "relaxation_share", "relaxation_time"]
+        fits = asp.fit(curves, "jkr-sphere", free, **fields)
+        self.assertTrue(fits.together)
+        first, second = fits.curves
+        self.assertEqual(first.relaxation_time, second.relaxation_time)
+        self.assertNotEqual(first.offset, second.offset)
+        self.assertLess(abs(first.relaxation_time / 5 - 1), 0.2)
+        self.assertLess(first.work_low, 0.05)
+        self.assertLess(0.05, first.work_high)
+        alone = asp.fit(curves[0], "jkr-sphere", free, **fields)
+        in_list = asp.fit(curves[:1], "jkr-sphere", free, **fields)
+        self.assertFalse(in_list.together)
+        self.assertEqual(in_list.curves[0].work, alone.work.value)
+        self.assertEqual(in_list.curves[0].relaxation_time_high, alone.relaxation_time.high)
+        with self.assertRaisesRegex(ValueError, "fitted together"), concurrent.futures.ThreadPoolExecutor(1) as executor:
+            asp.fit(curves, "jkr-sphere", free, executor=executor, **fields)
+        with self.assertRaisesRegex(ValueError, "2 forces and 1 times|200 forces and 1 times|times"):
+            asp.fit((curves[0][0], curves[0][1], [1.0]), "jkr-sphere", free, **fields)
+
     def test_a_pool_of_processes_computes_what_one_process_computes(self):
         balls = [asp.profile("100 µm", points, form=asp.sphere("100 µm")) for points in (256, 512)]
         with concurrent.futures.ProcessPoolExecutor(2) as executor:

@@ -3,7 +3,7 @@
 use super::advice::option;
 use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
-use super::fits::{Curves, fit_all, show_curves};
+use super::fits::{Curves, fit_all, fit_together, show_curves};
 use super::output::{Origin, OutputArguments, check_file};
 use super::progress::{Task, watched};
 use super::scene::{Overrides, open_scene, threads};
@@ -25,6 +25,7 @@ Examples:
   asperity fit places/*.csv rough.ron --free work,modulus --profiles 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
   asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o all.csv --curves models
+  asperity fit slow.csv fast.csv soft.ron --free work,offset,relaxation_share,relaxation_time
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or only a retraction that ends without contact. The scene is the last argument. A
@@ -50,9 +51,11 @@ pub struct FitArguments {
     ///
     /// The parameters are work, closing_work, modulus, offset, zero, stiffness and radius.
     ///
-    /// A probe of two spheres has the parameters second_radius and behind too.
+    /// A probe of several spheres has second_radius and behind of the second one too.
     ///
     /// A half-space that relaxes has relaxation_share and relaxation_time.
+    ///
+    /// Several files are then curves of one specimen, and share all but offset and zero.
     #[arg(
         long,
         required = true,
@@ -115,10 +118,8 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         tables: arguments.curves.as_deref(),
         output,
     };
-    let is_one = match paths {
-        [path] => !path.is_dir() && SeveralCurves::read(path, reading).is_none(),
-        _ => false,
-    };
+    let has_one = |path: &PathBuf| !path.is_dir() && SeveralCurves::read(path, reading).is_none();
+    let is_one = paths.len() == 1 && has_one(&paths[0]);
     if arguments.scene.is_some() && !(is_one && compared.lines.is_none()) {
         let fault =
             "several curves or profiles; allowed: a fit of one curve, whose scene is written";
@@ -132,8 +133,10 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     if let Some(lines) = compared.lines {
         return ensemble(&curves, compared, lines, stdout);
     }
+    let relaxes = free.iter().any(|free| free.parameter.is_of_relaxation());
     match paths {
         [path] if is_one => fit_one(arguments, &curves, path, stdout),
+        [_, _, ..] if relaxes && paths.iter().all(has_one) => fit_together(&curves, stdout),
         _ => fit_all(&curves, stdout),
     }
 }

@@ -5,7 +5,7 @@ use super::advice::option;
 use super::curve_tables::CurveTables;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
-use super::progress::{ProgressLine, SignalWatch};
+use super::progress::{ProgressLine, SignalWatch, Task, watched};
 use super::scene::{Overrides, threads, warn_beside};
 use asperity_data::{
     Control, Remedied, check_writable, counted, grouped, on_threads, path_name, printable,
@@ -30,6 +30,8 @@ const FORMATS: &[Format] = &[
     Format::Png,
     Format::Pdf,
 ];
+/// Formats of curves that are fitted together, whose shared parameters have no distribution.
+const FORMATS_TOGETHER: &[Format] = &[Format::Text, Format::Json, Format::Csv];
 /// Beginning of the first line of a table.
 const PROGRAM: &str = "# asperity ";
 /// Beginning of the line with the command in a table.
@@ -95,58 +97,14 @@ struct Batch<'a> {
 /// Fits a scene to each of the curves in turn, and writes a table with a row for each curve.
 pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(), CliError> {
     let output = curves.output;
-    let format = Format::of_file(output.file(), output.format, FORMATS, Format::Text);
-    let format = format.map_err(CliError::message)?;
+    let format = format_of(output, FORMATS)?;
     let table = output.file().filter(|_| format == Format::Csv);
     if let Some(path) = output.file() {
         check_writable(path, output.force || table.is_some())?;
     }
-    let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    let reading = curves.reading_for(&document);
-    let sources = CurveSource::all(curves.paths, output.file(), &reading)
-        .map_err(|error| CliError::message(error.in_words(option)))?;
-    // The number of threads and the tables of the curves have no influence on the rows. Therefore
-    // the command in the table does not contain them, and the same table can be continued with
-    // other values of these options.
-    let command = command_without(&["--jobs", "--curves"]);
-    let provenance_in = |folder: &Path| {
-        scene_provenance(&command, document.scene(), &document.resolve(""), folder)
-            .map_err(CliError::message)
-    };
-    let provenance = provenance_in(output.folder())?;
-    let is_same_folder = |path: &PathBuf| {
-        let folder = curves.tables.and_then(|folder| canonicalize(folder).ok());
-        folder.is_some() && canonicalize(path).ok() == folder
-    };
-    if let Some(folder) = curves.paths.iter().find(|path| is_same_folder(path)) {
-        let fault = "the tables would lie among the curves; allowed: another folder for --curves";
-        return Err(CliError::named(path_name(folder), fault));
-    }
-    let tables = match curves.tables {
-        Some(folder) => Some(CurveTables::prepare(
-            folder,
-            &sources,
-            output.file(),
-            provenance_in(folder)?,
-            output.force,
-        )?),
-        None => None,
-    };
-    let mut free = Vec::new();
-    for parameter in Parameter::ALL {
-        if curves.free.iter().any(|free| free.parameter == parameter) {
-            free.push(parameter);
-        }
-    }
-    let batch = Batch {
-        free,
-        reading,
-        curves,
-        provenance,
-        tables,
-        document,
-    };
-    let rows = batch.rows(&sources, table)?;
+    let prepared = Prepared::new(curves)?;
+    let batch = &prepared.batch;
+    let rows = batch.rows(&prepared.sources, table)?;
     let report = batch.report(&rows);
     let failure = report.failure().map(CliError::message);
     if let Some(failure) = failure.filter(|_| format.is_picture()) {
@@ -156,12 +114,7 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         Some(path) => write_new(path, true, |out| {
             write(out, &report, format, &batch.provenance)
         })?,
-        None => output.write(
-            stdout,
-            &report,
-            format,
-            Origin::Scene(&batch.document, batch.document.scene()),
-        )?,
+        None => batch.write(&report, format, stdout)?,
     }
     stdout.flush()?;
     warn_beside(&batch.document, &report, format);
@@ -180,6 +133,122 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         );
     }
     Ok(())
+}
+
+/// Fits a scene to all curves together, and writes a table with a row for each curve.
+pub(super) fn fit_together(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let output = curves.output;
+    let format = format_of(output, FORMATS_TOGETHER)?;
+    if let Some(path) = output.file() {
+        check_writable(path, output.force)?;
+    }
+    let Prepared { batch, sources } = Prepared::new(curves)?;
+    let names: Vec<String> = sources.iter().map(CurveSource::name).collect();
+    check_names(&names)?;
+    let mut measured = Vec::with_capacity(sources.len());
+    let mut positions = Vec::with_capacity(sources.len());
+    for (source, name) in sources.iter().zip(&names) {
+        let placed = source.read(&batch.reading);
+        let PlacedCurve {
+            curve, position, ..
+        } = placed.map_err(|error| CliError::named(name, error.in_words(option)))?;
+        measured.push((name.clone(), curve));
+        positions.push(position);
+    }
+    let fit = batch.fit();
+    let task = Task {
+        name: Some(batch.document.name()),
+        threads: threads(None),
+        begins: "0 curves computed".to_owned(),
+    };
+    let together = watched(task, show_curves, |control| {
+        fit.run_together(&measured, control)
+    })?;
+    let mut rows = Vec::with_capacity(together.len());
+    for (((name, curve), found), position) in measured.iter().zip(&together).zip(positions) {
+        let report = FitReport {
+            wording: option,
+            title: name,
+            curve,
+            fit: found,
+        };
+        if let Some(tables) = &batch.tables {
+            tables.write(name, &report)?;
+        }
+        rows.push(CurveRow::fitted(&report, position));
+    }
+    let report = FitsReport {
+        together: &together,
+        ..batch.report(&rows)
+    };
+    batch.write(&report, format, stdout)?;
+    stdout.flush()?;
+    warn_beside(&batch.document, &report, format);
+    Ok(())
+}
+
+fn format_of(output: &OutputArguments, allowed: &[Format]) -> Result<Format, CliError> {
+    let format = Format::of_file(output.file(), output.format, allowed, Format::Text);
+    format.map_err(CliError::message)
+}
+
+/// Curves that have been found, and what their fits share.
+struct Prepared<'a> {
+    batch: Batch<'a>,
+    sources: Vec<CurveSource>,
+}
+
+impl<'a> Prepared<'a> {
+    fn new(curves: &'a Curves<'a>) -> Result<Self, CliError> {
+        let output = curves.output;
+        let document = curves.overrides.apply(open_argument(curves.scene)?)?;
+        let reading = curves.reading_for(&document);
+        let sources = CurveSource::all(curves.paths, output.file(), &reading)
+            .map_err(|error| CliError::message(error.in_words(option)))?;
+        // The number of threads and the tables of the curves have no influence on the rows.
+        // Therefore the command in the table does not contain them, and the same table can be
+        // continued with other values of these options.
+        let command = command_without(&["--jobs", "--curves"]);
+        let provenance_in = |folder: &Path| {
+            scene_provenance(&command, document.scene(), &document.resolve(""), folder)
+                .map_err(CliError::message)
+        };
+        let provenance = provenance_in(output.folder())?;
+        let is_same_folder = |path: &PathBuf| {
+            let folder = curves.tables.and_then(|folder| canonicalize(folder).ok());
+            folder.is_some() && canonicalize(path).ok() == folder
+        };
+        if let Some(folder) = curves.paths.iter().find(|path| is_same_folder(path)) {
+            let fault =
+                "the tables would lie among the curves; allowed: another folder for --curves";
+            return Err(CliError::named(path_name(folder), fault));
+        }
+        let tables = match curves.tables {
+            Some(folder) => Some(CurveTables::prepare(
+                folder,
+                &sources,
+                output.file(),
+                provenance_in(folder)?,
+                output.force,
+            )?),
+            None => None,
+        };
+        let mut free = Vec::new();
+        for parameter in Parameter::ALL {
+            if curves.free.iter().any(|free| free.parameter == parameter) {
+                free.push(parameter);
+            }
+        }
+        let batch = Batch {
+            free,
+            reading,
+            curves,
+            provenance,
+            tables,
+            document,
+        };
+        Ok(Prepared { batch, sources })
+    }
 }
 
 /// Returns an error if a file is named twice, because the table can have only one row for each
@@ -203,6 +272,7 @@ impl Batch<'_> {
             scene: self.document.scene(),
             free: &self.free,
             rows,
+            together: &[],
             wording: option,
         }
     }
@@ -282,6 +352,26 @@ impl Batch<'_> {
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
+    /// Returns the fit of the scene.
+    fn fit(&self) -> Fit<'_> {
+        let mut fit = Fit::of(&self.document);
+        for free in self.curves.free {
+            fit = fit.free(*free);
+        }
+        fit
+    }
+
+    /// Writes a report in a format to its file or to the output.
+    fn write(
+        &self,
+        report: &FitsReport<'_>,
+        format: Format,
+        stdout: &mut dyn Write,
+    ) -> Result<(), CliError> {
+        let origin = Origin::Scene(&self.document, self.document.scene());
+        self.curves.output.write(stdout, report, format, origin)
+    }
+
     /// Fits the scene to a curve, and writes the table of the curve if one is asked for.
     ///
     /// # Errors
@@ -299,11 +389,7 @@ impl Batch<'_> {
             Ok(placed) => placed,
             Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
         };
-        let mut fit = Fit::of(&self.document);
-        for free in self.curves.free {
-            fit = fit.free(*free);
-        }
-        let found = match fit.run(&curve, Control::default().stopped_by(stop)) {
+        let found = match self.fit().run(&curve, Control::default().stopped_by(stop)) {
             Ok(found) => found,
             Err(error) => return Ok(CurveRow::failed(name, &error.in_words(option))),
         };

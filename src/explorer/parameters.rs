@@ -7,11 +7,14 @@ use super::profiles;
 use super::text::on_one_line;
 use asperity_contact::Move;
 use asperity_data::{format_quantity, grouped};
-use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field, target_field};
+use asperity_scene::fields::{
+    Effect, Field, Range, STAGE, choice_in_words, field, sphere_values, target_field,
+};
 use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
 use asperity_study::Ensemble;
+use asperity_surface::Form;
 use std::collections::BTreeSet;
 
 /// Groups in the order in which the list shows them. The groups that users change most often come
@@ -67,6 +70,8 @@ pub struct Parameter {
     pub group: &'static str,
     /// Index of the loading stage; `None` if the row is not a loading stage.
     pub stage: Option<usize>,
+    /// Index of the sphere; `None` if the row is no value of one of several spheres.
+    pub sphere: Option<usize>,
     /// Value of the parameter in the notation of the scene file.
     pub written: String,
     /// Value as the user sees it. The text is empty if the value follows from other values and must
@@ -104,6 +109,7 @@ impl Parameter {
             path: path.to_owned(),
             group: group_of(path),
             stage: None,
+            sphere: None,
             written: String::new(),
             shown: String::new(),
             effect: effect_of(path),
@@ -111,10 +117,10 @@ impl Parameter {
         }
     }
 
-    /// Returns the name of the parameter. For a loading stage, the number of the stage is added.
+    /// Returns the name of the parameter. For a loading stage or a sphere, its number is added.
     pub fn name(&self) -> String {
-        match self.stage {
-            Some(stage) => format!("{} {}", self.field.name, stage + 1),
+        match self.stage.or(self.sphere) {
+            Some(index) => format!("{} {}", self.field.name, index + 1),
             None => self.field.name.to_owned(),
         }
     }
@@ -255,6 +261,9 @@ impl Rows {
             }
             if field.path == "loading" {
                 listed.extend(stage_rows(&document.scene().loading));
+            }
+            if field.path == "form" {
+                listed.extend(sphere_rows(document));
             }
         }
         add_other_adhesion(&mut listed);
@@ -409,6 +418,25 @@ fn curve_rows(measured: &Measured) -> Vec<Parameter> {
             shown: option.shown(measured),
             ..Parameter::new(&option.field, option.field.path)
         });
+    }
+    rows
+}
+
+/// Returns the rows of all spheres of the form: the radius of each sphere, and its distance behind
+/// the sphere that is ahead.
+fn sphere_rows(document: &Document) -> Vec<Parameter> {
+    let form = document.scene().form.as_ref();
+    let spheres = form.map_or(&[][..], Form::spheres);
+    let mut rows = Vec::new();
+    for (index, sphere) in spheres.iter().enumerate() {
+        for (field, value) in sphere_values(*sphere) {
+            rows.push(Parameter {
+                sphere: Some(index),
+                written: ron_float(value),
+                shown: format_quantity(value, field.unit),
+                ..Parameter::new(field, &format!("form.{index}.{}", field.last()))
+            });
+        }
     }
     rows
 }

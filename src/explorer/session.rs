@@ -137,27 +137,18 @@ pub fn open(
     if asks_background {
         terminal::ask_background()?;
     }
-    let mut app = begin(
+    let app = first_state(
         opening.into(),
         (size.width, size.height),
         appearance,
-        options.config,
+        &options,
     );
-    let offer = restore_or_offer(
-        &mut app,
-        options.restored.as_ref(),
-        options.unsaved.as_deref(),
-    );
-    app.state_beside(options.warning, offer);
     let autosave = options
         .unsaved
         .map(|folder| Autosave::new(&folder, options.restored));
     let remote = is_remote();
-    let mut frame_rate = app.config.frame_rate;
-    if remote {
-        frame_rate = frame_rate.min(REMOTE_FRAMES);
-    }
     let now = Instant::now();
+    let frame_time = shortest_frame_time(&app.config, remote);
     let mut session = Session {
         runtime: Runtime {
             app,
@@ -170,7 +161,7 @@ pub fn open(
         redraw: true,
         draw,
         remote,
-        frame_time: Duration::from_secs(1) / frame_rate,
+        frame_time,
         change: Change::Other,
         shown: now,
         due: if asks_background {
@@ -195,6 +186,32 @@ pub fn open(
         Ok(end) => Ok(session.end(end?)),
         Err(panic) => resume_unwind(panic),
     }
+}
+
+/// Returns the state with which the explorer begins, with its messages.
+fn first_state(
+    opening: Opening,
+    size: (u16, u16),
+    appearance: Appearance,
+    options: &Options,
+) -> App {
+    let mut app = begin(opening, size, appearance, options.config.clone());
+    let offer = restore_or_offer(
+        &mut app,
+        options.restored.as_ref(),
+        options.unsaved.as_deref(),
+    );
+    app.state_beside(options.warning.clone(), offer);
+    app
+}
+
+/// Returns the shortest time between two frames.
+fn shortest_frame_time(config: &Config, is_remote: bool) -> Duration {
+    let mut frame_rate = config.frame_rate;
+    if is_remote {
+        frame_rate = frame_rate.min(REMOTE_FRAMES);
+    }
+    Duration::from_secs(1) / frame_rate
 }
 
 /// Continues with the unsaved changes of another session (`restored`). If there are none, returns a

@@ -3,6 +3,7 @@
 #[path = "../common"]
 mod common {
     pub mod deadline;
+    pub mod draws;
     pub mod driver;
     pub mod effort;
     pub mod scenes;

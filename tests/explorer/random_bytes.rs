@@ -1,6 +1,7 @@
 //! Random bytes of a terminal, among them sequences and pastes without their ends: the explorer
 //! does not panic, it draws after each event, and the next key counts.
 
+use super::common::draws::Draws;
 use super::common::effort::cases;
 use super::random::{Explorer, scenes};
 use asperity::explorer::action::{Action, Task, WriteFailure};
@@ -52,17 +53,12 @@ const SEQUENCES: [&[u8]; 28] = [
     b"\x1b[200~5 mN\x1b[201~",
 ];
 
-/// Random numbers of a seed.
-struct Random(u64);
+/// Random input of a seed.
+struct Random(Draws);
 
 impl Random {
     fn below(&mut self, count: usize) -> usize {
-        // splitmix64
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((u128::from(z ^ (z >> 31)) * count as u128) >> 64) as usize
+        self.0.below(count)
     }
 
     /// Bytes that arrive together.
@@ -124,7 +120,7 @@ fn assert_survives(events: usize) {
         if happened >= events {
             break;
         }
-        let mut random = Random(seed);
+        let mut random = Random(Draws::new(seed));
         let opening = scenes[random.below(scenes.len())].clone();
         let mut explorer = Explorer::new(opening, folder.path());
         let mut decoder = Decoder::default();

@@ -8,6 +8,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod draws;
     pub mod study;
     pub mod terminal;
 }

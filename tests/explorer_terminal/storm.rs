@@ -3,6 +3,7 @@
 //!
 //! `STORM_SEEDS=0..200 cargo test --test explorer_terminal storm` runs other storms.
 
+use crate::common::draws::Draws;
 use crate::common::terminal::Terminal;
 use crate::driving::{ESCAPE, explorer, paused, place, quit, select};
 use portable_pty::ExitStatus;
@@ -32,17 +33,12 @@ const UNFINISHED_PASTE: &[u8] = b"\x1b[200~5 mN";
 const GIVEN_UP: Duration = Duration::from_millis(150);
 const PASTE_GIVEN_UP: Duration = Duration::from_millis(1200);
 
-/// Random numbers of a seed.
-struct Random(u64);
+/// Random input of a seed.
+struct Random(Draws);
 
 impl Random {
     fn below(&mut self, count: usize) -> usize {
-        // splitmix64
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((u128::from(z ^ (z >> 31)) * count as u128) >> 64) as usize
+        self.0.below(count)
     }
 
     /// Keys, a paste, or movements of the mouse. The paste of a binary file has any byte.
@@ -132,7 +128,7 @@ fn answers(terminal: &mut Terminal, seed: u64, burst: &[u8]) -> bool {
 /// Sends a storm, which may also choose to leave. After each burst a window of another size is
 /// drawn.
 fn storm(seed: u64) {
-    let mut random = Random(seed);
+    let mut random = Random(Draws::new(seed));
     let (program, _folder) = explorer();
     let mut terminal = program.start();
     terminal.wait_for("F_a ");

@@ -13,7 +13,7 @@ use asperity::explorer::panes::row;
 use asperity::scene::Document;
 use asperity::scene::Regime;
 use asperity::scene::Simulation;
-use asperity::scene::fields::{FIELDS, Field, Range, STAGE_FORCE};
+use asperity::scene::fields::{FIELDS, Field, Range, SPHERE_FIELDS, STAGE_FORCE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -214,8 +214,16 @@ fn tables_are_those_of_the_program() {
         ("docs/scene-file.md", "fields", false),
         ("docs/surfaces.md", "measured fields", true),
     ] {
-        let fields = FIELDS.iter().filter(|field| field.range != Range::Group);
+        let mut fields: Vec<&Field> = FIELDS.iter().collect();
+        // The values of spheres have no rows in the table of the scene.
+        let after_form = fields
+            .iter()
+            .position(|field| field.path == "roughness")
+            .unwrap();
+        fields.splice(after_form..after_form, SPHERE_FIELDS);
         let of = fields
+            .into_iter()
+            .filter(|field| field.range != Range::Group)
             .filter(|field| (field.variant == Some("Measured")) == is_measured)
             .map(row_of_field);
         check(page, part, &markdown(["field", "allowed", "means"], of));
@@ -326,6 +334,8 @@ fn pictures_are_those_of_their_commands() {
     assert!(read("docs/learn.md").contains(sweep));
     succeeded(folder.path(), sweep);
     let time = "asperity sweep plot time --quantity pull_off_force -o docs/learn/time.svg";
+    let rest = "asperity run docs/examples/soft-pad.ron --set \"loading=[ToForce(1e-3),Hold(100.0),ToSeparation]\" \
+                -o docs/learn/rest.svg";
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
@@ -337,6 +347,7 @@ fn pictures_are_those_of_their_commands() {
         ),
         ("docs/learn.md", protocols),
         ("docs/learn.md", time),
+        ("docs/learn.md", rest),
         (
             "README.md",
             "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg",

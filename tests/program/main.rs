@@ -4,6 +4,7 @@
 #[path = "../common"]
 mod common {
     pub mod deadline;
+    pub mod draws;
     pub mod effort;
 }
 mod claims;

@@ -6,10 +6,11 @@ mod generate;
 
 use super::documentation::markdown;
 use super::generated::{assert_says, check};
+use crate::common::draws::Draws;
 use asperity::surface::spectra::End;
 use asperity::surface::{Analysis, AnalysisOptions, Moment, SelfAffineFit, analyse};
 use asperity::surface::{ReadOptions, Topography, Unit, parse};
-use generate::{Normal, Profiles, Spectrum, cut, map, read, topography};
+use generate::{Profiles, Spectrum, cut, map, read, topography};
 use std::f64::consts::TAU;
 
 /// Waves of the finest resolved wavelength on the length of a surface, and points.
@@ -175,7 +176,7 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
 /// in pairs.
 #[test]
 fn the_error_of_a_resampled_profile_holds_its_smoothing() {
-    let mut random = Normal::new(5);
+    let mut random = Draws::new(5);
     let waves: Vec<[f64; 3]> = (1..200)
         .map(f64::from)
         .map(|k| {
@@ -398,7 +399,7 @@ fn the_errors_of_interpolated_points_are_stated() {
     };
     let points = 256;
     let whole = map(&spectrum, points, 1);
-    let mut normal = Normal::new(8);
+    let mut normal = Draws::new(8);
     let with_holes = |is_hole: &mut dyn FnMut(usize) -> bool| {
         let height = |(index, z): (usize, &f64)| if is_hole(index) { f64::NAN } else { *z };
         let heights: Vec<f64> = whole.heights.iter().enumerate().map(height).collect();
@@ -465,7 +466,7 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
     };
     let whole = map(&spectrum, POINTS, 4);
     let offset = |share: f64| {
-        let mut normal = Normal::new(9);
+        let mut normal = Draws::new(9);
         let step = 12.0_f64.sqrt() * share * spectrum.line()[0];
         let offsets: Vec<f64> = (0..POINTS)
             .map(|_| step * (normal.uniform() - 0.5))
@@ -491,7 +492,7 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
 /// of many leaves the height uncertain.
 #[test]
 fn a_spike_in_the_middle_has_the_measured_height_and_a_large_error() {
-    let mut normal = Normal::new(3);
+    let mut normal = Draws::new(3);
     let heights: Vec<f64> = (0..POINTS)
         .map(|i| {
             if i == 250 {
@@ -540,7 +541,7 @@ fn faulty_maps_have_the_moments_of_their_surface() {
                 last,
             };
             let seed = MAPS * number as u64 + seed;
-            let (exact, mut normal) = (spectrum.line(), Normal::new(seed + 1000));
+            let (exact, mut normal) = (spectrum.line(), Draws::new(seed + 1000));
             let offset: Vec<f64> = (0..MAP).map(|_| offsets * normal.normal()).collect();
             let whole = map(&spectrum, MAP, seed);
             let faulty = whole.heights.iter().enumerate().map(|(index, z)| {

@@ -356,6 +356,12 @@ impl Contact {
     }
 }
 
+/// Returns an error if the drive of the instrument cannot have this speed in m/s.
+pub(crate) fn check_speed(speed: f64) -> Result<(), ContactError> {
+    let allowed = "from 1e-50 to 1e50 m/s";
+    check("loading speed", speed, is_positive(speed), allowed)
+}
+
 /// Checks the relaxation of the foundation and the loading speed. Returns `None` if the foundation
 /// is elastic.
 fn relaxing(
@@ -364,12 +370,7 @@ fn relaxing(
     edges: Edges,
 ) -> Result<Option<Relaxing>, ContactError> {
     if let Some(speed) = speed {
-        check(
-            "loading speed",
-            speed,
-            is_positive(speed),
-            "from 1e-50 to 1e50 m/s",
-        )?;
+        check_speed(speed)?;
     }
     let Some(relaxation) = relaxation.filter(|relaxation| relaxation.share() > 0.0) else {
         return Ok(None);

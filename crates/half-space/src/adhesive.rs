@@ -293,6 +293,7 @@ impl AdhesiveSquare {
 mod tests {
     use super::super::map::random_map;
     use super::*;
+    use crate::effort::cases;
     use std::f64::consts::PI;
 
     /// Returns an ellipsoid on a square of 1 m, and its work of adhesion in J/m². The radii of
@@ -366,15 +367,9 @@ mod tests {
     fn a_sphere_pulls_off_as_johnson_kendall_and_roberts_say() {
         check_spheres(&[(32, 6.0, 4, 0.04, 0.08), (64, 13.0, 4, 0.02, 0.03)]);
         // The computation of these spheres takes minutes.
-        if effort() >= 100 {
+        if cases(1) >= 100 {
             check_spheres(&[(128, 26.0, 1, 0.02, 0.02), (128, 38.0, 1, 0.02, 0.02)]);
         }
-    }
-
-    /// Returns the factor by which the number of test cases is multiplied: the value of the
-    /// environment variable `TEST_EFFORT`, or 1.
-    fn effort() -> u64 {
-        std::env::var("TEST_EFFORT").map_or(1, |of| of.parse().unwrap())
     }
 
     /// Checks spheres of several sizes. Each entry of `sizes` has the number of cells along a side,
@@ -536,7 +531,7 @@ mod tests {
     /// are seven hundred loops.
     #[test]
     fn loops_of_rough_squares_end() {
-        check_rough_loops(0..effort());
+        check_rough_loops(0..u64::from(cases(1)));
     }
 
     fn check_rough_loops(seeds: std::ops::Range<u64>) {

@@ -4,6 +4,9 @@
 
 mod adhesive;
 mod convolution;
+#[cfg(test)]
+#[path = "../../../tests/common/effort.rs"]
+mod effort;
 mod error;
 mod half_space;
 mod map;

@@ -122,6 +122,7 @@ mod tests {
             scene: document.scene(),
             free: &[Parameter::Work],
             rows: &rows,
+            together: &[],
             wording: |_| String::new(),
         };
         let chart = report.map_chart()?;

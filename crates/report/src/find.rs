@@ -73,12 +73,7 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
     let words = SearchWords::new(found);
     let count = found.answers.len();
     let with_value = count - found.unreached();
-    let anywhere = found.answers.iter().filter(|one| reaches_everywhere(one));
-    let anywhere = anywhere.count();
-    let of_profiles = |number: usize| match count {
-        1 => String::new(),
-        _ => format!(" on {number} of {count}"),
-    };
+    let anywhere = profiles_with_any_value(found);
     let name = &words.name;
     let searched = format!("searched: {name} {}", words.searched);
     let values = format!("{} {}", words.quantity, words.reachable);
@@ -93,7 +88,8 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
     }
     match found.quantile(0.5) {
         _ if with_value == 0 && anywhere > 0 => {
-            let text = format!("always above {}{}", words.target, of_profiles(anywhere));
+            let among = among_profiles(found, anywhere);
+            let text = format!("always above {}{among}", words.target);
             parts.push(AnswerPart::new(text, searched));
         }
         _ if with_value == 0 => {
@@ -109,6 +105,14 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         }
         Some(median) => parts.push(AnswerPart::new(median_briefly(found, median), searched)),
     }
+    parts.extend(remarks_briefly(found, &words));
+    parts
+}
+
+/// Returns what the answer of a search has beside its value: the steps there, and how many profiles
+/// have any value, none, or crossings that may be missed.
+fn remarks_briefly(found: &Found, words: &SearchWords) -> Vec<AnswerPart> {
+    let mut parts = Vec::new();
     if let [
         Answer {
             step: Some(step), ..
@@ -119,8 +123,9 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         let text = format!("there {} steps from {below} to {at}", words.quantity);
         parts.push(AnswerPart::new(text, String::new()));
     }
-    if anywhere > 0 && with_value > 0 {
-        let any = format!("any {name}{}", of_profiles(anywhere));
+    let anywhere = profiles_with_any_value(found);
+    if anywhere > 0 && found.unreached() < found.answers.len() {
+        let any = format!("any {}{}", words.name, among_profiles(found, anywhere));
         parts.push(AnswerPart::new(any, String::new()));
     }
     let never = found.answers.iter().filter(|one| reaches_nowhere(one));
@@ -129,16 +134,33 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         .filter_map(|one| one.reachable)
         .map(|(_, most)| most);
     if let Some(largest) = largest.reduce(f64::max) {
-        let text = format!("never{}", of_profiles(never.count()));
+        let text = format!("never{}", among_profiles(found, never.count()));
         let most = values_in_words(found.question.quantity, (largest, largest));
         parts.push(AnswerPart::new(text, format!("at most {most}")));
     }
     let missed = found.answers.iter().filter(|one| one.may_miss).count();
     if missed > 0 {
-        let text = format!("crossings may be missed{}", of_profiles(missed));
+        let text = format!("crossings may be missed{}", among_profiles(found, missed));
         parts.push(AnswerPart::new(text, String::new()));
     }
     parts
+}
+
+/// Returns the number of profiles on which any value has the wanted property.
+fn profiles_with_any_value(found: &Found) -> usize {
+    let anywhere = found
+        .answers
+        .iter()
+        .filter(|answer| reaches_everywhere(answer));
+    anywhere.count()
+}
+
+/// Returns how many of all profiles: ` on 3 of 16`; an empty text for a single profile.
+fn among_profiles(found: &Found, number: usize) -> String {
+    match found.answers.len() {
+        1 => String::new(),
+        count => format!(" on {number} of {count}"),
+    }
 }
 
 /// Returns the median and, for several profiles, the quartiles: `12.44 µN (6.71 to 17.3)`. The unit

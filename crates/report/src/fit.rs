@@ -1,16 +1,13 @@
 //! Report on a fit to one measured curve, as text, JSON, a table and a figure with residuals.
 
+use crate::fit_parameters::ParametersSection;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::{sentences_section, warning_texts};
 use crate::words::percent;
-use asperity_data::{
-    AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
-    format_within, grouped,
-};
+use asperity_data::{AxisScale, Table, Wording, format_quantity, format_rounded, grouped};
 use asperity_experiment::{
-    CurveFeatures, DragForce, FitResult, FittedParameter, Grade, MeasuredCurve, Parameter,
-    RangeEnd, Reason,
+    CurveFeatures, DragForce, FitResult, FittedParameter, Grade, MeasuredCurve, Parameter, Reason,
 };
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
@@ -18,10 +15,6 @@ use std::f64::consts::PI;
 
 const ROUGH: &str = "These errors leave out the error of the model: the pull-off force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
-
-/// If the best value lies at the end of the searched range, the report proposes a range whose end
-/// is farther by this factor.
-const FARTHER: f64 = 1000.0;
 
 /// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
 /// figure with the measured curve, the computed curve and their difference.
@@ -79,7 +72,12 @@ impl Report for FitReport<'_> {
             sheet.paragraph(&sentence);
         }
         sheet.heading(&format!("Fit of {}", fit.document.title()));
-        self.add_parameters(&mut sheet);
+        let parameters = ParametersSection {
+            fit,
+            is_shown: |_| true,
+            wording: self.wording,
+        };
+        parameters.add(&mut sheet);
         self.add_residual(&mut sheet);
         self.add_adhesion(&mut sheet);
         self.add_drag(&mut sheet);
@@ -225,75 +223,6 @@ impl FitReport<'_> {
     fn assumptions(&self) -> impl Iterator<Item = String> {
         let notes = self.curve.statements.iter().chain(&self.fit.assumptions);
         notes.map(|note| note.in_words(self.wording))
-    }
-
-    /// Adds a table of the fitted parameters.
-    fn add_parameters(&self, sheet: &mut Sheet) {
-        let header = ["", "value", "95 % interval", "standard error", "start"];
-        let mut rows = vec![header.map(String::from)];
-        for fitted in &self.fit.parameters {
-            let parameter = fitted.parameter.row();
-            let (low, high) = fitted.interval;
-            let name = format!("{} {}", parameter.term, parameter.symbol);
-            let start = format_quantity(fitted.start, parameter.unit);
-            if let Some(bound) = fitted.bound() {
-                let none = "-".to_owned();
-                rows.push([name, bound, none.clone(), none, start]);
-                continue;
-            }
-            rows.push([
-                name,
-                fitted.text(fitted.value),
-                format!("{} to {}", fitted.text(low), fitted.text(high)),
-                format_quantity(fitted.noise_error, parameter.unit),
-                start,
-            ]);
-        }
-        sheet.table(&rows);
-        if let Some(modulus) = self.fit.relaxed_modulus {
-            let (low, high) = modulus.interval;
-            let text = |value: f64| format_within(value, 0.5 * (high - low), "Pa");
-            let [value, low, high] = [modulus.value, low, high].map(text);
-            sheet.paragraph(&format!(
-                "Modulus after a long time E∞ = E* (1 − s) = {value}, {low} to {high}."
-            ));
-        }
-        for fitted in &self.fit.parameters {
-            if let Some(sentence) = self.sentence_at_end(fitted) {
-                sheet.paragraph(&sentence);
-            }
-        }
-    }
-
-    /// Returns a sentence on a parameter whose best value lies at the end of its range. Returns
-    /// `None` for any other parameter, and for a parameter that the curve does not determine at
-    /// all.
-    fn sentence_at_end(&self, fitted: &FittedParameter) -> Option<String> {
-        let end = fitted.at_end?;
-        if matches!(self.fit.reason, Some(Reason::Stiffness(..))) {
-            return None;
-        }
-        let row = fitted.parameter.row();
-        let (low, high) = fitted.range;
-        let (name, next) = match end {
-            RangeEnd::Low => ("lower", (low / FARTHER, 2.0 * low)),
-            RangeEnd::High => ("upper", (0.5 * high, high * FARTHER)),
-        };
-        let range = format_range(fitted.range, 3, row.unit);
-        let written = |value: f64| format_rounded(value, 2, row.unit).replace([' ', '\u{a0}'], "");
-        let mut sentence = format!(
-            "{} is at the {name} end of its range, {range}, and is no result.",
-            row.symbol
-        );
-        if fitted.parameter == Parameter::RelaxationTime {
-            sentence += match end {
-                RangeEnd::Low => " The time is shorter than the curve shows.",
-                RangeEnd::High => " The time is longer than the curve shows.",
-            };
-        }
-        let farther = format!("{}={}..{}", row.name, written(next.0), written(next.1));
-        let note = Note::new(sentence).with(Remedy::FreeIn(farther));
-        Some(note.in_words(self.wording))
     }
 
     /// Adds sentences on the residual and on the misfit. Both are computed from the same points.

@@ -11,6 +11,7 @@ mod event;
 mod events;
 mod find;
 mod fit;
+mod fit_parameters;
 mod fits;
 mod fits_spread;
 mod loop_chart;

@@ -9,7 +9,6 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, Criterion, criteria};
-use asperity_surface::Form;
 
 /// Adds what criteria of other theories state about adhesion without a preload, and the error of
 /// the pull-off force from each source.
@@ -200,8 +199,8 @@ fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: boo
         "not known: the MDR is a model for rough bodies, whose adhesion is disputed"
     } else if is_exceeded {
         "not known: a premise does not hold (Warnings)"
-    } else if matches!(scene.form, Some(Form::TwoSpheres { .. })) {
-        "none for two spheres so far apart that neither deforms the body under the other"
+    } else if scene.form.as_ref().is_some_and(|form| form.contacts() > 1) {
+        "none for spheres so far apart that none deforms the body under another"
     } else {
         "none for bodies of revolution whose equivalent profile rises everywhere"
     };

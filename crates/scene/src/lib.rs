@@ -71,8 +71,8 @@ pub mod fields {
     pub use crate::scene::effects::Effect;
     pub use crate::scene::errors::NumberError;
     pub use crate::scene::field::{
-        Field, STAGE, STAGE_FIELDS, STAGE_FORCE, STAGE_INDENTATION, Step, choice_in_words,
-        target_field,
+        Field, SPHERE_FIELDS, STAGE, STAGE_FIELDS, STAGE_FORCE, STAGE_INDENTATION, Step,
+        choice_in_words, sphere_values, target_field,
     };
     pub use crate::scene::fields::{FIELDS, field};
     pub use crate::scene::range::Range;
@@ -126,9 +126,9 @@ pub mod instrument {
 
 /// Parts of the computation of a scene, with their times and memory.
 pub mod workload {
+    pub use crate::simulation::loading::AfterStage;
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};
     pub use crate::simulation::roughness::equivalent_springs;
-    pub use crate::simulation::stages::AfterStage;
     pub use crate::simulation::workload::{PlannedPart, WorkPart, Workload};
 }

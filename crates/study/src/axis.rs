@@ -448,7 +448,8 @@ impl Target {
             Target::Stage(_) | Target::Preload { .. } => return Shapes::Passes,
             Target::Number(field) => field,
         };
-        match (field.parent(), field.path) {
+        let group = field.path.split('.').next().unwrap_or_default();
+        match (group, field.path) {
             // The heights of the roughness are computed for one amplitude and then scaled.
             ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => {
                 Shapes::Profile

@@ -1,6 +1,7 @@
 //! Comparison of the answers of [`find`](crate::find::find) with dense scans. A dense scan computes
 //! about 400 scenes over the searched range of a random question.
 
+use crate::effort::cases;
 use crate::find::Found;
 use crate::quantity::Quantity;
 use crate::question::{Answer, Question};
@@ -347,9 +348,9 @@ fn first_crossings_are_those_of_dense_scans() {
 }
 
 #[test]
-#[ignore = "takes minutes: a hundred thousand runs; .ci/run runs it"]
+#[ignore = "computes 400 scenes for each question"]
 fn first_crossings_of_many_questions_are_those_of_dense_scans() {
     for seed in [5, 6] {
-        check(&compared(seed, 250));
+        check(&compared(seed, cases(32) as usize));
     }
 }

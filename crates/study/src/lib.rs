@@ -40,6 +40,9 @@ mod criteria;
 mod criterion;
 #[cfg(test)]
 mod dense_scans;
+#[cfg(test)]
+#[path = "../../../tests/common/effort.rs"]
+mod effort;
 mod ensemble;
 mod error;
 mod find;

@@ -84,12 +84,7 @@ pub(super) fn scene_with<'a>(
             Ok(()) => {}
             Err(NumberError::Contradiction(reason)) => return Err(refused(reason).into()),
             Err(NumberError::Missing) => {
-                let counted = if axis.path.starts_with("loading.") {
-                    let stages = base.loading.len();
-                    format!("; its {stages} loading stages are counted from 0")
-                } else {
-                    String::new()
-                };
+                let counted = counted(base, &axis.path);
                 let reason = format!("axis {}: the scene has no {path}{counted}", axis.path);
                 return Err(refused(reason).into());
             }
@@ -110,6 +105,20 @@ pub(super) fn scene_with<'a>(
         scene.adhesion = Some(with_parameter(&scene, parameter, value));
     }
     Ok(scene)
+}
+
+/// Returns the number of elements of the list in which a path is, as the end of a message; empty
+/// for a path outside lists.
+fn counted(scene: &Scene, path: &str) -> String {
+    let spheres = scene.form.as_ref().map_or(0, |form| form.spheres().len());
+    if path.starts_with("loading.") {
+        let stages = scene.loading.len();
+        format!("; its {stages} loading stages are counted from 0")
+    } else if path.starts_with("form.") && spheres > 0 {
+        format!("; its {spheres} spheres are counted from 0")
+    } else {
+        String::new()
+    }
 }
 
 /// Returns the turn at which the quantity of an axis is set in a scene: 0 comes first. Quantities
@@ -153,9 +162,8 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
     let fields = FIELDS.iter().filter(is_physical);
     let paths = fields.flat_map(|field| ["", ".0", ".1"].map(|end| format!("{}{end}", field.path)));
-    let stages = (0..scene.loading.len()).map(|stage| format!("loading.{stage}.0"));
     let mut numbers: Vec<(Axis, f64)> = Vec::new();
-    for path in paths.chain(stages) {
+    for path in paths.chain(scene.paths_in_lists()) {
         let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).ok();
         let number = axis.zip(scene.number(&path).filter(|value| *value != 0.0));
         // Variants of one field may have the same path. Each path is returned only once.

@@ -16,7 +16,7 @@ use std::io;
 use std::io::Write;
 use std::panic::resume_unwind;
 use std::path::Path;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
@@ -126,20 +126,12 @@ pub fn run_study(
         profile: profile.as_ref(),
     };
     let (sender, receiver) = sync_channel(WAITING);
-    let missing = &missing;
-    let counted = &warnings;
-    let work = move || {
-        let send = move |solved: SolvedStreak| {
-            let mut counted = counted.lock().unwrap_or_else(PoisonError::into_inner);
-            missing.count_warnings(&solved, &mut counted);
-            drop(counted);
-            // Sending fails if the file could not be written. The value false then ends the
-            // computation.
-            let text = missing.encoded(solved.streak, &solved.records);
-            sender.send(text).is_ok()
-        };
-        streaks.compute(plan, threads, stop, &send)
+    let results = StudyResults {
+        missing: &missing,
+        warnings: &warnings,
+        sender,
     };
+    let work = move || streaks.compute(plan, threads, stop, &|solved| results.send(solved));
     std::thread::scope(|scope| {
         let computing = Builder::new()
             .spawn_scoped(scope, work)
@@ -156,6 +148,27 @@ pub fn run_study(
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner);
     Ok(StudyRun { progress, warnings })
+}
+
+/// Where the threads of a study send what they have computed.
+struct StudyResults<'a> {
+    missing: &'a MissingRecords<'a>,
+    /// Warnings of all records so far.
+    warnings: &'a Mutex<Vec<CountedWarning>>,
+    /// Sender to the thread that writes the file.
+    sender: SyncSender<String>,
+}
+
+impl StudyResults<'_> {
+    /// Counts the warnings of the records, and sends their text to the file. Returns false if the
+    /// file could not be written, so that the computation ends.
+    fn send(&self, solved: SolvedStreak) -> bool {
+        let mut warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
+        self.missing.count_warnings(&solved, &mut warnings);
+        drop(warnings);
+        let text = self.missing.encoded(solved.streak, &solved.records);
+        self.sender.send(text).is_ok()
+    }
 }
 
 /// Which records of a plan its folder lacks.

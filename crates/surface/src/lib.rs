@@ -26,7 +26,7 @@ mod topography;
 
 pub use error::{ChosenBy, Place, PlaceInFile, SurfaceError};
 pub use line::equivalent::EquivalentLine;
-pub use line::form::Form;
+pub use line::form::{Form, Sphere};
 pub use line::spectrum::{Amplitude, SelfAffine};
 pub use line::table::FormTable;
 pub use spectrum::analysis::{Analysis, analyse};

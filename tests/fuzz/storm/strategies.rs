@@ -2,7 +2,7 @@
 
 use asperity::data::is_control;
 use asperity::scene::Document;
-use asperity::scene::fields::{FIELDS, Field, Range, STAGE_FIELDS};
+use asperity::scene::fields::{FIELDS, Field, Range, SPHERE_FIELDS, STAGE_FIELDS};
 use asperity::scene::library::{DEFAULT, find_scene};
 use asperity::scene::text::{ron_float, ron_string};
 use proptest::prelude::*;
@@ -27,6 +27,20 @@ pub struct Drawn {
     wrong: bool,
     /// Number of extreme values in ten.
     extreme: u32,
+}
+
+/// Returns a form of spheres with these radii and distances. If `is_ahead` is true, the first sphere
+/// is ahead of all others.
+fn spheres_in_ron(spheres: &[[String; 2]], is_ahead: bool) -> String {
+    let mut written = Vec::new();
+    for (index, [radius, behind]) in spheres.iter().enumerate() {
+        written.push(if index == 0 && is_ahead {
+            format!("(radius: {radius})")
+        } else {
+            format!("(radius: {radius}, behind: {behind})")
+        });
+    }
+    format!("Spheres([{}])", written.join(", "))
 }
 
 impl Drawn {
@@ -109,7 +123,18 @@ impl Drawn {
                 .prop_map(|(index, value)| (format!("loading.{index}.0"), value))
                 .boxed()
         });
-        let one = proptest::strategy::Union::new(FIELDS.iter().map(of).chain(stages));
+        let spheres = SPHERE_FIELDS.map(|field| {
+            let value = Drawn {
+                extreme: EXTREME[0],
+                ..self.clone()
+            }
+            .value(field);
+            (0..3_usize, value)
+                .prop_map(|(index, value)| (format!("form.{index}.{}", field.last()), value))
+                .boxed()
+        });
+        let fields = FIELDS.iter().map(of).chain(stages).chain(spheres);
+        let one = proptest::strategy::Union::new(fields);
         prop::collection::vec(one, 1..=most).boxed()
     }
 
@@ -160,6 +185,13 @@ impl Drawn {
         let (name, arguments) = template.split_once('(').unwrap_or((template, ""));
         if arguments.is_empty() {
             return Just(name.to_string()).boxed();
+        }
+        if arguments.starts_with('[') {
+            let sphere = SPHERE_FIELDS.map(|field| self.value(field));
+            let spheres = prop::collection::vec(sphere, 1..4);
+            return (spheres, any::<bool>())
+                .prop_map(|(spheres, is_ahead)| spheres_in_ron(&spheres, is_ahead))
+                .boxed();
         }
         let argument = STAGE_FIELDS
             .into_iter()

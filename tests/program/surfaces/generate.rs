@@ -1,5 +1,6 @@
 //! Isotropic random surfaces with a known spectrum, on maps and along cuts.
 
+use crate::common::draws::Draws;
 use asperity::surface::{ReadOptions, Topography, Unit, parse};
 use asperity_fourier::{Complex64, ComplexToReal, plan_inverse, plan_real_inverse};
 use std::f64::consts::TAU;
@@ -42,46 +43,11 @@ impl Spectrum {
     }
 }
 
-/// Normally distributed numbers of a seed: the polar method of Marsaglia over a splitmix generator.
-pub struct Normal(u64);
-
-impl Normal {
-    pub fn new(seed: u64) -> Self {
-        Normal(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
-    }
-
-    /// Number from 0 to below 1, all equally likely.
-    pub fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Number of mean 0 and variance 1.
-    pub fn normal(&mut self) -> f64 {
-        2.0_f64.sqrt() * self.complex().re
-    }
-
-    /// Complex number with independent parts of variance ½.
-    fn complex(&mut self) -> Complex64 {
-        loop {
-            let (a, b) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
-            let square: f64 = a * a + b * b;
-            if square > 0.0 && square < 1.0 {
-                let scale = (-square.ln() / square).sqrt();
-                return Complex64::new(scale * a, scale * b);
-            }
-        }
-    }
-}
-
 /// Map of `points` × `points` on a square of side 1, a quarter of a periodic one, so that it does
 /// not repeat.
 pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     let (all, length) = (2 * points, 2.0);
-    let mut normal = Normal::new(seed);
+    let mut normal = Draws::new(seed);
     let plan = plan_inverse(all);
     let signed = |index: usize| {
         if 2 * index > all {
@@ -149,7 +115,7 @@ impl Profiles {
 
     /// The profile of a seed.
     pub fn profile(&self, seed: u64) -> Topography {
-        let mut normal = Normal::new(seed);
+        let mut normal = Draws::new(seed);
         let mut waves: Vec<Complex64> = self
             .amplitudes
             .iter()

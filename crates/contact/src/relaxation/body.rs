@@ -9,7 +9,7 @@ use super::memory::Moment;
 use super::recorder::{Recorded, Recorder};
 use super::state::{Phase, State};
 use super::view::View;
-use crate::contact::Contact;
+use crate::contact::{Contact, check_speed};
 use crate::error::ContactError;
 use crate::history::{CurvePoint, Direction, Goal, Patch, StageRecord, Work, check_hold, plan};
 use crate::moving_body::MovingBody;
@@ -76,6 +76,16 @@ impl<'a> RelaxingBody<'a> {
     #[must_use]
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         RelaxingBody { tolerance, ..self }
+    }
+
+    /// Sets the speed of the drive in m/s from now on.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::Value`] for a speed that is not from 1e-50 to 1e50 m/s.
+    pub fn set_speed(&mut self, speed: f64) -> Result<(), ContactError> {
+        check_speed(speed)?;
+        self.speed = speed;
+        Ok(())
     }
 
     /// Interrupts a stage with [`ContactError::Interrupted`] as soon as `stop` returns true. It is

@@ -155,7 +155,8 @@ impl<'a> Course<'a> {
                 .step(states, Step { drive, seconds }, tolerance)?;
             let reached = (first_new..states.len()).find(|&index| {
                 let state = &states[index];
-                goal_value(state) >= 0.0 || (state.is_separated() && !separates)
+                let is_at_end = goal_value(state) >= 0.0 || (state.is_separated() && !separates);
+                is_at_end && !state.precedes_jump
             });
             if let Some(index) = reached {
                 return self.stop_at(states, index, moments, &goal_value, recorder);
@@ -191,7 +192,8 @@ impl<'a> Course<'a> {
     ) -> Result<(), ContactError> {
         let reached = states[index].clone();
         states.truncate(index);
-        let from = states[index - 1].clone();
+        let jumps = states[index - 1].precedes_jump;
+        let from = states[index - 1 - usize::from(jumps)].clone();
         if reached.is_separated() && goal_value(&reached) < 0.0 || self.is_lost(&reached) {
             if matches!(self.goal, Goal::Force(_)) {
                 let remaining = self.drive.remaining();
@@ -215,6 +217,9 @@ impl<'a> Course<'a> {
         let state = if matches!(self.goal, Goal::Separation(_)) || goal_value(&reached) == 0.0 {
             reached
         } else {
+            if jumps {
+                states.pop();
+            }
             self.drive.reach(&from, reached, goal_value)?
         };
         let state = match self.goal {

@@ -93,8 +93,13 @@ impl Drive {
                 [middle.growth, end.growth] = growths;
             }
             self.largest_force = self.largest_force.max(force.abs());
-            states.push(middle);
-            states.push(end);
+            let continuous = if is_straight {
+                f64::INFINITY
+            } else {
+                LOCATED * tolerance
+            };
+            self.push(states, middle, continuous);
+            self.push(states, end, continuous);
             return Ok(());
         }
         self.forget(moments);
@@ -115,6 +120,17 @@ impl Drive {
             self.driven(&middle, rest.drive, rest.seconds)?
         };
         self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
+    }
+
+    /// Adds a state. If the force has changed by more than `continuous` in m, it has jumped, and the
+    /// state before the jump is put at the same moment, so that the record has both sides.
+    fn push(&self, states: &mut Vec<State>, state: State, continuous: f64) {
+        if let Some(before) = states.last()
+            && (self.force(&state) - self.force(before)).abs() > continuous
+        {
+            states.push(before.before_jump(&state, self.instrument.is_infinite()));
+        }
+        states.push(state);
     }
 
     /// Returns the mean growth of the force in m/s from one state to another one.

@@ -117,6 +117,9 @@ pub struct State {
     pub jump: f64,
     /// Mean growth of the force in m/s on the step to this state; `None` after a jump.
     pub growth: Option<f64>,
+    /// True if this is the state before a jump, put at the moment of the jump. It belongs to the
+    /// record, and no step begins or ends there.
+    pub precedes_jump: bool,
 }
 
 impl State {
@@ -132,6 +135,23 @@ impl State {
             phase: Phase::Apart,
             jump: 0.0,
             growth: None,
+            precedes_jump: false,
+        }
+    }
+
+    /// Returns this state at the moment of a jump that leads to the state `after`.
+    pub fn before_jump(&self, after: &State, is_rigid: bool) -> Self {
+        let indentation = if is_rigid {
+            after.drive
+        } else {
+            self.indentation + (after.drive - self.drive)
+        };
+        State {
+            seconds: after.seconds,
+            drive: after.drive,
+            indentation,
+            precedes_jump: true,
+            ..self.clone()
         }
     }
 

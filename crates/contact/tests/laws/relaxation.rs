@@ -5,7 +5,9 @@ mod climb;
 mod closed_forms;
 mod cost;
 mod instrument;
+mod interpolated;
 mod limits;
+mod published;
 mod refusals;
 mod springs;
 

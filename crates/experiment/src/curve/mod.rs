@@ -4,6 +4,7 @@
 pub(crate) mod drag;
 pub(crate) mod features;
 pub(crate) mod free_parts;
+pub(crate) mod motion;
 pub(crate) mod numerics;
 mod ordered;
 pub(crate) mod points;

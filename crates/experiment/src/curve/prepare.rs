@@ -9,7 +9,7 @@ use crate::curve::ordered::Ordered;
 use crate::curve::points::Points;
 use crate::curve::segments::are_shuffled;
 use crate::curve::statements::{counted, drag_in_words, means_in_words, noise_in_words};
-use crate::curve::timing::Timing;
+use crate::curve::timing::{InContact, Timing};
 use crate::curve::zero::Subtracted;
 use crate::curve::{LEAST_TENSION, MeasuredCurve, SubtractedLines};
 use crate::error::{CountedPart, ExperimentError, refused, refused_with};
@@ -169,7 +169,11 @@ impl MeasuredCurve {
         let remaining = subtracted.remaining;
         let has_zero = options.zero.is_none();
         let lines = lines_of(subtracted, drag.as_ref(), &points);
-        let timing = Timing::of(&points, &kept, &lines, touch);
+        let contact = InContact {
+            touch,
+            end: points.force.len() - free.after,
+        };
+        let timing = Timing::of(&points, &kept, &lines, contact);
         let lines = SubtractedLines::of(&lines, &kept, &free, has_zero);
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {

@@ -1,6 +1,7 @@
 //! Time in a measured curve: the speed of the instrument, and its rest between approach and
 //! retraction. Only a fit with relaxation needs them.
 
+use crate::curve::motion::{Passage, Piece, pieces_of};
 use crate::curve::numerics::{Extent, least_squares};
 use crate::curve::points::Points;
 use asperity_data::median;
@@ -24,6 +25,8 @@ const FEWEST: usize = 5;
 pub(crate) struct Timing {
     /// Speeds of the instrument in m/s, by the times of the points; `None` without times.
     pub speeds: Option<Speeds>,
+    /// The approach and the retraction in pieces of one speed; empty without times.
+    pub motions: [Vec<Piece>; 2],
     /// Time in s for which the instrument rests between approach and retraction, by the times of
     /// the points; `None` without times.
     pub rest: Option<f64>,
@@ -31,6 +34,15 @@ pub(crate) struct Timing {
     pub points: Vec<RestingPoint>,
     /// True if the instrument rests in contact elsewhere too.
     pub has_other_rests: bool,
+}
+
+/// Where the body is in contact, without a model.
+#[derive(Clone, Copy)]
+pub(crate) struct InContact {
+    /// Displacement in m at first touch.
+    pub touch: f64,
+    /// Index of the first point after the contact.
+    pub end: usize,
 }
 
 /// Speeds of the instrument in m/s.
@@ -53,9 +65,9 @@ pub(crate) struct RestingPoint {
 
 impl Timing {
     /// Determines the times. `kept` has the indices of the points of the curve among all `points`,
-    /// `lines` are the subtracted lines at all points, and `touch` is the displacement in m at first
-    /// touch.
-    pub fn of(points: &Points, kept: &[usize], lines: &[Vec<f64>], touch: f64) -> Self {
+    /// `lines` are the subtracted lines at all points, and `contact` is where the body is in contact.
+    pub fn of(points: &Points, kept: &[usize], lines: &[Vec<f64>], contact: InContact) -> Self {
+        let touch = contact.touch;
         let is_loop = points.begins_with_approach() && points.last_segment() == 1;
         let turn = kept.partition_point(|index| points.segment[*index] == 0);
         let (approach, retraction) = kept.split_at(turn);
@@ -85,12 +97,26 @@ impl Timing {
         let place = median(&mut displacements).unwrap_or(highest);
         let mut begin = None;
         let mut rest = None;
+        let mut motions = [Vec::new(), Vec::new()];
         if let Some(speeds) = speeds {
             let way = |index: usize| (place - points.displacement[index]).max(0.0);
             let last = last_far.unwrap_or(before);
             let first = first_far.unwrap_or(after);
-            let arrival = points.seconds[last] + way(last) / speeds.approach;
-            let departure = points.seconds[first] - way(first) / speeds.retraction;
+            let pressed = approach.iter().copied().filter(|index| *index <= last);
+            let is_pulled = |index: &usize| (first..contact.end).contains(index);
+            let pulled = retraction.iter().copied().filter(is_pulled);
+            motions = [
+                pieces_of(&passages(points, pressed, touch), speeds.approach),
+                pieces_of(
+                    &passages(points, pulled, f64::NEG_INFINITY),
+                    speeds.retraction,
+                ),
+            ];
+            let [begin_of_rest, end_of_rest] = [motions[0].last(), motions[1].first()];
+            let speed = begin_of_rest.map_or(speeds.approach, |piece| piece.speed);
+            let arrival = points.seconds[last] + way(last) / speed;
+            let speed = end_of_rest.map_or(speeds.retraction, |piece| piece.speed);
+            let departure = points.seconds[first] - way(first) / speed;
             begin = Some(arrival);
             rest = Some((departure - arrival).max(0.0));
         }
@@ -106,11 +132,28 @@ impl Timing {
         }
         Timing {
             speeds,
+            motions,
             rest,
             points: of_rest,
             has_other_rests,
         }
     }
+}
+
+/// Returns the passages of the instrument at the points `indices` of a motion, from the last point
+/// before the displacement `touch` in m on.
+fn passages(points: &Points, indices: impl Iterator<Item = usize>, touch: f64) -> Vec<Passage> {
+    let mut passages = Vec::new();
+    for index in indices {
+        if points.displacement[index] <= touch {
+            passages.clear();
+        }
+        passages.push(Passage {
+            displacement: points.displacement[index],
+            seconds: points.seconds[index],
+        });
+    }
+    passages
 }
 
 /// Returns the indices of the points of a pause at which the displacement stays near its median;

@@ -25,14 +25,9 @@ impl Lengths {
             radius: form.clone().radius_mut().map_or(0.0, |radius| *radius),
             ..Lengths::default()
         };
-        if let Form::TwoSpheres {
-            second_radius,
-            behind,
-            ..
-        } = form
-        {
-            lengths.second_radius = *second_radius;
-            lengths.behind = *behind;
+        if let Some(second) = form.spheres().get(1) {
+            lengths.second_radius = second.radius;
+            lengths.behind = second.behind;
         }
         lengths
     }
@@ -41,14 +36,11 @@ impl Lengths {
         if let Some(radius) = form.radius_mut() {
             *radius = self.radius;
         }
-        if let Form::TwoSpheres {
-            second_radius,
-            behind,
-            ..
-        } = form
+        if let Form::Spheres(spheres) = form
+            && let Some(second) = spheres.get_mut(1)
         {
-            *second_radius = self.second_radius;
-            *behind = self.behind;
+            second.radius = self.second_radius;
+            second.behind = self.behind;
         }
     }
 

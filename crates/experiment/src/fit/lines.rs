@@ -24,6 +24,8 @@ pub(crate) struct Lines {
     /// points in contact.
     free_products: Vec<Vec<f64>>,
     contact_products: Vec<Vec<f64>>,
+    /// Lines of further curves, whose points follow those of this curve.
+    further: Vec<Lines>,
 }
 
 impl Lines {
@@ -68,7 +70,13 @@ impl Lines {
             in_contact,
             free_products,
             contact_products,
+            further: Vec::new(),
         }
+    }
+
+    /// Adds the lines of a further curve, whose points follow those of the curves before.
+    pub fn push(&mut self, lines: Lines) {
+        self.further.push(lines);
     }
 
     /// Fits the lines, which are contributions to the measured force such as the zero and the
@@ -77,6 +85,18 @@ impl Lines {
     /// in contact, and 1 for any other residual. A residual above 5 of its own standard deviations
     /// enters the fit as 5 of them.
     pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
+        let (own, mut others) = residuals.split_at(self.in_contact.len());
+        let mut refined = self.refined_of_curve(own, noise);
+        for lines in &self.further {
+            let (own, after) = others.split_at(lines.in_contact.len());
+            refined.extend(lines.refined_of_curve(own, noise));
+            others = after;
+        }
+        refined
+    }
+
+    /// Does the same as [`Lines::refined`] for the residuals of a single curve.
+    fn refined_of_curve(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
         let mut refined = residuals.to_vec();
         if self.columns.is_empty() {
             return refined;

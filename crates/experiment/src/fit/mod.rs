@@ -5,6 +5,7 @@ pub(crate) mod agreement;
 pub(crate) mod descent;
 pub(crate) mod ensemble;
 mod evaluation;
+mod further;
 pub(crate) mod instrument;
 pub(crate) mod lengths;
 pub(crate) mod lines;
@@ -23,6 +24,7 @@ pub(crate) mod start;
 pub(crate) mod statistics;
 #[cfg(test)]
 mod tests;
+mod together;
 mod touch;
 pub(crate) mod two_spheres;
 
@@ -116,6 +118,15 @@ impl<'a> Fit<'a> {
         self
     }
 
+    /// Returns a simulation of the scene.
+    fn simulation(&self) -> Simulation {
+        let simulation = Simulation::new(self.document.resolve(""));
+        match &self.measured {
+            Some(measured) => simulation.with_measured(Arc::clone(measured)),
+            None => simulation,
+        }
+    }
+
     /// Fits the free parameters to a curve on one thread, by a sequential Monte Carlo method.
     /// `control` reports the number of force curves computed so far, and can stop the fit.
     ///
@@ -130,10 +141,7 @@ impl<'a> Fit<'a> {
         mut control: Control<'_>,
     ) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
-        let mut simulation = Simulation::new(self.document.resolve(""));
-        if let Some(measured) = &self.measured {
-            simulation = simulation.with_measured(Arc::clone(measured));
-        }
+        let mut simulation = self.simulation();
         let mut report = |computed| control.report(computed as u64);
         find(
             curve,

@@ -2,6 +2,7 @@
 //! the parameters of a fit have given values.
 
 use crate::curve::MeasuredCurve;
+use crate::curve::motion::Piece;
 use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::fit::lengths::Lengths;
@@ -311,7 +312,8 @@ impl<'a> Model<'a> {
 
 impl Model<'_> {
     /// Computes the forces of the approach, of the rest and of the retraction if the half-space
-    /// relaxes. The instrument rests for as long as the loading of the scene rests.
+    /// relaxes. The instrument moves as the times of the curve state, or else at the speed of the
+    /// scene, and rests for as long as the loading of the scene rests.
     fn each_relaxing_part(
         &self,
         contact: &Contact,
@@ -333,21 +335,42 @@ impl Model<'_> {
             }
             return Ok(());
         }
-        let press = if stiffness.is_finite() {
-            Move::ToDisplacement(deepest)
-        } else {
-            Move::ToIndentation(deepest)
-        };
         let mut body = RelaxingBody::new(contact)?.with_tolerance(self.error_of_steps());
-        let record = body.advance(press)?;
-        take(&motion(Direction::Loading, &record.curve), approach);
+        let [pressed, pulled] = &self.curve.timing.motions;
+        let to = |end: f64| {
+            if stiffness.is_finite() {
+                Move::ToDisplacement(end - offset)
+            } else {
+                Move::ToIndentation(end - offset)
+            }
+        };
+        let mut points = Points::default();
+        for piece in before_last(pressed) {
+            if piece.end > offset && piece.end < self.curve.turns[0] {
+                body.set_speed(piece.speed)?;
+                points.add(&body.advance(to(piece.end))?.curve);
+            }
+        }
+        set_speed_of(&mut body, pressed.last())?;
+        points.add(&body.advance(to(self.curve.turns[0]))?.curve);
+        take(&motion(Direction::Loading, &points.of_motion), approach);
         let pause = pause_of(&self.scene);
         if pause > 0.0 {
             let record = body.advance(Move::Hold(pause))?;
             take(&ComputedPart::Rest(points_of_rest(&record)), rest);
         }
-        let record = body.advance(Move::ToSeparation)?;
-        take(&motion(Direction::Unloading, &record.curve), retraction);
+        let mut points = Points::default();
+        for piece in before_last(pulled) {
+            if piece.end < self.curve.turns[0] && !points.is_separated() {
+                body.set_speed(piece.speed)?;
+                points.add(&body.advance(to(piece.end))?.curve);
+            }
+        }
+        if !points.is_separated() {
+            set_speed_of(&mut body, pulled.last())?;
+            points.add(&body.advance(Move::ToSeparation)?.curve);
+        }
+        take(&motion(Direction::Unloading, &points.of_motion), retraction);
         Ok(())
     }
 
@@ -373,6 +396,40 @@ impl Model<'_> {
         let force = Extent::of(self.curve.force.iter().copied());
         let largest = force.high.max(-force.low);
         (OF_NOISE * self.curve.noise / largest).clamp(LEAST_ERROR_OF_STEPS, ERROR_OF_STEPS)
+    }
+}
+
+/// Points of a motion that is computed in pieces.
+#[derive(Default)]
+struct Points {
+    of_motion: Vec<CurvePoint>,
+}
+
+impl Points {
+    /// Adds the points of a piece, whose first point is the last point of the piece before.
+    fn add(&mut self, piece: &[CurvePoint]) {
+        let repeated = usize::from(!self.of_motion.is_empty()).min(piece.len());
+        self.of_motion.extend_from_slice(&piece[repeated..]);
+    }
+
+    /// Returns true if the body has separated.
+    fn is_separated(&self) -> bool {
+        self.of_motion
+            .last()
+            .is_some_and(|point| point.patches == 0)
+    }
+}
+
+/// Returns the pieces of a motion before the last one.
+fn before_last(pieces: &[Piece]) -> &[Piece] {
+    pieces.split_last().map_or(&[], |(_, before)| before)
+}
+
+/// Sets the speed of the last piece of a motion. Without times the speed is that of the scene.
+fn set_speed_of(body: &mut RelaxingBody<'_>, piece: Option<&Piece>) -> Result<(), ContactError> {
+    match piece {
+        Some(piece) => body.set_speed(piece.speed),
+        None => Ok(()),
     }
 }
 

@@ -27,10 +27,10 @@ pub enum Parameter {
     Stiffness,
     /// Radius R in m of the form of the scene, such as a sphere.
     Radius,
-    /// Radius R₂ of the second of two spheres on one probe, m.
+    /// Radius R₂ of the second of several spheres on one probe, m.
     SecondRadius,
-    /// Distance b in m between the apexes of two spheres on one probe, in the direction of motion.
-    /// The apex of the second sphere is behind the apex of the first sphere.
+    /// Distance b in m between the apexes of the first two spheres on one probe, in the direction of
+    /// motion. The apex of the second sphere is behind the apex of the first sphere.
     Behind,
     /// Share s of the modulus that relaxes. The effective modulus is then the modulus at once.
     RelaxationShare,
@@ -125,13 +125,13 @@ impl Parameter {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
-    /// Returns true for a parameter that only a body with two spheres has.
+    /// Returns true for a parameter that only a body with several spheres has.
     pub(crate) fn is_of_two_spheres(self) -> bool {
         matches!(self, Parameter::SecondRadius | Parameter::Behind)
     }
 
     /// Returns true for a parameter that only a body on a half-space that relaxes has.
-    pub(crate) fn is_of_relaxation(self) -> bool {
+    pub fn is_of_relaxation(self) -> bool {
         matches!(self, Parameter::RelaxationShare | Parameter::RelaxationTime)
     }
 

@@ -104,6 +104,9 @@ impl<'a> Posterior<'a> {
         if parameter == Parameter::Work && self.is_without_adhesion {
             low = 0.0;
         }
+        if parameter == Parameter::RelaxationShare {
+            high = high.min(coordinate.range.1);
+        }
         let is_meaningless = self.has_other_profile && !parameter.is_signed();
         FittedParameter {
             parameter,

@@ -270,10 +270,7 @@ pub(crate) fn reason(
     if scene.seed().is_some() {
         return Ok(Reason::OtherProfile);
     }
-    let contacts = match scene.form {
-        Some(Form::TwoSpheres { .. }) => 2,
-        _ => 1,
-    };
+    let contacts = scene.form.as_ref().map_or(1, Form::contacts);
     if scene.roughness.is_none()
         && let Some(reason) = of_features(curve, contacts, free)
     {

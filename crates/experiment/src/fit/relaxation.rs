@@ -64,9 +64,14 @@ pub(crate) fn with_relaxation(
     document.set_all(&changes).map_err(wrong)
 }
 
-/// Returns the time in s of the motion in contact at a speed in m/s, and of the rest.
+/// Returns the time in s of the motion in contact, and of the rest. Without times in the file both
+/// motions have the speed `speed` in m/s.
 fn seconds_of(curve: &MeasuredCurve, speed: f64, rest: f64) -> f64 {
-    2.0 * (curve.turns[0] - curve.touch) / speed + rest
+    let way = curve.turns[0] - curve.touch;
+    match curve.timing.speeds {
+        Some(speeds) => way / speeds.approach + way / speeds.retraction + rest,
+        None => 2.0 * way / speed + rest,
+    }
 }
 
 /// Returns the time in s in contact of a scene that relaxes; `None` if it does not.
@@ -121,13 +126,21 @@ pub(crate) fn notes_on_time(curve: &MeasuredCurve, scene: &Scene) -> Vec<Note> {
         if (ratio - 1.0).abs() > OTHER_SPEED {
             let times = format_rounded(ratio, 2, "1");
             notes.push(Note::new(format!(
-                "The retraction is {times} times as fast as the approach. The model retracts as fast as it approaches."
+                "The retraction is {times} times as fast as the approach, in the fit too. The loading_speed of the result is the \
+                 speed of the approach."
             )));
+        }
+        if timing.motions.iter().any(|pieces| pieces.len() > 1) {
+            notes.push(Note::new(
+                "The speed changes within a motion. The fit follows the times of the points.",
+            ));
         }
     }
     let points = grouped(timing.points.len() as u64);
     let rest = timing.rest.unwrap_or(pause_of(scene));
-    if rest > 0.0 {
+    if timing.rest.is_some() && timing.points.is_empty() {
+        // The instrument turns between two points.
+    } else if rest > 0.0 {
         let source = if timing.rest.is_some() {
             "times of the file"
         } else {
@@ -143,7 +156,7 @@ pub(crate) fn notes_on_time(curve: &MeasuredCurve, scene: &Scene) -> Vec<Note> {
              loading of the scene states how long it is."
         )));
     }
-    if timing.has_other_rests {
+    if timing.has_other_rests && timing.speeds.is_none() {
         let sentence = "The instrument rests in contact elsewhere too. The model does not.";
         notes.push(Note::new(sentence));
     }

@@ -9,6 +9,7 @@ use asperity_contact::Move;
 use asperity_data::{format_quantity, round_to};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};
+use asperity_surface::Form;
 
 /// Relative difference between the stiffness in the scene and the stiffness in the file above which
 /// a sentence reports the difference.
@@ -50,6 +51,18 @@ pub(crate) fn pause_of(scene: &Scene) -> f64 {
         }
     }
     pause
+}
+
+/// Paths of the radius and of the distance behind of the second of several spheres.
+pub(crate) const SECOND_RADIUS: &str = "form.1.radius";
+pub(crate) const SECOND_BEHIND: &str = "form.1.behind";
+
+/// Returns the path of the radius of the form of a scene. Of several spheres it is the first one.
+fn radius_path(scene: &Scene) -> &'static str {
+    match scene.form {
+        Some(Form::Spheres(_)) => "form.0.radius",
+        _ => "form.radius",
+    }
 }
 
 /// Returns the radius of the form of a scene in m; `None` for a form without a radius.
@@ -116,9 +129,9 @@ pub(crate) fn with_values(
         changes.push(change("loading_stiffness", value(Parameter::Stiffness)));
     }
     for (parameter, path) in [
-        (Parameter::Radius, "form.radius"),
-        (Parameter::SecondRadius, "form.second_radius"),
-        (Parameter::Behind, "form.behind"),
+        (Parameter::Radius, radius_path(scene)),
+        (Parameter::SecondRadius, SECOND_RADIUS),
+        (Parameter::Behind, SECOND_BEHIND),
         (Parameter::RelaxationShare, "material.relaxation.share"),
         (Parameter::RelaxationTime, "material.relaxation.time"),
     ] {
@@ -267,7 +280,7 @@ mod tests {
     use super::*;
     use crate::common::{on_rubber, read, rubber};
     use crate::read::options::Drift;
-    use asperity_surface::Form;
+    use asperity_surface::Sphere;
 
     #[test]
     fn values_found_are_written_where_they_belong() {
@@ -307,17 +320,12 @@ mod tests {
             (radius_of(scene), most_on_closing(scene)),
             (Some(7.5e-6), f64::INFINITY)
         );
-        let two = "TwoSpheres(radius: 7.5e-6, second_radius: 7.5e-6, behind: 0.0)";
+        let two = "Spheres([(radius: 7.5e-6), (radius: 7.5e-6), (radius: 1e-6)])";
         let two = document.set("form", two).unwrap();
         let found = with_values(&two, &values, |one| !one.is_of_relaxation(), &curve).unwrap();
-        assert!(matches!(
-            found.scene().form,
-            Some(Form::TwoSpheres {
-                radius: 6e-6,
-                second_radius: 4e-6,
-                behind: 1e-7
-            })
-        ));
+        let sphere = |radius: f64, behind: f64| Sphere { radius, behind };
+        let spheres = [sphere(6e-6, 0.0), sphere(4e-6, 1e-7), sphere(1e-6, 0.0)];
+        assert_eq!(found.scene().form, Some(Form::Spheres(spheres.to_vec())));
         // The modulus of a material by Young's modulus and Poisson's ratio.
         let plane = [(
             "material".to_owned(),

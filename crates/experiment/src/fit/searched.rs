@@ -79,6 +79,7 @@ pub(crate) fn search(
         model: Model::new(curve, document.scene(), simulation),
         report: &mut report_all,
         lines: space.lines(),
+        further: Vec::new(),
     };
     let result = match of_part.result {
         Some(result) => result,
@@ -104,15 +105,21 @@ fn search_relaxing(
         model: Model::new(curve, document.scene(), simulation),
         report,
         lines: space.lines(),
+        further: Vec::new(),
     };
     let result = search.find()?;
     let searched = compared_with_all(&mut search, result)?;
-    Ok(Searched {
+    Ok(without_rest(searched, curve))
+}
+
+/// Returns a comparison without the points of the rest of a curve.
+pub(crate) fn without_rest(searched: Searched, curve: &MeasuredCurve) -> Searched {
+    Searched {
         residuals: curve.without_rest(&searched.residuals),
         in_contact: curve.without_rest(&searched.in_contact),
         distances_from_jumps: curve.without_rest(&searched.distances_from_jumps),
         ..searched
-    })
+    }
 }
 
 /// Result of a search with a part of the points.
@@ -147,6 +154,7 @@ fn search_part(
         model: Model::new(&part, document.scene(), simulation),
         report,
         lines: space.lines(),
+        further: Vec::new(),
     };
     let (population, generator) = search.first()?;
     let result = if search.is_systematic(&population) {
@@ -156,13 +164,13 @@ fn search_part(
     };
     Ok(SearchOfPart {
         result,
-        evaluations: search.model.evaluations,
+        evaluations: search.evaluations(),
     })
 }
 
 /// Compares the curve of the best values that a search has found with all points of the measured
 /// curve.
-fn compared_with_all(
+pub(crate) fn compared_with_all(
     search: &mut Search<'_>,
     result: SearchResult,
 ) -> Result<Searched, ExperimentError> {
@@ -186,7 +194,7 @@ fn compared_with_all(
         in_contact: best.in_contact,
         distances_from_jumps,
         misfit,
-        evaluations: search.model.evaluations,
+        evaluations: search.evaluations(),
         result,
     })
 }

@@ -8,7 +8,9 @@ use crate::fit::lines::Lines;
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
 use crate::fit::relaxation::{other_relaxations, seconds_in_contact, with_relaxation};
 use crate::fit::result::RangeEnd;
-use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use crate::fit::scene::{
+    SECOND_BEHIND, SECOND_RADIUS, most_on_closing, radius_of, values_of, written_out, wrong,
+};
 use crate::fit::start::{Known, Starts};
 use crate::fit::statistics::PARTS;
 use crate::fit::two_spheres::TwoContacts;
@@ -44,6 +46,8 @@ const AT_END: f64 = 0.01;
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
+    /// Number of coordinates of the curve. Coordinates after these belong to further curves.
+    pub own: usize,
     /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
     /// Sets of parameter values at which further descents of the fit begin.
@@ -85,18 +89,23 @@ fn check_scene(scene: &Scene, free: &[Free]) -> Result<(), ExperimentError> {
     }
     if is_free(free, Parameter::Radius) && radius_of(scene).is_none() {
         let found = "radius: the form of the scene has none";
-        let allowed = "form = Paraboloid, WavySphere, RoundedCone, TwoSpheres or Punch";
+        let allowed = "form = Paraboloid, WavySphere, RoundedCone, Spheres or Punch";
         return refused(found, allowed);
     }
-    let has_two_spheres = matches!(scene.form, Some(Form::TwoSpheres { .. }));
+    let spheres = scene.form.as_ref().map_or(&[][..], Form::spheres);
     for Free { parameter, .. } in free {
-        if parameter.is_of_two_spheres() && !has_two_spheres {
-            let found = format!(
-                "{}: the form of the scene is no two spheres",
-                parameter.name()
-            );
-            return refused(found, "form = TwoSpheres");
+        if parameter.is_of_two_spheres() && spheres.len() < 2 {
+            let name = parameter.name();
+            let found = format!("{name}: the form of the scene has no second sphere");
+            return refused(found, "form = Spheres with two spheres or more");
         }
+    }
+    if is_free(free, Parameter::Behind) && spheres[0].behind > 0.0 {
+        let found = "behind: the first sphere of the form is behind another one";
+        return refused(
+            found,
+            "form.0.behind = 0: the first sphere ahead of the others",
+        );
     }
     Ok(())
 }
@@ -148,27 +157,30 @@ fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
     }
 }
 
-/// Returns the document with the lengths of two spheres at which a search begins, and what the
-/// jumps of the curve say about them. Without an answer the lengths of the scene stay.
+/// Returns the document with the lengths of the first two spheres at which a search begins, and
+/// what the jumps of the curve say about them. Without an answer the lengths of the scene stay, and
+/// so do those of further spheres.
 fn with_two_spheres(
     document: &Document,
     curve: &MeasuredCurve,
     free: &[Free],
 ) -> Result<(Document, TwoContacts), ExperimentError> {
     let scene = document.scene();
-    let Some(Form::TwoSpheres { radius, .. }) = scene.form else {
+    let spheres = scene.form.as_ref().map_or(&[][..], Form::spheres);
+    let [first, _, ..] = spheres else {
         return Ok((document.clone(), TwoContacts::default()));
     };
+    let radius = first.radius;
     let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
     let contacts = TwoContacts::of(curve, stiffness);
     let mut changes = Vec::new();
     for (parameter, path, start) in [
         (
             Parameter::SecondRadius,
-            "form.second_radius",
+            SECOND_RADIUS,
             contacts.ratio.map(|ratio| ratio * radius),
         ),
-        (Parameter::Behind, "form.behind", contacts.behind),
+        (Parameter::Behind, SECOND_BEHIND, contacts.behind),
     ] {
         let given = free.iter().find(|free| free.parameter == parameter);
         if let (Some(start), Some(given)) = (start, given) {
@@ -338,6 +350,7 @@ impl<'a> Space<'a> {
         let relaxations = other_relaxations(&base, |parameter| is_free(free, parameter));
         let space = Space {
             base,
+            own: coordinates.len(),
             coordinates,
             most_on_closing: most_on_closing(document.scene()),
             other_starts,
@@ -365,10 +378,11 @@ impl<'a> Space<'a> {
     }
 
     /// Returns the values of all parameters at a place, which has one coordinate for each free
-    /// parameter.
+    /// parameter. The coordinates of further curves do not count.
     pub fn values(&self, place: &[f64]) -> Values {
         let mut values = self.base;
-        for (coordinate, &position) in self.coordinates.iter().zip(place) {
+        let coordinates = self.coordinates.iter().zip(place);
+        for (coordinate, &position) in coordinates.take(self.own) {
             values[coordinate.parameter as usize] = coordinate.value(position, &values);
             if coordinate.parameter == Parameter::Work {
                 let work = values[Parameter::Work as usize];
@@ -536,13 +550,19 @@ impl<'a> Space<'a> {
         coordinate.of(value, values)
     }
 
-    /// Returns the coordinates that belong to these values of the parameters. A coordinate outside
-    /// its range is replaced by the nearer end of the range.
+    /// Returns the coordinates that belong to these values of the parameters. Further curves have
+    /// the coordinates of their starts. A coordinate outside its range is replaced by the nearer end
+    /// of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
-        let of = |coordinate: &Coordinate| {
-            self.position(coordinate, values[coordinate.parameter as usize], values)
-        };
-        let place: Vec<f64> = self.coordinates.iter().map(of).collect();
+        let mut place = Vec::with_capacity(self.coordinates.len());
+        for (index, coordinate) in self.coordinates.iter().enumerate() {
+            let value = if index < self.own {
+                values[coordinate.parameter as usize]
+            } else {
+                coordinate.start
+            };
+            place.push(self.position(coordinate, value, values));
+        }
         self.inside(&place)
     }
 

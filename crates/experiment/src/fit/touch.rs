@@ -44,11 +44,12 @@ pub(crate) fn touch_of_best(
         model: Model::new(curve, document.scene(), simulation),
         report: &mut |_| {},
         lines: space.lines(),
+        further: Vec::new(),
     };
     let best = search.descended()?;
     Ok(Some(Touch {
         displacement: space.values(&best.place)[Parameter::Offset as usize],
-        evaluations: search.model.evaluations,
+        evaluations: search.evaluations(),
     }))
 }
 

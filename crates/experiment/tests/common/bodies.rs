@@ -7,6 +7,7 @@ use asperity_data::{Control, between};
 use asperity_experiment::{
     CurveOptions, EnsembleFit, EnsembleOptions, MeasuredCurve, Negate, fit_ensemble,
 };
+use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use asperity_surface::Form;
 use rand::rngs::ChaCha8Rng;
@@ -109,46 +110,8 @@ impl Specimen {
 
     /// The curve of one place, with points at evenly spaced displacements.
     pub(crate) fn curve(&self, simulation: &mut Simulation, seed: u64) -> MeasuredCurve {
-        let mut scene = self.truth.clone();
-        scene.numerics.samples = SAMPLES;
-        scene.set_seed(seed);
-        let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-        let outcome = simulation
-            .run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
-            .unwrap();
-        let branch = |number: usize| -> Vec<(f64, f64)> {
-            let points = outcome.history.stages[number].curve.iter();
-            points
-                .map(|point| (point.indentation + point.force / stiffness, point.force))
-                .collect()
-        };
-        let pressed = ascending(branch(0));
-        let mirrored = |(displacement, force): &(f64, f64)| (-displacement, *force);
-        let pulled = ascending(branch(1).iter().map(mirrored).collect());
-        let (top, end) = (pressed[pressed.len() - 1].0, -pulled[pulled.len() - 1].0);
-        let low = end.min(0.0) - 0.5 * (top - end);
-        let displacement = |index: usize| between(low, top, index as f64 / (POINTS - 1) as f64);
-        let noise = gauss(self.noise * 1e-5, seed);
-        let (mut displacements, mut forces) = (Vec::new(), Vec::new());
-        for (index, noise) in noise.iter().enumerate().take(2 * POINTS) {
-            let is_pressed = index < POINTS;
-            let at = displacement(if is_pressed {
-                index
-            } else {
-                2 * POINTS - 1 - index
-            });
-            let force = match is_pressed {
-                true => interpolated(&pressed, at, [0.0, pressed[pressed.len() - 1].1]),
-                false => interpolated(&pulled, -at, [pulled[0].1, 0.0]),
-            };
-            displacements.push(at);
-            forces.push(force + noise);
-        }
-        let options = CurveOptions {
-            negate: Some(Negate::None),
-            ..CurveOptions::default()
-        };
-        MeasuredCurve::from_columns(&displacements, &forces, &options).unwrap()
+        let noise = self.noise * 1e-5;
+        curve_at(simulation, &self.truth, seed, noise, Sampled::Evenly)
     }
 
     /// Fits γ and E* to the curves of this specimen.
@@ -173,6 +136,87 @@ impl Specimen {
         )
         .unwrap()
     }
+}
+
+/// The displacements at which a curve has points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Sampled {
+    /// At evenly spaced displacements.
+    Evenly,
+    /// At those that the engine has computed, which are dense near jumps and turns, and at evenly
+    /// spaced displacements without contact.
+    ByEngine,
+}
+
+/// The curve of a profile of a scene, with `noise` in N.
+pub(crate) fn curve_at(
+    simulation: &mut Simulation,
+    scene: &Scene,
+    seed: u64,
+    noise: f64,
+    sampled: Sampled,
+) -> MeasuredCurve {
+    let mut scene = scene.clone();
+    scene.numerics.samples = match sampled {
+        Sampled::Evenly => SAMPLES,
+        Sampled::ByEngine => POINTS as u64,
+    };
+    scene.set_seed(seed);
+    let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    let outcome = simulation
+        .run(&scene.checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
+        .unwrap();
+    let branch = |number: usize| -> Vec<(f64, f64)> {
+        let points = outcome.history.stages[number].curve.iter();
+        points
+            .map(|point| (point.indentation + point.force / stiffness, point.force))
+            .collect()
+    };
+    let pressed = ascending(branch(0));
+    let mirrored = |(displacement, force): &(f64, f64)| (-displacement, *force);
+    let pulled = ascending(branch(1).iter().map(mirrored).collect());
+    let (top, end) = (pressed[pressed.len() - 1].0, -pulled[pulled.len() - 1].0);
+    let low = end.min(0.0) - 0.5 * (top - end);
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    match sampled {
+        Sampled::Evenly => {
+            let displacement = |index: usize| between(low, top, index as f64 / (POINTS - 1) as f64);
+            for index in 0..POINTS {
+                let at = displacement(index);
+                let outside = [0.0, pressed[pressed.len() - 1].1];
+                points.push((at, interpolated(&pressed, at, outside)));
+            }
+            for index in (0..POINTS).rev() {
+                let at = displacement(index);
+                points.push((at, interpolated(&pulled, -at, [pulled[0].1, 0.0])));
+            }
+        }
+        Sampled::ByEngine => {
+            let free = |from: f64, to: f64| {
+                let place = move |index: u8| between(from, to, f64::from(index) / 100.0);
+                (0..100).map(move |index| (place(index), 0.0))
+            };
+            points.extend(free(low, pressed[0].0));
+            for stage in &outcome.history.stages {
+                let curve = DisplacementCurve::new(stage.direction, &stage.curve, stiffness);
+                let computed = curve.points().iter();
+                points.extend(computed.map(|point| (point.displacement, point.force)));
+            }
+            let mut behind: Vec<(f64, f64)> = free(low, end).collect();
+            behind.reverse();
+            points.extend(behind);
+        }
+    }
+    let disturbances = gauss(noise, seed).into_iter().cycle();
+    let (displacements, mut forces): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+    for (force, disturbance) in forces.iter_mut().zip(disturbances) {
+        *force += disturbance;
+    }
+    let options = CurveOptions {
+        negate: Some(Negate::None),
+        ..CurveOptions::default()
+    };
+    MeasuredCurve::from_columns(&displacements, &forces, &options).unwrap()
 }
 
 /// The points at which the displacement is larger than at all points before: those that an

@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each executable of tests uses a part")]
 
 pub(crate) mod bodies;
+#[path = "../../../../tests/common/effort.rs"]
+mod effort;
 pub(crate) mod specimens;
 pub(crate) mod sphere;
 
@@ -21,6 +23,19 @@ pub(crate) struct Made {
     pub offset: f64,
     pub noise: f64,
     pub drift: f64,
+}
+
+/// Number of cases of a slow test: `quick`, times `TEST_EFFORT` of the environment, and at most
+/// `most`.
+pub(crate) fn cases(quick: u32, most: u64) -> u64 {
+    u64::from(effort::cases(quick)).min(most)
+}
+
+/// Seed of the first case of a slow test: `TEST_SEED` of the environment, or 0. Another seed draws
+/// cases that no result has been judged by.
+pub(crate) fn first_seed() -> u64 {
+    let seed = std::env::var("TEST_SEED").ok();
+    seed.and_then(|seed| seed.parse().ok()).unwrap_or(0)
 }
 
 pub(crate) fn stiffness(scene: &Scene) -> f64 {

@@ -18,12 +18,16 @@ impl Sphere {
         1.5 * PI * self.work * self.radius
     }
 
+    /// Returns the largest stretch in m at the edge of a contact of this radius.
+    pub(crate) fn stretch(self, contact: f64) -> f64 {
+        (2.0 * PI * self.work * contact / self.modulus).sqrt()
+    }
+
     /// Returns displacement of the instrument and force at a contact radius.
     fn state(self, contact: f64) -> [f64; 2] {
         let hertz = 4.0 * self.modulus * contact.powi(3) / (3.0 * self.radius);
         let force = hertz - (8.0 * PI * self.work * self.modulus * contact.powi(3)).sqrt();
-        let indentation = contact * contact / self.radius
-            - (2.0 * PI * self.work * contact / self.modulus).sqrt();
+        let indentation = contact * contact / self.radius - self.stretch(contact);
         [indentation + force / self.stiffness, force]
     }
 

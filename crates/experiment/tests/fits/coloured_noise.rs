@@ -2,7 +2,7 @@
 //! neighbouring points deviate alike.
 
 use crate::common::sphere::{Sphere, path};
-use crate::common::{fit_from, gauss};
+use crate::common::{cases, fit_from, gauss};
 use asperity_data::on_threads;
 use asperity_experiment::{CurveOptions, ExperimentError, MeasuredCurve, Parameter};
 use asperity_scene::{Document, open};
@@ -62,14 +62,11 @@ fn case(seed: u64) -> (Sphere, MeasuredCurve, Document) {
     (sphere, curve, document)
 }
 
-/// As many curves as `TEST_EFFORT` says, at least 20 and at most 200.
+/// Twenty curves, times `TEST_EFFORT`, and at most 200.
 #[test]
 #[ignore = "fits of many curves take a minute or more"]
 fn most_curves_with_coloured_noise_are_held() {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count: u64 = effort.unwrap_or(20).clamp(20, 200);
+    let count = cases(20, 200);
     let worker = || {
         move |seed: u64| {
             let (sphere, curve, document) = case(seed);

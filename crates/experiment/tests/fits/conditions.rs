@@ -1,8 +1,8 @@
 //! Test: fits to curves with partial unloadings, pauses, drag and tilt hold the known values, from
 //! starts a thousand times off.
 
-use crate::common::fit_from;
 use crate::common::sphere::{DragOf, Sphere, add_drag, add_noise, path};
+use crate::common::{cases, first_seed, fit_from};
 use asperity_data::on_threads;
 use asperity_experiment::{
     CurveOptions, ExperimentError, FitResult, MeasuredCurve, Parameter, RangeEnd, Reason, Tilt,
@@ -184,7 +184,8 @@ fn judged(seed: u64, case: &Case, fit: &FitResult) -> [usize; 3] {
 
 fn assert_held(count: u64) {
     let worker = || {
-        move |seed: u64| {
+        move |index: u64| {
+            let seed = first_seed() + index;
             let case = Case::new(seed);
             let fit = fit_from(&case.curve, &case.document, "work,modulus,offset");
             Ok::<_, ExperimentError>(judged(seed, &case, &fit))
@@ -203,14 +204,11 @@ fn curves_of_all_conditions_are_held() {
     assert_held(10);
 }
 
-/// As many curves as `TEST_EFFORT` says, at least 40 and at most 200.
+/// Forty curves, times `TEST_EFFORT`, and at most 200.
 #[test]
 #[ignore = "fits of many curves take a minute or more"]
 fn most_curves_of_all_conditions_are_held() {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    assert_held(effort.unwrap_or(40).clamp(40, 200));
+    assert_held(cases(40, 200));
 }
 
 /// The curve of a soft gel in a liquid: a sphere of 5 µm with γ = 10 µJ/m² on an instrument of

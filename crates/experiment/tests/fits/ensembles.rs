@@ -1,5 +1,6 @@
 //! Test: the intervals of comparisons hold the known values of specimens.
 
+use crate::common::cases;
 use crate::common::specimens::{curve, document, scene};
 use asperity_data::Control;
 use asperity_experiment::{EnsembleFit, EnsembleOptions, IntervalEstimate, fit_ensemble};
@@ -88,14 +89,11 @@ fn rougher(scene: &Scene, generator: &mut ChaCha8Rng) -> Scene {
     scene
 }
 
-/// Compares the curves of 2 specimens, or of `TEST_EFFORT` specimens, with random profiles, and
+/// Compares the curves of 2 specimens, times `TEST_EFFORT`, with random profiles, and
 /// asserts what the intervals hold. Half-widths and errors refer to ln γ. With 60 specimens the
 /// table is the one in docs/experiment.md.
 fn compare(name: &str, with_errors: bool) {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count = effort.unwrap_or(2).clamp(2, 60);
+    let count = cases(2, 60);
     let base = scene(name);
     let kinds = if with_errors {
         vec![(32, false), (32, true)]

@@ -2,8 +2,8 @@
 //! those of the fit.
 
 use crate::common::bodies::{Body, Specimen};
-use crate::common::gauss;
 use crate::common::specimens::document;
+use crate::common::{cases, first_seed, gauss};
 use asperity_contact::Move;
 use asperity_data::Control;
 use asperity_experiment::{
@@ -49,12 +49,10 @@ impl Tally {
 /// Fits specimens of a body, each with its number of curves, and asserts that nearly all intervals
 /// hold the truth.
 fn check(body: Body) {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count = effort.unwrap_or(4).clamp(4, SPECIMENS);
+    let count = cases(4, SPECIMENS);
     let mut tallies = [Tally::default(), Tally::default()];
-    for number in 0..count {
+    for index in 0..count {
+        let number = first_seed() + index;
         let specimen = Specimen::new(body, number);
         let fit = specimen.fit(number, 64);
         assert!(
@@ -72,9 +70,9 @@ fn check(body: Body) {
             specimen.work(),
             specimen.modulus(),
             specimen.noise,
-            tallies[0].errors[number as usize],
+            tallies[0].errors[index as usize],
             fit.work.half_width(),
-            tallies[1].errors[number as usize],
+            tallies[1].errors[index as usize],
             fit.modulus.half_width(),
             fit.described,
         );

@@ -1,6 +1,6 @@
 //! Test: the intervals of many fits hold the known values of their curves.
 
-use crate::common::{fitted, free, measured, noise, random, truth};
+use crate::common::{cases, first_seed, fitted, free, measured, noise, random, truth};
 use asperity_data::on_threads;
 use asperity_experiment::{ExperimentError, FitResult, FittedParameter, Parameter};
 use std::fmt;
@@ -25,16 +25,15 @@ impl fmt::Display for Held {
 }
 
 /// Even seeds give smooth spheres and odd seeds rough ones: 8 curves, or 200 with
-/// `TEST_EFFORT=200`.
+/// `TEST_EFFORT=25`.
 #[test]
 #[ignore = "fits of many curves take ten seconds or more"]
 fn intervals_hold_the_truth_of_most_spheres() {
-    let effort = std::env::var("TEST_EFFORT")
-        .ok()
-        .and_then(|effort| effort.parse().ok());
-    let count = effort.unwrap_or(8).clamp(8, 200);
+    let count = cases(8, 200);
+    let first = first_seed();
     let worker = || {
-        move |seed: u64| {
+        move |index: u64| {
+            let seed = first + index;
             let made = random(seed, 4096);
             let curve = measured(&made, seed);
             let clock = std::time::Instant::now();
@@ -52,7 +51,7 @@ fn intervals_hold_the_truth_of_most_spheres() {
     let mut seconds = Vec::new();
     // Of smooth and of rough spheres by parameter.
     let mut rows = [[Held::default(); Parameter::ALL.len()]; 2];
-    for (seed, (made, curve, of_seed, first)) in (0..).zip(fits) {
+    for (seed, (made, curve, of_seed, fit)) in (first..).zip(fits) {
         seconds.push(of_seed);
         // The zero of the reading is off by the mean of the noise before contact.
         let is_first_touch = |displacement: &f64| *displacement == curve.touch;
@@ -70,10 +69,10 @@ fn intervals_hold_the_truth_of_most_spheres() {
                 println!("{seed}: {one:?}, truth {truth:e}, misfit {:.3}", fit.misfit);
             }
         };
-        for one in &first.parameters {
+        for one in &fit.parameters {
             count_held(
                 &mut rows[(seed % 2) as usize][one.parameter as usize],
-                &first,
+                &fit,
                 one,
             );
         }
@@ -104,11 +103,11 @@ fn intervals_hold_the_truth_of_most_spheres() {
         seconds.iter().copied().fold(0.0, f64::max),
     );
     println!("{table}{mean:.2} s for a fit, {longest:.2} s at most");
-    let first = Held {
+    let both = Held {
         held: all[0].held + all[1].held,
         all: all[0].all + all[1].all,
     };
-    assert!(first.share() >= 0.93);
+    assert!(both.share() >= 0.93);
     let docs = include_str!("../../../../docs/experiment.md");
-    assert!(count < 200 || docs.contains(&table));
+    assert!(count < 200 || first > 0 || docs.contains(&table));
 }

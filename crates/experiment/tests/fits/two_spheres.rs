@@ -47,7 +47,7 @@ impl Probe {
             (
                 "form",
                 format!(
-                    "TwoSpheres(radius: {radius:e}, second_radius: {second_radius:e}, behind: {behind:e})"
+                    "Spheres([(radius: {radius:e}), (radius: {second_radius:e}, behind: {behind:e})])"
                 ),
             ),
             ("loading_stiffness", format!("{STIFFNESS:e}")),
@@ -60,17 +60,7 @@ impl Probe {
 
     /// The curve of this probe by the engine on a finer grid, with noise and an offset.
     fn curve(self, noise: f64, seed: u64) -> MeasuredCurve {
-        let stages = run(&self.document(6000, 1 << 16)).unwrap().history.stages;
-        let top = stages[0].curve.last().unwrap();
-        let top = top.indentation + top.force / STIFFNESS;
-        let points = sampled(&stages, STIFFNESS, -1.2 * top, top, 500);
-        let mut displacements = Vec::new();
-        let mut forces = Vec::new();
-        for ((displacement, force), noise) in points.into_iter().zip(gauss(noise, seed)) {
-            displacements.push(displacement + 3e-7);
-            forces.push(force + noise);
-        }
-        MeasuredCurve::from_columns(&displacements, &forces, &CurveOptions::default()).unwrap()
+        curve_of(&self.document(6000, 1 << 16), noise, seed)
     }
 
     fn truth(self, parameter: Parameter) -> f64 {
@@ -85,6 +75,21 @@ impl Probe {
             _ => 0.0,
         }
     }
+}
+
+/// The curve of a scene by the engine, with noise and an offset.
+fn curve_of(document: &Document, noise: f64, seed: u64) -> MeasuredCurve {
+    let stages = run(document).unwrap().history.stages;
+    let top = stages[0].curve.last().unwrap();
+    let top = top.indentation + top.force / STIFFNESS;
+    let points = sampled(&stages, STIFFNESS, -1.2 * top, top, 500);
+    let mut displacements = Vec::new();
+    let mut forces = Vec::new();
+    for ((displacement, force), noise) in points.into_iter().zip(gauss(noise, seed)) {
+        displacements.push(displacement + 3e-7);
+        forces.push(force + noise);
+    }
+    MeasuredCurve::from_columns(&displacements, &forces, &CurveOptions::default()).unwrap()
 }
 
 /// Fits these parameters of a probe, from a scene in which their values are wrong.
@@ -201,6 +206,36 @@ fn without_a_known_radius_the_work_is_not_found() {
     assert!(low < 0.017 && 0.017 < high && high > 1.5 * low);
 }
 
+/// A third sphere, which the scene states, stays as it is, and the first two are found beside it.
+#[test]
+fn two_spheres_are_found_beside_a_known_third_one() {
+    let with_third = |document: Document| {
+        let form = document.value("form").unwrap();
+        let end = form.rfind(']').unwrap();
+        let form = format!("{}, (radius: 2e-6, behind: 4e-7)])", &form[..end]);
+        let changes = [
+            ("form", form),
+            ("length", "3.6e-5".to_owned()),
+            ("adhesion.closing_work", "None".to_owned()),
+        ];
+        let changes = changes.map(|(path, value)| (path.to_owned(), value));
+        document.set_all(&changes).unwrap()
+    };
+    let curve = curve_of(&with_third(PROBE.document(9000, 1 << 16)), 5e-10, 5);
+    let start = Probe {
+        work: 0.05,
+        closing_work: 0.05,
+        second_radius: PROBE.radius,
+        behind: 0.0,
+        ..PROBE
+    };
+    let document = with_third(start.document(3072, 512));
+    let fit = fit_from(&curve, &document, "work,offset,second_radius,behind");
+    assert_found(&fit, PROBE, 0.01);
+    let third = fit.document.scene().number("form.2.radius");
+    assert_eq!(third, Some(2e-6));
+}
+
 /// A sphere has no second radius, and a measured line whose heights are depths is no body.
 #[test]
 fn other_bodies_are_refused() {
@@ -213,10 +248,17 @@ fn other_bodies_are_refused() {
             .unwrap_err();
         let text = error.to_string();
         assert!(
-            text.contains(parameter.name()) && text.contains("TwoSpheres"),
+            text.contains(parameter.name()) && text.contains("Spheres"),
             "{text}"
         );
     }
+    // The first sphere of this probe is behind the second one.
+    let behind = "Spheres([(radius: 5e-6, behind: 1e-7), (radius: 3e-6)])";
+    let error = Fit::of(&open("two-spheres").unwrap().set("form", behind).unwrap())
+        .free(Parameter::Behind)
+        .run(&curve, Control::default())
+        .unwrap_err();
+    assert!(error.to_string().contains("form.0.behind = 0"), "{error}");
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("line.csv");

@@ -5,6 +5,7 @@ mod distribution;
 mod row;
 #[cfg(test)]
 mod tests;
+mod together;
 
 pub use row::{CurveRow, RowWarning};
 
@@ -14,7 +15,7 @@ use crate::spread::Spread;
 use crate::warnings::{sentences_section, with_share};
 use asperity_data::{AxisScale, Kind, Note, Remedy, Table, Wording, counted};
 use asperity_data::{format_rounded, format_within, grouped, one_unit};
-use asperity_experiment::Parameter;
+use asperity_experiment::{FitResult, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
 use distribution::{Distribution, DistributionJson, FirstParameter, Histogram};
@@ -25,7 +26,8 @@ use serde::Serialize;
 /// Largest number of curves that a sentence lists by name.
 const MOST_NAMES: usize = 4;
 
-/// Report on fits of one scene to many measured curves. Each curve is fitted separately.
+/// Report on fits of one scene to many measured curves. Each curve is fitted separately, or a few
+/// curves of one specimen are fitted together.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
     /// Scene that is fitted to the curves.
@@ -34,6 +36,9 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
+    /// Result for each curve if all curves were fitted together; empty if each curve was fitted
+    /// separately.
+    pub together: &'a [FitResult],
     /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
     /// of an error or a warning. The words name an option of the command line, a row of the
     /// explorer or an argument of Python.
@@ -216,6 +221,9 @@ impl Report for FitsReport<'_> {
     }
 
     fn text(&self) -> Option<String> {
+        if !self.together.is_empty() {
+            return Some(self.text_together());
+        }
         let mut sheet = Sheet::default();
         let symbol = self
             .free
@@ -247,6 +255,7 @@ impl Report for FitsReport<'_> {
             all: DistributionJson::new(values.all()),
             described: DistributionJson::new(values.described),
             spreads: self.spreads(),
+            together: !self.together.is_empty(),
             warnings: self.warnings(),
             curves: self.table(),
             scene: self.scene,
@@ -329,6 +338,8 @@ struct FitsJson<'a> {
     all: Option<DistributionJson>,
     /// Median and scatter of each quantity over all fitted curves.
     spreads: Vec<Spread>,
+    /// True if all curves were fitted together.
+    together: bool,
     /// Premises of the model that some of the fitted scenes do not meet.
     warnings: Vec<String>,
     curves: Option<Table<'a>>,

@@ -74,6 +74,7 @@ fn tables_have_all_forms_for_every_mixture_of_curves() {
             scene: document.scene(),
             free: &free,
             rows: &rows,
+            together: &[],
         };
         let [text, json, csv, pictures @ ..] = written(&report);
         let fitted = counts[0] + counts[1];
@@ -145,6 +146,7 @@ fn premises_are_counted_over_the_fitted_curves() {
             scene: document.scene(),
             free: &[Parameter::Work],
             rows,
+            together: &[],
         };
         let warnings = report.warnings();
         let text = report.text().unwrap().replace('\n', " ");
@@ -175,6 +177,7 @@ fn the_title_of_a_figure_counts_its_curves() {
             scene: document.scene(),
             free: &[Parameter::Work, Parameter::Modulus],
             rows: &rows[..count],
+            together: &[],
         };
         assert_eq!(report.figure().unwrap().title, title);
     }
@@ -195,6 +198,7 @@ fn a_message_names_a_few_of_many_files() {
         scene: document.scene(),
         free: &[Parameter::Work],
         rows: &rows,
+        together: &[],
     };
     let expected = "no curve was fitted: 0.csv: no; 1.csv: no; 2.csv: no; 3.csv: no; and 36 others";
     assert_eq!(report.failure().as_deref(), Some(expected));
@@ -222,6 +226,7 @@ fn rows_come_back_from_the_table() {
         scene: document.scene(),
         free: &free,
         rows: &rows,
+        together: &[],
     };
     let mut text = Vec::new();
     report.table().unwrap().write_csv(&mut text, "").unwrap();

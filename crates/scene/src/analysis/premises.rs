@@ -4,7 +4,8 @@ use super::governing::{Governing, SteepWaves};
 use crate::scene::model::{Roughness, Scene, Solver};
 use asperity_contact::{Direction, History, Move};
 use asperity_data::{Warning, path_name};
-use asperity_surface::Form;
+use asperity_surface::{Form, Sphere};
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Distance from the axis at which the edge of a contact begins, as a share of its radius.
@@ -206,12 +207,9 @@ impl Scene {
             contact_length = contact_length.max(point.contact_length);
             deepest = deepest.max(point.indentation);
         }
-        // A scene with two spheres has two contacts, which share the contact length and the length
-        // of the profile.
-        let bodies = match form {
-            Form::TwoSpheres { .. } => 2.0,
-            _ => 1.0,
-        };
+        // Several spheres have several contacts, which share the contact length and the length of
+        // the profile.
+        let bodies = form.contacts() as f64;
         let half_length = 0.5 * self.length / bodies;
         let half_contact = 0.5 * contact_length / bodies;
         let touched = distance_at_depth(&form, deepest, half_length);
@@ -221,6 +219,30 @@ impl Scene {
         let inner = EDGE * radius;
         let fall = form.depth(radius)? - form.depth(inner)?;
         Warning::of_slope_of_form(fall / (radius - inner))
+    }
+
+    /// Returns a warning if the contact of one of several spheres reaches an end of its part of the
+    /// profile, where the next sphere begins. The warning states the length of this part. Roughness
+    /// is left out.
+    ///
+    /// A contact of half-width w grows up to w where the indentation of its sphere is
+    /// w²/R − √(2πwγ₁/E*).
+    pub(crate) fn wide_sphere(&self, history: &History, governing: &Governing) -> Option<Warning> {
+        let spheres = self.form.as_ref()?.spheres();
+        let part = self.length / spheres.len() as f64;
+        let half_width = 0.5 * part - self.spacing();
+        let closing_work = governing
+            .adhesive_works()
+            .map_or(0.0, |[closing, _]| closing);
+        let stretch = (TAU * half_width * closing_work / governing.modulus).sqrt();
+        let points = history.stages.iter().flat_map(|stage| &stage.curve);
+        let in_contact = points.filter(|point| point.springs > 0);
+        let deepest = in_contact.map(|point| point.indentation).reduce(f64::max)?;
+        let reaches_end = |sphere: &Sphere| {
+            deepest - sphere.behind >= half_width * half_width / sphere.radius - stretch
+        };
+        let is_wide = spheres.iter().any(reaches_end);
+        is_wide.then_some(Warning::ContactAtEnds { length: part })
     }
 
     /// Returns a warning if the waves of the profile differ from the wavelengths that the scene

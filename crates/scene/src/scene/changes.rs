@@ -1,13 +1,15 @@
 //! Differences between two scenes as text for users.
 
 use super::document::Document;
-use super::field::{Field, choice_in_words, target_field};
+use super::field::{Field, choice_in_words, sphere_values, target_field};
 use super::model::Scene;
 use super::range::Range;
+use super::slot::Value;
 use super::stages::loading_text;
 use super::written::differing;
 use asperity_contact::Move;
 use asperity_data::format_quantity;
+use asperity_surface::Sphere;
 use std::fmt;
 
 /// A field with different values in two scenes.
@@ -55,6 +57,9 @@ fn value_in_words(field: &Field, value: &str) -> String {
 /// its choice with those values that the scene states: `self-affine (H 0.7, h 200 nm)`, `γ 50
 /// mJ/m²`.
 fn in_words(scene: &Scene, field: &Field) -> String {
+    if let Some(Value::Spheres(spheres)) = field.value(scene) {
+        return spheres_in_words(spheres);
+    }
     let value = field.written(scene).unwrap_or_default();
     let inside = field.inside(scene);
     if inside.is_empty() {
@@ -79,6 +84,22 @@ fn in_words(scene: &Scene, field: &Field) -> String {
     } else {
         format!("{choice} ({given})")
     }
+}
+
+/// Returns the spheres of a form as text for users: `spheres (R 5.4 µm; R 3.2 µm, b 200 nm)`.
+fn spheres_in_words(spheres: &[Sphere]) -> String {
+    let mut words = Vec::new();
+    for sphere in spheres {
+        let mut values = Vec::new();
+        for (field, value) in sphere_values(*sphere) {
+            if value != 0.0 {
+                let quantity = format_quantity(value, field.unit);
+                values.push(format!("{} {quantity}", field.symbol));
+            }
+        }
+        words.push(values.join(", "));
+    }
+    format!("spheres ({})", words.join("; "))
 }
 
 impl Document {

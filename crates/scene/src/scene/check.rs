@@ -7,18 +7,19 @@
 
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
-use super::field::{FILE_NAME, Field, STAGE_INDENTATION, TABLE, target_field};
+use super::field::{FILE_NAME, Field, STAGE_INDENTATION, TABLE, sphere_values, target_field};
 use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
 use super::slot::Value;
+use super::spheres::MOST_SPHERES;
 use super::stages::stage_in_ron;
 use super::text::index::is_within;
 use super::text::{ron_float, ron_string};
 use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
-use asperity_surface::{Form, Unit};
+use asperity_surface::{Form, Sphere, Unit};
 
 /// Largest number of curve points of all loading stages together. A curve of this size fits into
 /// the memory of a small machine.
@@ -175,6 +176,7 @@ impl Found<'_> {
             }
             Value::Stages(stages) => return self.check_count(field, stages.len()),
             Value::Observers(observers) => return self.check_count(field, observers.len()),
+            Value::Spheres(spheres) => return self.check_spheres(spheres),
             Value::Flag(_) | Value::Choice(_) | Value::Group => return,
         };
         if !is_allowed {
@@ -212,6 +214,26 @@ impl Found<'_> {
             {
                 let path = format!("loading.{index}.0");
                 self.refuse(&path, ron_float(value), &field.allowed(), field.name);
+            }
+        }
+    }
+
+    /// Checks the number of spheres of a form and the range of their values.
+    fn check_spheres(&mut self, spheres: &[Sphere]) {
+        if !(1..=MOST_SPHERES).contains(&spheres.len()) {
+            let value = match spheres.len() {
+                0 => "Spheres([])".to_owned(),
+                count => format!("a list of {count} spheres"),
+            };
+            let allowed = format!("a list of 1 to {MOST_SPHERES}, such as [(radius: 5.0e-6)]");
+            return self.refuse("form", value, &allowed, "spheres of the form");
+        }
+        for (index, sphere) in spheres.iter().enumerate() {
+            for (field, value) in sphere_values(*sphere) {
+                if !field.range.contains(value) {
+                    let path = format!("form.{index}.{}", field.last());
+                    self.refuse(&path, ron_float(value), &field.allowed(), field.name);
+                }
             }
         }
     }
@@ -279,7 +301,31 @@ impl Found<'_> {
                 &reason,
             );
         }
+        if let Form::Spheres(spheres) = form {
+            self.check_places(spheres);
+        }
         self.check_depth(form);
+    }
+
+    /// Checks that one sphere is ahead of all others, from which the distances of the others are
+    /// measured, and that each sphere has springs.
+    fn check_places(&mut self, spheres: &[Sphere]) {
+        let behinds = spheres.iter().map(|sphere| sphere.behind);
+        let least = behinds.fold(f64::INFINITY, f64::min);
+        let most = ron_float(round_to(least, LIMIT_DIGITS));
+        let reason =
+            format!("no sphere is ahead: behind is 0 for one of them, so take {most} from each");
+        self.require(least == 0.0, &["form"], "form", "", &reason);
+        let points = self.scene.numerics.points;
+        let count = spheres.len();
+        let reason = format!("{count} spheres have {points} springs: more points or fewer spheres");
+        self.require(
+            count as u64 <= points,
+            &["form", "numerics.points"],
+            "form",
+            "",
+            &reason,
+        );
     }
 
     /// Checks that the flat end of a punch is not wider than the profile, and that at least one

@@ -15,7 +15,7 @@ use super::checked::CheckedScene;
 use super::effects::Effect;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
-use super::fields::FIELDS;
+use super::fields::{FIELDS, field as known};
 use super::model::Scene;
 use super::read::read;
 use super::stages::{stage_in_ron, stages_in_ron};
@@ -261,8 +261,9 @@ impl Document {
         }
         let field = FIELDS
             .iter()
-            .find(|field| field.path == path && self.has(field))?;
-        let default = field.default_in(&self.scene);
+            .find(|field| field.path == path && self.has(field));
+        let of_sphere = self.scene.number(path).and_then(|_| known(path, None));
+        let default = field.or(of_sphere)?.default_in(&self.scene);
         (!default.is_empty()).then_some(default)
     }
 

@@ -1,7 +1,7 @@
 //! Changes of one field in the text of a scene. All comments stay.
 
 use super::errors::did_you_mean;
-use super::field::{Field, STAGE_FIELDS};
+use super::field::{Field, SPHERE_FIELDS, STAGE_FIELDS};
 use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
 use super::text::edit::NOT_ONE_VALUE;
@@ -32,6 +32,9 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 /// text has no group for the field.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
+    if field(path, None).is_some_and(|field| SPHERE_FIELDS.contains(&field)) {
+        return set_of_sphere(text, path, value);
+    }
     let base = without_positions(path);
     // Several fields have the same path if several choices, such as the forms sphere and punch,
     // have a field of this name.
@@ -55,6 +58,28 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     let edited = insert(text, field, value)?;
     // The value is read back, because `value` may contain a bracket that closes the new group too
     // early.
+    if edited.written(path) == Some(value) {
+        Ok(edited)
+    } else {
+        Err(NOT_ONE_VALUE.into())
+    }
+}
+
+/// Sets a value of one sphere of a form, and returns the new text.
+fn set_of_sphere(text: &Text, path: &str, value: &str) -> Result<Text, String> {
+    if text.span(path).is_some() {
+        return text.replace(path, value);
+    }
+    let variant = text.variant("form");
+    if variant != SPHERE_FIELDS[0].variant {
+        return Err(wrong_variant("form", variant, &SPHERE_FIELDS));
+    }
+    let (sphere, name) = path.rsplit_once('.').unwrap_or(("form", path));
+    if text.span(sphere).is_none() {
+        return Err("there is no such sphere".into());
+    }
+    let order = SPHERE_FIELDS.map(Field::last);
+    let edited = text.insert(sphere, name, value, &order)?;
     if edited.written(path) == Some(value) {
         Ok(edited)
     } else {
@@ -142,7 +167,13 @@ fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> Stri
     match variant {
         None | Some("None") => format!("there is no {parent}: set {possible}"),
         Some(variant) => {
-            format!("{parent} is {variant}, which has no such field: set {possible}")
+            let first = SPHERE_FIELDS[0];
+            let list = if Some(variant) == first.variant {
+                format!(" (its first sphere has {})", first.path)
+            } else {
+                String::new()
+            };
+            format!("{parent} is {variant}, which has no such field{list}: set {possible}")
         }
     }
 }

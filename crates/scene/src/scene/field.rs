@@ -2,10 +2,12 @@
 
 use super::range::{Range, choice_name};
 use super::slot::Place;
+use super::spheres::Member;
 use super::stages::{STAGES, read_loading, stages_in_ron};
 use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
+use asperity_surface::Sphere;
 
 /// Description of one field of a scene: a row of the table
 /// [`FIELDS`](crate::scene::fields::FIELDS).
@@ -319,6 +321,46 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
         Move::Hold(seconds) => Some((&STAGE_HOLD, seconds)),
         Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
     }
+}
+
+/// Description of the radius of each sphere of a form. The path is that of the first sphere.
+pub const SPHERE_RADIUS: Field = row(
+    "form.0.radius",
+    Place::NOWHERE.of("Spheres"),
+    Range::above(0.0, 1e9),
+)
+.quantity("radius of sphere", "R", "m")
+.meaning("radius of curvature of the first sphere; form.1 is the second sphere");
+
+/// Description of the distance of each sphere of a form behind the sphere that is ahead. The path
+/// is that of the first sphere.
+pub const SPHERE_BEHIND: Field = row(
+    "form.0.behind",
+    Place::NOWHERE.of("Spheres"),
+    Range::closed(0.0, 1e6),
+)
+.quantity("distance behind of sphere", "b", "m")
+.default("0.0")
+.meaning("depth of its apex below that of the sphere ahead");
+
+/// Descriptions of the values of each sphere of a form: radius and distance.
+pub const SPHERE_FIELDS: [&Field; 2] = [&SPHERE_RADIUS, &SPHERE_BEHIND];
+
+/// Returns the description of a value of a sphere from its path in a scene, such as
+/// `form.1.radius`; `None` for any other path.
+pub(super) fn sphere_field(path: &str) -> Option<&'static Field> {
+    let member = Member::inside_form(path.strip_prefix("form.")?)?;
+    SPHERE_FIELDS
+        .into_iter()
+        .find(|field| field.last() == member.name)
+}
+
+/// Returns the values of a sphere with their descriptions.
+pub fn sphere_values(sphere: Sphere) -> [(&'static Field, f64); 2] {
+    [
+        (&SPHERE_RADIUS, sphere.radius),
+        (&SPHERE_BEHIND, sphere.behind),
+    ]
 }
 
 /// Whole numbers below this limit are exact as floating-point numbers. Above the limit,

@@ -7,6 +7,7 @@ use super::defaults;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{
     FILE_NAME, Field, TABLE, read_adhesion, read_form, read_roughness, read_stages, row,
+    sphere_field,
 };
 use super::measured::Measured;
 use super::model::{MaterialRelaxation, Roughness, SCENE_VERSION, Solver};
@@ -23,7 +24,7 @@ pub const MOST_POINTS: u64 = 1 << 28;
 ///
 /// Several choices may have a field at the same path, such as the radius of a sphere and of a
 /// punch. `variant` is then the name of the choice. If `variant` is `None`, the first choice that
-/// has the field counts.
+/// has the field counts. Each sphere of a form has fields of its own, such as `form.1.radius`.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
@@ -34,6 +35,7 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
         .iter()
         .filter(|field| field.path == path)
         .find(|field| variant.is_none() || field.variant.is_none() || field.variant == variant)
+        .or_else(|| sphere_field(path))
 }
 
 /// Returns the fields directly inside the group or the variant at a path. An empty path means the
@@ -60,7 +62,7 @@ const FORMS: Range = Choice(&[
     "WavySphere(radius: 1.0e-3, amplitude: 1.0e-8, wavelength: 1.0e-5)",
     "RoundedCone(radius: 2.0e-8, angle: 0.35)",
     "Punch(radius: 2.0e-5)",
-    "TwoSpheres(radius: 5.0e-6, second_radius: 3.0e-6, behind: 2.0e-7)",
+    "Spheres([(radius: 5.0e-6), (radius: 3.0e-6, behind: 2.0e-7)])",
     "Table(file: \"tip.csv\")",
 ]);
 const ROUGHNESS: Range = Choice(&[
@@ -215,15 +217,6 @@ pub const FIELDS: &[Field] = &[
         .quantity("flank angle of the rounded cone", "θ", "rad").step(Linear(0.01, 0.1))
         .meaning("angle between flank and surface; of a pyramid that of the cone with the same \
                   cross section"),
-    row("form.radius", form!(TwoSpheres, radius), Range::above(0.0, 1e9))
-        .quantity("radius of the first sphere", "R", "m")
-        .meaning("radius of curvature of the sphere that is ahead, above one half of the length"),
-    row("form.second_radius", form!(TwoSpheres, second_radius), Range::above(0.0, 1e9))
-        .quantity("radius of the second sphere", "R₂", "m")
-        .meaning("radius of curvature of the sphere behind, above the other half of the length"),
-    row("form.behind", form!(TwoSpheres, behind), Range::closed(0.0, 1e6))
-        .quantity("distance of the second sphere behind the first", "b", "m")
-        .meaning("depth of the second apex below the first one; 0 if both touch at once"),
     row("form.radius", form!(Punch, radius), Range::above(0.0, 5.0))
         .quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
@@ -399,7 +392,7 @@ pub const FIELDS: &[Field] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::STAGE_FIELDS;
+    use super::super::field::{SPHERE_FIELDS, STAGE_FIELDS};
     use super::*;
     use asperity_data::parse_quantity;
 
@@ -412,7 +405,7 @@ mod tests {
     }
 
     fn all() -> impl Iterator<Item = &'static Field> {
-        FIELDS.iter().chain(STAGE_FIELDS)
+        FIELDS.iter().chain(STAGE_FIELDS).chain(SPHERE_FIELDS)
     }
 
     #[test]

@@ -35,6 +35,7 @@ pub(crate) mod open;
 pub(crate) mod range;
 pub(crate) mod read;
 pub(crate) mod slot;
+pub(crate) mod spheres;
 pub(crate) mod stages;
 pub(crate) mod statements;
 pub(crate) mod step;

@@ -4,6 +4,7 @@ use super::adhesion::Adhesion;
 use super::errors::NumberError;
 use super::fields::FIELDS;
 use super::model::Scene;
+use super::spheres::MEMBERS;
 
 impl Scene {
     /// Returns the numerical value at a path, such as `form.radius`, `roughness.modes.0` or
@@ -19,6 +20,18 @@ impl Scene {
         FIELDS
             .iter()
             .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
+    }
+
+    /// Returns the paths of all numerical values of lists, whose elements have no fields in
+    /// [`FIELDS`]: `form.1.radius` of a sphere and `loading.0.0` of a stage.
+    pub fn paths_in_lists(&self) -> Vec<String> {
+        let spheres = self.form.as_ref().map_or(0, |form| form.spheres().len());
+        let mut paths = Vec::new();
+        for sphere in 0..spheres {
+            paths.extend(MEMBERS.map(|member| format!("form.{sphere}.{member}")));
+        }
+        paths.extend((0..self.loading.len()).map(|stage| format!("loading.{stage}.0")));
+        paths
     }
 
     /// Sets the numerical value at a path without checking its range. If the scene has no such

@@ -3,9 +3,10 @@
 
 use super::adhesion::Adhesion;
 use super::model::{Material, MaterialRelaxation, Numerics, Observer, Roughness, Scene, Solver};
+use super::spheres;
 use super::stages::StageKind;
 use asperity_contact::{Edges, Move};
-use asperity_surface::{Detrend, Form};
+use asperity_surface::{Detrend, Form, Sphere};
 
 /// Value of a field in a scene. The variant depends on the range of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub(super) enum Value<'s> {
     /// A group without a name. Its values are separate fields.
     Group,
     Stages(&'s [Move]),
+    /// The choice of a form with several spheres.
+    Spheres(&'s [Sphere]),
     Observers(&'s [Observer]),
 }
 
@@ -32,13 +35,14 @@ impl Value<'_> {
     pub(super) fn choice(&self) -> Option<&'static str> {
         match self {
             Value::Choice(name) => Some(name),
+            Value::Spheres(_) => Some("Spheres"),
             _ => None,
         }
     }
 
     /// Returns the numerical value at the path `inside` within this value. The empty path means
-    /// this value itself, `0` and `1` mean the two values of a pair, and `2.0` means the target
-    /// value of the third loading stage. Returns `None` if there is no number at this path.
+    /// this value itself, `0` and `1` mean the two values of a pair, `2.0` means the target value of
+    /// the third loading stage, and `2.radius` a value of the third sphere. Returns `None` if there is no number at this path.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
@@ -51,6 +55,7 @@ impl Value<'_> {
                 let (_, number) = StageKind::of(stages.get(stage_index(inside)?)?);
                 number
             }
+            (Value::Spheres(spheres), inside) => spheres::number(spheres, inside),
             _ => None,
         }
     }
@@ -224,7 +229,17 @@ impl Slot for Vec<Observer> {
 
 impl Slot for Form {
     fn value(&self) -> Option<Value<'_>> {
-        Some(Value::Choice(self.into()))
+        Some(match self {
+            Form::Spheres(spheres) => Value::Spheres(spheres),
+            _ => Value::Choice(self.into()),
+        })
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        match self {
+            Form::Spheres(spheres) => spheres::set_number(spheres, inside, number),
+            _ => false,
+        }
     }
 }
 

@@ -292,8 +292,8 @@ mod tests {
             "roughness.modes|(1, 512)|1c|(2, 512)",
             "roughness.modes|(4, 4)|-1|",
             "form|None|1|Paraboloid(radius: 1.0e-3)",
-            "form|Punch(radius: 0.3)|1|TwoSpheres(radius: 5.0e-6, second_radius: 3.0e-6, behind: 2.0e-7)",
-            "form|TwoSpheres(radius: 1.0e-6, second_radius: 1.0e-6, behind: 0.0)|1|None",
+            "form|Punch(radius: 0.3)|1|Spheres([(radius: 5.0e-6), (radius: 3.0e-6, behind: 2.0e-7)])",
+            "form|Spheres([(radius: 1.0e-6)])|1|None",
             "numerics.solver|Exact|1|Stepwise(step: 1.0e-9)",
             "title|\"a\"|1|",
         ] {

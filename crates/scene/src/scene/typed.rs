@@ -3,7 +3,7 @@
 use super::edit::{field_at, set};
 use super::errors::{Origin, SceneError, SceneErrors};
 use super::field::Field;
-use super::fields::{FIELDS, field};
+use super::fields::field;
 use super::range::Range;
 use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
@@ -77,17 +77,31 @@ fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     if ["\"", "//", "/*"].iter().any(|sign| inside.contains(sign)) {
         return None;
     }
+    let list = inside.trim().strip_prefix('[');
+    let list = list.and_then(|list| list.strip_suffix(']'));
     let mut entries = Vec::new();
     let mut is_changed = false;
-    for entry in split_at_commas(inside) {
+    for (index, entry) in split_at_commas(list.unwrap_or(inside)).iter().enumerate() {
         if entry.trim().is_empty() {
             continue;
         }
-        let ron = entry_in_ron(path, entry)?;
+        let ron = match list {
+            Some(_) => element_in_ron(&format!("{path}.{index}"), entry.trim()),
+            None => entry_in_ron(path, entry)?,
+        };
         is_changed |= entry.trim() != ron;
         entries.push(ron);
     }
-    is_changed.then(|| format!("{name}({})", entries.join(", ")))
+    let entries = entries.join(", ");
+    is_changed.then(|| match list {
+        Some(_) => format!("{name}([{entries}])"),
+        None => format!("{name}({entries})"),
+    })
+}
+
+/// Converts a typed element of a list, such as one of several spheres, to RON.
+fn element_in_ron(path: &str, element: &str) -> String {
+    group_in_ron(path, element).unwrap_or_else(|| element.to_owned())
 }
 
 /// Splits a text at its commas, except for commas inside brackets.
@@ -120,7 +134,7 @@ fn entry_in_ron(group: &str, entry: &str) -> Option<String> {
     } else {
         format!("{group}.{name}")
     };
-    let field = FIELDS.iter().find(|field| field.path == path)?;
+    let field = field(&path, None)?;
     let value = field.read_typed(value.trim()).ok()?;
     let value = group_in_ron(&path, &value).unwrap_or(value);
     Some(format!("{name}: {value}"))

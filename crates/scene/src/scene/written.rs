@@ -4,6 +4,7 @@ use super::field::Field;
 use super::fields::{field, fields_inside};
 use super::model::{Observer, Scene};
 use super::slot::Value;
+use super::spheres::spheres_in_ron;
 use super::stages::stages_in_ron;
 use super::text::{real_in_ron, ron_string};
 
@@ -73,6 +74,7 @@ impl Field {
             }
             Value::Group => format!("({})", entries(scene, &self.inside(scene)).join(", ")),
             Value::Stages(stages) => stages_in_ron(stages),
+            Value::Spheres(spheres) => spheres_in_ron(spheres),
             Value::Observers(observers) => list(observers.iter().map(observer_in_ron)),
         })
     }
@@ -248,7 +250,10 @@ mod tests {
                     Range::Wavelengths(..) => matches!(value, Value::Wavelengths(..)),
                     Range::Text { .. } => matches!(value, Value::Text(_)),
                     Range::Choice(_) => {
-                        matches!(value, Value::Choice(_) | Value::Flag(_) | Value::Group)
+                        matches!(
+                            value,
+                            Value::Choice(_) | Value::Flag(_) | Value::Group | Value::Spheres(_)
+                        )
                     }
                     Range::List { .. } => matches!(
                         value,

@@ -1,6 +1,7 @@
 //! From a scene to its results: the parts of the computation, the choice of the parts that a scene
 //! needs, and the outcome.
 
+pub(crate) mod loading;
 pub(crate) mod outcome;
 pub(crate) mod reach;
 pub(crate) mod reversals;

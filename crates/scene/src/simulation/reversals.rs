@@ -1,9 +1,9 @@
 //! Unloadings from many turning points of one loading.
 
+use super::loading::Prepared;
 use super::outcome::RunError;
 use super::reach;
 use super::reach::Reach;
-use super::stages::Prepared;
 use super::stages::Simulation;
 use super::workload::Workload;
 use crate::analysis::reversal_map::ReversalMap;

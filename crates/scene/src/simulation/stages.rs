@@ -1,6 +1,7 @@
 //! Computation of a scene. Only those parts are computed whose input has changed since the last
 //! computation.
 
+use super::loading::{AfterStage, Loaded, Prepared, check_interruption};
 use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
@@ -9,14 +10,9 @@ use crate::analysis::governing::{Governing, SteepWaves};
 use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
-use crate::scene::model::{Scene, Solver as SolverChoice};
-use asperity_contact::motion::{
-    Body, ContactTree, MovingBody, RelaxingBody, Stage, Stepwise, load_body,
-};
-use asperity_contact::{
-    ClosedForm, Contact, ContactError, Edges, Figures, History, Move, NominalForm, Patch, Profile,
-    StageRecord,
-};
+use crate::scene::model::Scene;
+use asperity_contact::motion::ContactTree;
+use asperity_contact::{ClosedForm, Contact, ContactError, Edges, Figures, NominalForm, Profile};
 use asperity_data::{Warning, check_room, emptied};
 use asperity_surface::lines::{Histogram, Line, MeasuredRoughness, Synthesizer};
 use asperity_surface::{EquivalentLine, Form, SurfaceError};
@@ -95,25 +91,6 @@ pub(super) struct SmoothProfile {
     pub points: u64,
     pub profile: Profile,
 }
-
-/// Contact of a scene before its loading, with facts about its profile.
-pub(super) struct Prepared {
-    pub contact: Contact,
-    facts: LineFacts,
-    governing: Governing,
-    random_phases: u64,
-    heights_binned: u64,
-    /// Times in s for the profile and the tree.
-    timings: Timings,
-    /// Warnings about the scene before its loading.
-    warnings: Vec<Warning>,
-}
-
-/// Function that [`Simulation::run`] calls after each loading stage. Its arguments are the index of
-/// the stage, the record of the stage with its force curve ([`StageRecord`]), and the motion
-/// ([`Stage`]), which gives the contact at each indentation. If the function returns an error, the
-/// computation ends with this error.
-pub type AfterStage<'a> = dyn FnMut(usize, &StageRecord, &Stage) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
     /// Returns a simulation for scenes. Names of measured files in the scenes are relative to
@@ -491,6 +468,9 @@ impl Simulation {
             without_preload,
         } = loaded;
         let mut warnings = history.warnings(contact.profile());
+        if !warnings.iter().any(Warning::leaves_errors_unknown) {
+            warnings.extend(scene.wide_sphere(&history, &governing));
+        }
         warnings.extend(scene.coarse_steps(&history));
         warnings.extend(scene.steep_form(&history));
         warnings.extend(warnings_before_loading);
@@ -541,91 +521,6 @@ impl Simulation {
     }
 }
 
-/// Result of the loading of a scene.
-struct Loaded {
-    history: History,
-    /// Contact patches at the end of each loading stage.
-    patches: Vec<Vec<Patch>>,
-    /// F_a(d=0) and F_a(F=0) in N; `None` if they were not computed.
-    without_preload: [Option<f64>; 2],
-}
-
-impl Prepared {
-    /// Loads the contact of a scene. `after` is called after each loading stage.
-    fn load(
-        &mut self,
-        scene: &Scene,
-        plan: &Workload,
-        stop: &dyn Fn() -> bool,
-        after: &mut AfterStage<'_>,
-    ) -> Result<Loaded, RunError> {
-        let first_spring = self.facts.first;
-        let begun = Instant::now();
-        let mut stage = 0;
-        let mut patches = Vec::new();
-        let mut after_stage = |record: &StageRecord, motion: &Stage| {
-            check_interruption(stop)?;
-            if plan.runs(WorkPart::Patches) {
-                patches.push(patches_at_end(record, motion, first_spring));
-            }
-            stage += 1;
-            after(stage - 1, record, motion)
-        };
-        let (mut history, without_preload) = load(
-            scene,
-            &self.contact,
-            plan.runs(WorkPart::WithoutPreload),
-            &mut self.timings,
-            stop,
-            &mut after_stage,
-        )?;
-        let timings = &mut self.timings;
-        let seconds = begun.elapsed().as_secs_f64();
-        timings.passes = (seconds - timings.curve - timings.without_preload).max(0.0);
-        for contact in &mut history.contacts {
-            *contact = on_foundation(*contact, first_spring);
-        }
-        history.work.random_phases = self.random_phases;
-        history.work.transforms = u64::from(self.random_phases > 0);
-        history.work.heights_binned = self.heights_binned;
-        Ok(Loaded {
-            history,
-            patches,
-            without_preload,
-        })
-    }
-}
-
-fn check_interruption(stop: &dyn Fn() -> bool) -> Result<(), ContactError> {
-    if stop() {
-        Err(ContactError::Interrupted)
-    } else {
-        Ok(())
-    }
-}
-
-/// Returns the patches at the end of a loading stage. `first_spring` is the index of the first
-/// spring under the body.
-fn patches_at_end(record: &StageRecord, motion: &Stage, first_spring: usize) -> Vec<Patch> {
-    let Some(end) = record.end_in_contact() else {
-        return Vec::new();
-    };
-    motion
-        .patches(end.indentation)
-        .into_iter()
-        .map(|patch| on_foundation(patch, first_spring))
-        .collect()
-}
-
-/// Returns a patch whose indices count from the first spring of the foundation. The indices of the
-/// given patch count from the first spring under the body.
-fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
-    Patch {
-        first: patch.first + first_spring,
-        last: patch.last + first_spring,
-    }
-}
-
 /// Returns the profile of a contact, made from the rigid line `line` and the form of the body.
 pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
@@ -643,82 +538,4 @@ pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
         None if scene.measured_as_line() => NominalForm::Unstated,
         Some(_) | None => NominalForm::Flat,
     }
-}
-
-/// Loads a contact with the solver of the scene. Returns its history. If the contact has adhesion
-/// and `without_preload` is true, also returns F_a(d=0) and F_a(F=0) in N.
-fn load(
-    scene: &Scene,
-    contact: &Contact,
-    without_preload: bool,
-    timings: &mut Timings,
-    stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
-) -> Result<(History, [Option<f64>; 2]), ContactError> {
-    match scene.numerics.solver {
-        SolverChoice::Stepwise { step } => {
-            load_stepwise(scene, contact, step, without_preload, timings, stop, see)
-        }
-        SolverChoice::Exact if contact.relaxation().is_some() => {
-            let mut body = RelaxingBody::new(contact)?.with_stop(stop);
-            Ok((load_body(&mut body, &scene.loading, see)?, [None; 2]))
-        }
-        SolverChoice::Exact => load_exactly(scene, contact, without_preload, timings, see),
-    }
-}
-
-fn load_exactly(
-    scene: &Scene,
-    contact: &Contact,
-    without_preload: bool,
-    timings: &mut Timings,
-    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
-) -> Result<(History, [Option<f64>; 2]), ContactError> {
-    let mut body = Body::new(contact, scene.numerics.samples as usize);
-    let mut history = load_body(&mut body, &scene.loading, see)?;
-    timings.curve = body.curve_seconds();
-    let mut forces = [None; 2];
-    if without_preload && contact.has_adhesion() {
-        let begun = Instant::now();
-        forces = body.adhesion_without_preload()?;
-        history.work = body.work();
-        timings.without_preload = begun.elapsed().as_secs_f64();
-    }
-    Ok((history, forces))
-}
-
-fn load_stepwise(
-    scene: &Scene,
-    contact: &Contact,
-    step: f64,
-    without_preload: bool,
-    timings: &mut Timings,
-    stop: &dyn Fn() -> bool,
-    see: &mut dyn FnMut(&StageRecord, &Stage) -> Result<(), ContactError>,
-) -> Result<(History, [Option<f64>; 2]), ContactError> {
-    let samples = scene.numerics.samples as usize;
-    let mut solver = Stepwise::new(contact, step, samples, stop)?;
-    let mut history = load_body(&mut solver, &scene.loading, see)?;
-    timings.curve = solver.curve_seconds();
-    let mut forces = [None; 2];
-    if !without_preload {
-        return Ok((history, forces));
-    }
-    let begun = Instant::now();
-    for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
-        let mut solver = Stepwise::new(contact, step, 2, stop)?;
-        let turned = match load_body(&mut solver, &[turn, Move::ToSeparation], |_, _| Ok(())) {
-            Ok(turned) => turned,
-            Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-            // If the steps of the stepwise solver do not reach a turning point, the pull-off force
-            // after this turning point remains unknown.
-            Err(_) => continue,
-        };
-        *force = Figures::of(&turned).pull_off_force;
-        history.work.steps += turned.work.steps;
-        history.work.equilibrium_sweeps += turned.work.equilibrium_sweeps;
-        history.work.spring_updates += turned.work.spring_updates;
-    }
-    timings.without_preload = begun.elapsed().as_secs_f64();
-    Ok((history, forces))
 }

@@ -204,37 +204,11 @@ impl Workload {
             resident_bytes: 0,
             parts: planner.parts(),
         };
-        // The sum of all these parts is an upper bound. It would be needed only if the whole
-        // contact under load already existed at first touch.
-        let solved = [
-            WorkPart::Tree,
-            WorkPart::LoadingPass,
-            WorkPart::Equilibrium,
-            WorkPart::Relaxation,
-            WorkPart::WithoutPreload,
-        ];
-        let mut contact = HEIGHT * springs;
-        for part in solved {
-            contact += plan.bytes(part);
-        }
-        let has_edges_between = planner.is_exact && scene.numerics.edges == Edges::SubCell;
-        let sampled = if has_edges_between {
-            SAMPLED_WITH_EDGES
-        } else {
-            SAMPLED
-        };
-        let samples = points_of_stage(scene);
         let history = bytes_of_history(scene);
-        let searched = samples.saturating_add(SEARCHED);
-        contact = contact.saturating_add(history);
-        contact = contact.saturating_add(searched.saturating_mul(sampled));
-        contact = contact.saturating_add(EVENTS_TOGETHER * springs / samples);
-        if planner.is_exact && !planner.is_adhesive {
-            contact = contact.saturating_add(TOUCHED * springs);
-        }
+        let contact = planner.bytes_of_contact(&plan, history);
+        let searched = points_of_stage(scene).saturating_add(SEARCHED);
         let mut reserved = SMALL_ARRAYS.saturating_add(searched.saturating_mul(RESERVED));
-        if scene.loading_stiffness.is_some() && searches_displacements(scene) {
-            contact = contact.saturating_add(DISPLACED * springs);
+        if planner.searches_for_the_instrument() {
             reserved = reserved.saturating_add(searched.saturating_mul(RESERVED_DISPLACED));
         }
         // The profile is made before the contact is solved, so the larger of the two amounts of
@@ -366,6 +340,46 @@ struct Planner<'s> {
 }
 
 impl Planner<'_> {
+    /// Returns true if the loading is searched for the displacements of a compliant instrument.
+    fn searches_for_the_instrument(&self) -> bool {
+        self.scene.loading_stiffness.is_some() && searches_displacements(self.scene)
+    }
+
+    /// Returns the memory in bytes for solving the contact and for the force curves (`history`).
+    /// The sum is an upper bound. It would be needed only if the whole contact under load already
+    /// existed at first touch.
+    fn bytes_of_contact(&self, plan: &Workload, history: u64) -> u64 {
+        let solved = [
+            WorkPart::Tree,
+            WorkPart::LoadingPass,
+            WorkPart::Equilibrium,
+            WorkPart::Relaxation,
+            WorkPart::WithoutPreload,
+        ];
+        let mut contact = HEIGHT * self.springs;
+        for part in solved {
+            contact += plan.bytes(part);
+        }
+        let has_edges_between = self.is_exact && self.scene.numerics.edges == Edges::SubCell;
+        let sampled = if has_edges_between {
+            SAMPLED_WITH_EDGES
+        } else {
+            SAMPLED
+        };
+        let samples = points_of_stage(self.scene);
+        let searched = samples.saturating_add(SEARCHED);
+        contact = contact.saturating_add(history);
+        contact = contact.saturating_add(searched.saturating_mul(sampled));
+        contact = contact.saturating_add(EVENTS_TOGETHER * self.springs / samples);
+        if self.is_exact && !self.is_adhesive {
+            contact = contact.saturating_add(TOUCHED * self.springs);
+        }
+        if self.searches_for_the_instrument() {
+            contact = contact.saturating_add(DISPLACED * self.springs);
+        }
+        contact
+    }
+
     fn parts(&self) -> Vec<PlannedPart> {
         let solved = self.because_solved();
         let patches = Work {

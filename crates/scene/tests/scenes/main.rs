@@ -15,5 +15,5 @@ mod relaxation;
 mod scene;
 mod simulation;
 mod smooth;
+mod spheres;
 mod table;
-mod two_spheres;

@@ -169,7 +169,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         ),
         ("RoundedCone(radius: 1.0e-8, angle: 0.3)", "None", "Exact"),
         (
-            "TwoSpheres(radius: 1.0e-6, second_radius: 1.0e-6, behind: 0.0)",
+            "Spheres([(radius: 1.0e-6), (radius: 1.0e-6, behind: 1.0e-7)])",
             "None",
             "Exact",
         ),

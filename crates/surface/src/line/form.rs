@@ -57,17 +57,9 @@ pub enum Form {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Two spheres side by side on one probe, each above one half of the length of the profile. The
-    /// contacts of the two spheres do not influence each other, and their forces add up.
-    TwoSpheres {
-        /// Radius of curvature R of the first sphere in m. Its apex is the apex of the form.
-        radius: f64,
-        /// Radius of curvature R₂ of the second sphere in m.
-        second_radius: f64,
-        /// Distance in m by which the apex of the second sphere lies farther from the elastic body
-        /// than the apex of the first sphere.
-        behind: f64,
-    },
+    /// Spheres side by side on one probe, each above an equal part of the length of the profile. The
+    /// contacts of the spheres do not influence each other, and their forces add up.
+    Spheres(Vec<Sphere>),
     /// Body of revolution whose radii and depths are in a file.
     Table {
         /// Path of the file, relative to the scene file, or the rows themselves after
@@ -80,6 +72,28 @@ pub enum Form {
         #[serde(skip)]
         rows: Rows,
     },
+}
+
+/// One of several spheres on a probe, as in [`Form::Spheres`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    /// Radius of curvature R in m.
+    pub radius: f64,
+    /// Distance in m by which the apex of the sphere lies farther from the elastic body than the
+    /// apex of the form. A sphere that is ahead of all others has 0.
+    #[serde(default)]
+    pub behind: f64,
+}
+
+impl Sphere {
+    /// Returns the sphere as a paraboloid of revolution about its own axis, without its distance
+    /// behind the apex of the form.
+    fn paraboloid(self) -> Form {
+        Form::Paraboloid {
+            radius: self.radius,
+        }
+    }
 }
 
 impl Form {
@@ -144,8 +158,7 @@ impl Form {
 
     /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of a body of
     /// revolution. For two forms ⌊N/2⌋ is not the axis: the axis of a punch is in the middle of the
-    /// length, which may lie between two springs, and [`Form::TwoSpheres`] has an axis for each
-    /// sphere.
+    /// length, which may lie between two springs, and [`Form::Spheres`] has an axis for each sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
         // If the axis were between two springs, no spring would be under the tip. The errors of the
         // contact would then be proportional to the spring spacing Δx.
@@ -198,40 +211,62 @@ impl Form {
         }
     }
 
+    /// Returns the spheres of a [`Form::Spheres`]; an empty list for other forms.
+    pub fn spheres(&self) -> &[Sphere] {
+        match self {
+            Form::Spheres(spheres) => spheres,
+            _ => &[],
+        }
+    }
+
+    /// Returns the number of contacts that a smooth body of this form may have: the number of its
+    /// spheres, and 1 for other forms.
+    pub fn contacts(&self) -> usize {
+        self.spheres().len().max(1)
+    }
+
+    /// Returns the sphere that is ahead of all others; `None` for a form that is no
+    /// [`Form::Spheres`].
+    fn foremost(&self) -> Option<Sphere> {
+        let spheres = self.spheres().iter().copied();
+        spheres.min_by(|sphere, other| sphere.behind.total_cmp(&other.behind))
+    }
+
     /// Returns a mutable reference to the radius of a form in m: the radius of a sphere, of the
-    /// first of two spheres, of a rounded apex or of a punch. Returns `None` for other forms.
+    /// first of several spheres, of a rounded apex or of a punch. Returns `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
             | Form::WavySphere { radius, .. }
             | Form::RoundedCone { radius, .. }
-            | Form::TwoSpheres { radius, .. }
             | Form::Punch { radius } => Some(radius),
+            Form::Spheres(spheres) => spheres.first_mut().map(|sphere| &mut sphere.radius),
             _ => None,
         }
     }
 
-    /// Returns the radius in m of a sphere without waves ([`Form::Paraboloid`]); `None` for other
-    /// forms.
+    /// Returns the radius in m of a body that is one sphere without waves; `None` for other forms.
     pub fn sphere_radius(&self) -> Option<f64> {
-        if let Form::Paraboloid { radius } = self {
-            Some(*radius)
-        } else {
-            None
+        match self {
+            Form::Paraboloid { radius } => Some(*radius),
+            Form::Spheres(spheres) => match spheres[..] {
+                [sphere] => Some(sphere.radius),
+                _ => None,
+            },
+            _ => None,
         }
     }
 
-    /// Returns the curvature of the form at its summit in 1/m. For two spheres, returns the larger
-    /// curvature. Returns `None` for a cone and a power law. Also returns `None` for a table that
+    /// Returns the curvature of the form at its summit in 1/m. For several spheres, returns the
+    /// largest curvature. Returns `None` for a cone and a power law. Also returns `None` for a table that
     /// has not been read, or whose curvature at the tip is not finite.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
-            Form::TwoSpheres {
-                radius,
-                second_radius,
-                ..
-            } => Some(1.0 / radius.min(second_radius)),
+            Form::Spheres(ref spheres) => {
+                let radii = spheres.iter().map(|sphere| sphere.radius);
+                radii.reduce(f64::min).map(f64::recip)
+            }
             Form::WavySphere {
                 radius,
                 amplitude,
@@ -248,9 +283,11 @@ impl Form {
     /// the number of all springs, and `spacing` is the distance between springs in m.
     ///
     /// ```
-    /// use asperity_surface::Form;
+    /// use asperity_surface::{Form, Sphere};
     ///
-    /// let spheres = Form::TwoSpheres { radius: 1.0, second_radius: 0.5, behind: 0.1 };
+    /// let first = Sphere { radius: 1.0, behind: 0.0 };
+    /// let second = Sphere { radius: 0.5, behind: 0.1 };
+    /// let spheres = Form::Spheres(vec![first, second]);
     /// let depths: Vec<f64> =
     ///     (0..8).map(|spring| spheres.depth_of_spring(spring, 8, 0.1)).collect();
     /// assert_eq!((depths[2], depths[6]), (0.0, 0.1));
@@ -259,46 +296,33 @@ impl Form {
         // The distance is a whole number of spacings, computed from integers and therefore exact.
         // The profile is then exactly as symmetric as the form.
         let distance = |axis: usize| spring.abs_diff(axis) as f64 * spacing;
-        let &Form::TwoSpheres {
-            radius,
-            second_radius,
-            behind,
-        } = self
-        else {
+        let spheres = self.spheres();
+        if spheres.is_empty() {
             let axis = Form::spring_on_axis(points as u64) as usize;
             return self.mdr_profile(distance(axis));
-        };
-        let first_points = points / 2;
-        if spring < first_points {
-            let sphere = Form::Paraboloid { radius };
-            sphere.mdr_profile(distance(first_points / 2))
-        } else {
-            let sphere = Form::Paraboloid {
-                radius: second_radius,
-            };
-            let axis = first_points + (points - first_points) / 2;
-            behind + sphere.mdr_profile(distance(axis))
         }
+        // Sphere k has the springs from ⌊kN/n⌋ to ⌊(k + 1)N/n⌋ − 1, for N springs and n spheres.
+        // This is the largest k for which kN is below n(spring + 1).
+        let index = (spheres.len() * (spring + 1) - 1) / points;
+        let first = index * points / spheres.len();
+        let end = (index + 1) * points / spheres.len();
+        let sphere = spheres[index];
+        let axis = first + (end - first) / 2;
+        sphere.behind + sphere.paraboloid().mdr_profile(distance(axis))
     }
 
     /// Returns the largest depth in m of the equivalent profile below its apex, on a profile of the
     /// length `length` in m. The waves of a [`Form::WavySphere`] are left out.
     pub fn depth_within(&self, length: f64) -> f64 {
-        match *self {
-            Form::TwoSpheres {
-                radius,
-                second_radius,
-                behind,
-            } => {
-                let half_width = 0.25 * length;
-                let first = Form::Paraboloid { radius };
-                let second = Form::Paraboloid {
-                    radius: second_radius,
-                };
-                let second_depth = behind + second.mdr_profile(half_width);
-                first.mdr_profile(half_width).max(second_depth)
-            }
-            _ => self.without_waves().mdr_profile(0.5 * length),
+        let half_width = 0.5 * length / self.contacts() as f64;
+        let mut deepest = 0.0_f64;
+        for sphere in self.spheres() {
+            let depth = sphere.behind + sphere.paraboloid().mdr_profile(half_width);
+            deepest = deepest.max(depth);
+        }
+        match self {
+            Form::Spheres(_) => deepest,
+            _ => self.without_waves().mdr_profile(half_width),
         }
     }
 
@@ -306,8 +330,8 @@ impl Form {
     /// the axis in m. The formula is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
     /// [`Form::depth`].
     ///
-    /// For a punch the depth is 0. For two spheres the result is the depth of the first sphere
-    /// alone; [`Form::depth_of_spring`] takes both spheres into account.
+    /// For a punch the depth is 0. For several spheres the result is the depth of the sphere that is
+    /// ahead, alone; [`Form::depth_of_spring`] takes all spheres into account.
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -317,7 +341,11 @@ impl Form {
     pub fn mdr_profile(&self, distance: f64) -> f64 {
         let x = distance.abs();
         match *self {
-            Form::Paraboloid { radius } | Form::TwoSpheres { radius, .. } => x * x / radius,
+            Form::Paraboloid { radius } => x * x / radius,
+            Form::Spheres(_) => {
+                let foremost = self.foremost();
+                foremost.map_or(0.0, |sphere| sphere.paraboloid().mdr_profile(x))
+            }
             Form::RoundedCone { radius, angle } => {
                 let slope = angle.tan();
                 let rounded = radius * slope;
@@ -349,30 +377,26 @@ impl Form {
     }
 
     /// Returns the depth in m of the body below its apex at the place (x, y). x and y are distances
-    /// in m from the middle of a square with the side `side` in m. The first of two spheres has its
-    /// axis at x = −`side`/4, and the second at x = `side`/4. Returns `None` beside a punch, where
-    /// there is no body.
+    /// in m from the middle of a square with the side `side` in m. The axes of n spheres are a
+    /// distance `side`/n apart along y = 0. Returns `None` beside a punch, where there is no body.
     pub fn depth_in_square(&self, x: f64, y: f64, side: f64) -> Option<f64> {
-        let &Form::TwoSpheres {
-            radius,
-            second_radius,
-            behind,
-        } = self
-        else {
+        let spheres = self.spheres();
+        if spheres.is_empty() {
             return self.depth(x.hypot(y));
-        };
-        let depth = |radius: f64, axis: f64| {
-            let distance = (x - axis).hypot(y);
-            Form::Paraboloid { radius }.depth(distance)
-        };
-        let first = depth(radius, -0.25 * side)?;
-        let second = behind + depth(second_radius, 0.25 * side)?;
-        Some(first.min(second))
+        }
+        let mut shallowest = f64::INFINITY;
+        for (index, sphere) in spheres.iter().enumerate() {
+            let share = (index as f64 + 0.5) / spheres.len() as f64;
+            let distance = (x - (share - 0.5) * side).hypot(y);
+            let depth = sphere.behind + sphere.paraboloid().depth(distance)?;
+            shallowest = shallowest.min(depth);
+        }
+        Some(shallowest)
     }
 
     /// Returns the depth f(r) in m of the body below its apex, at the distance r = `radius` from
-    /// the axis in m. For two spheres it is the depth of the first sphere alone;
-    /// [`Form::depth_in_square`] takes both spheres into account. Returns `None` beside a punch,
+    /// the axis in m. For several spheres it is the depth of the sphere that is ahead, alone;
+    /// [`Form::depth_in_square`] takes all spheres into account. Returns `None` beside a punch,
     /// where there is no body.
     ///
     /// ```
@@ -383,10 +407,8 @@ impl Form {
     /// ```
     pub fn depth(&self, radius: f64) -> Option<f64> {
         Some(match *self {
-            Form::Paraboloid { radius: curvature }
-            | Form::TwoSpheres {
-                radius: curvature, ..
-            } => radius * radius / (2.0 * curvature),
+            Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
+            Form::Spheres(_) => return self.foremost()?.paraboloid().depth(radius),
             Form::RoundedCone {
                 radius: curvature,
                 angle,
@@ -433,6 +455,7 @@ impl Form {
     pub fn power_law(&self) -> Option<(f64, f64)> {
         match *self {
             Form::Paraboloid { radius } => Some((radius.recip(), 2.0)),
+            Form::Spheres(_) => Some((self.sphere_radius()?.recip(), 2.0)),
             Form::Cone { angle } => Some((FRAC_PI_2 * angle.tan(), 1.0)),
             Form::Power {
                 coefficient,
@@ -441,7 +464,6 @@ impl Form {
             Form::WavySphere { .. }
             | Form::RoundedCone { .. }
             | Form::Punch { .. }
-            | Form::TwoSpheres { .. }
             | Form::Table { .. } => None,
         }
     }
@@ -602,39 +624,72 @@ mod tests {
         assert!((form.mdr_profile(far) / cone.mdr_profile(far) - 1.0).abs() < 1e-5);
     }
 
+    /// Each sphere has its own part of the springs, and each part has its axis in its middle.
     #[test]
-    fn two_spheres_stand_above_a_half_of_the_length_each() {
-        let form = Form::TwoSpheres {
-            radius: 2.0,
-            second_radius: 3.0,
-            behind: 0.25,
-        };
-        for points in [1, 2, 3, 4, 5, 16, 101] {
-            let spacing = 1.0 / points as f64;
-            let depths: Vec<f64> = (0..points)
-                .map(|spring| form.depth_of_spring(spring, points, spacing))
-                .collect();
-            let half = points / 2;
-            for (spring, &depth) in depths.iter().enumerate() {
-                let (begin, count, radius, behind) = if spring < half {
-                    (0, half, 2.0, 0.0)
-                } else {
-                    (half, points - half, 3.0, 0.25)
-                };
-                let distance = (spring - begin).abs_diff(count / 2) as f64 * spacing;
-                assert_eq!(depth, behind + distance * distance / radius);
+    fn spheres_are_above_equal_parts_of_the_length() {
+        let spheres: Vec<Sphere> = [(2.0, 0.0), (3.0, 0.25), (0.5, 0.125), (1.0, 0.0)]
+            .map(|(radius, behind)| Sphere { radius, behind })
+            .to_vec();
+        for count in 1..=spheres.len() {
+            let form = Form::Spheres(spheres[..count].to_vec());
+            for points in (count..40).chain([101, 4096]) {
+                let spacing = 1.0 / points as f64;
+                let mut widest = 0;
+                let mut deepest = 0.0;
+                let mut spring = 0;
+                for (index, sphere) in spheres[..count].iter().enumerate() {
+                    let end = (index + 1) * points / count;
+                    let springs = end - spring;
+                    widest = widest.max(springs);
+                    let axis = spring + springs / 2;
+                    while spring < end {
+                        let depth = form.depth_of_spring(spring, points, spacing);
+                        let distance = spring.abs_diff(axis) as f64 * spacing;
+                        assert_eq!(depth, sphere.behind + distance * distance / sphere.radius);
+                        deepest = f64::max(deepest, depth);
+                        spring += 1;
+                    }
+                }
+                assert_eq!(spring, points);
+                // If the springs cannot be divided evenly, some parts have one spring more.
+                let wider = (1.0 + 2.0 * count as f64 * spacing).powi(2);
+                assert!(deepest <= form.depth_within(1.0) * wider);
+                assert!(widest <= points / count + 1);
             }
-            let deepest = depths.iter().copied().fold(0.0, f64::max);
-            // If the number of springs is odd, one half of the profile has one spring more than the
-            // other half.
-            let wider = (1.0 + 2.0 * spacing).powi(2);
-            assert!(deepest <= form.depth_within(1.0) * wider);
         }
-        // In a square the axes of the spheres are half a side apart. The depth is that of the
+        // In a square the axes of two spheres are half a side apart. The depth is that of the
         // sphere which is nearer to the elastic body.
+        let form = Form::Spheres(spheres[..2].to_vec());
         let square = |x, y| form.depth_in_square(x, y, 1.0).unwrap();
         assert_eq!([square(-0.25, 0.0), square(0.25, 0.0)], [0.0, 0.0625]);
         assert!((square(0.25, 1.0) - 0.3125).abs() < 1e-15);
+        assert_eq!(form.summit_curvature(), Some(0.5));
+    }
+
+    /// One sphere is a paraboloid in all functions.
+    #[test]
+    fn one_sphere_of_a_list_is_a_paraboloid() {
+        let radius = 1.7;
+        let behind = 0.0;
+        let list = Form::Spheres(vec![Sphere { radius, behind }]);
+        let sphere = Form::Paraboloid { radius };
+        for points in [1, 2, 3, 16, 101] {
+            let spacing = 1.0 / points as f64;
+            for spring in 0..points {
+                let depth = list.depth_of_spring(spring, points, spacing);
+                assert_eq!(depth, sphere.depth_of_spring(spring, points, spacing));
+            }
+        }
+        for x in [0.0, 0.3, 2.0] {
+            assert_eq!(list.mdr_profile(x), sphere.mdr_profile(x));
+            assert_eq!(list.depth(x), sphere.depth(x));
+            let in_square = list.depth_in_square(x, 0.2, 1.0);
+            assert_eq!(in_square, sphere.depth_in_square(x, 0.2, 1.0));
+        }
+        assert_eq!(list.depth_within(2.0), sphere.depth_within(2.0));
+        assert_eq!(list.power_law(), sphere.power_law());
+        assert_eq!(list.summit_curvature(), sphere.summit_curvature());
+        assert_eq!(list.sphere_radius(), sphere.sphere_radius());
     }
 
     #[test]

@@ -141,16 +141,61 @@ pub fn analyse(
     if surfaces.is_empty() {
         return Err(refused(Place::File, "no surface", "at least one"));
     }
-    let Measured {
-        points,
-        powers,
-        differences,
-        is_levelled,
-        trends,
-        step_of_ends,
-    } = measure(surfaces, options)?;
+    let measured = measure(surfaces, options)?;
+    let fitted = fit_spectrum(surfaces, options, &measured)?;
+    let line = line_moments(std::slice::from_ref(&fitted.isotropic));
+    if !is_finite(&line) {
+        return Err(no_maximum());
+    }
+    let Measured { points, powers, .. } = measured;
+    Ok(Analysis {
+        statistics: points.sums.statistics(),
+        rms_heights: points.rms_heights,
+        spectra: powers.spectra(),
+        power_law: fitted.power_law,
+        isotropic: fitted.isotropic,
+        line,
+        reliability_cutoff: points.reliability_cutoff,
+        profiles: powers.profiles.iter().map(|power| power.profiles).sum(),
+        maps: powers.maps.len() as u64,
+        length: points.longest.size,
+        end: options.end,
+        ends_inside: fitted.ends_inside,
+        offsets: powers.maps.iter().any(|map| map.offsets),
+        apart: fitted.apart,
+        displaced: points.displaced,
+        is_levelled: measured.is_levelled,
+        trends: measured.trends.shares(),
+        step_of_ends: measured.step_of_ends,
+        ratio_of_parts: fitted.ratio_of_parts,
+        ratio_of_surfaces: fitted.ratio_of_surfaces,
+    })
+}
+
+/// Spectra that are fitted to measured surfaces, with all their errors.
+struct FittedSpectrum {
+    isotropic: IsotropicSpectrum,
+    power_law: Option<SelfAffineFit>,
+    /// As in [`Analysis::ends_inside`].
+    ends_inside: bool,
+    /// As in [`Analysis::apart`].
+    apart: f64,
+    /// As in [`Analysis::ratio_of_parts`].
+    ratio_of_parts: f64,
+    /// As in [`Analysis::ratio_of_surfaces`].
+    ratio_of_surfaces: f64,
+}
+
+/// Fits the spectra, and adds to their errors the differences between readings, between parts of
+/// the surfaces and between the surfaces.
+fn fit_spectrum(
+    surfaces: &[Topography],
+    options: &AnalysisOptions,
+    measured: &Measured,
+) -> Result<FittedSpectrum, SurfaceError> {
+    let powers = &measured.powers;
     let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
-    let fits = SpectrumFits::new(&powers, has_gaps, options.end)?;
+    let fits = SpectrumFits::new(powers, has_gaps, options.end)?;
     let observations = powers.observations(fits.last_wave_number());
     let mut isotropic = fits.isotropic(&observations)?;
     let apart = powers.apart();
@@ -165,7 +210,7 @@ pub fn analyse(
     let changes = fits.changes_between_readings(surfaces, options, &isotropic, power_law)?;
     isotropic.add_method_errors(changes.integrals);
     isotropic.add_method_errors([apart; 3]);
-    let unevenness = differences.unevenness();
+    let unevenness = measured.differences.unevenness();
     let mut ratio_of_surfaces = unevenness.ratio_of_surfaces;
     if surfaces.len() > 1 {
         ratio_of_surfaces = ratio_of_surfaces.max(isotropic.ratio_of_kinds);
@@ -181,32 +226,13 @@ pub fn analyse(
         // If the median of each row was subtracted, a part of the rms height of the points is
         // missing, so this height cannot be compared with the spectrum.
         let has_height = !surfaces.iter().any(|surface| surface.aligned);
-        points.check_identities(&mut isotropic, has_height);
+        measured.points.check_identities(&mut isotropic, has_height);
     }
-
-    let line = line_moments(std::slice::from_ref(&isotropic));
-    if !is_finite(&line) {
-        return Err(no_maximum());
-    }
-    Ok(Analysis {
-        statistics: points.sums.statistics(),
-        rms_heights: points.rms_heights,
-        spectra: powers.spectra(),
-        power_law,
+    Ok(FittedSpectrum {
         isotropic,
-        line,
-        reliability_cutoff: points.reliability_cutoff,
-        profiles: powers.profiles.iter().map(|power| power.profiles).sum(),
-        maps: powers.maps.len() as u64,
-        length: points.longest.size,
-        end: options.end,
+        power_law,
         ends_inside: fits.ends_inside,
-        offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
-        displaced: points.displaced,
-        is_levelled,
-        trends: trends.shares(),
-        step_of_ends,
         ratio_of_parts: unevenness.ratio_of_parts,
         ratio_of_surfaces,
     })

@@ -10,6 +10,7 @@
 //! values at the nodes are therefore changed so that the moments become exact. The change is the
 //! least one possible, in units of the standard errors.
 
+use super::grid_model::scalar_product;
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
 use super::observation::Kind;
@@ -107,7 +108,7 @@ fn matching_values(
             .collect();
         let matrix = slopes.iter().flat_map(|slopes| {
             let products = covariances.iter();
-            products.map(|covariances| product(slopes, covariances))
+            products.map(|covariances| scalar_product(slopes, covariances))
         });
         let factors = Cholesky::new(matrix.collect(), set.len())?.solve(missing);
         let step: Vec<f64> = (0..changed.values.len())
@@ -133,10 +134,6 @@ fn matching_values(
 fn is_near(values: &[f64], others: &[f64]) -> bool {
     let mut pairs = values.iter().zip(others);
     pairs.all(|(value, other)| (value - other).abs() <= LARGEST_CHANGE)
-}
-
-fn product(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(x, y)| x * y).sum()
 }
 
 /// Returns the moments of the waves that are observed. The waves of maps are those of the

@@ -85,8 +85,22 @@ impl GridSum {
 
     /// Returns the sum of the weights times the values at the wave numbers of the grid.
     pub fn of(&self, values: &[f64]) -> f64 {
-        let values = &values[self.first..self.end()];
-        let products = self.weights.iter().zip(values);
-        products.map(|(weight, value)| weight * value).sum()
+        scalar_product(&self.weights, &values[self.first..self.end()])
     }
+}
+
+/// Returns the scalar product of two columns of the same length. Four partial sums are added
+/// independently of each other, which takes less time than a single sum.
+pub(super) fn scalar_product(first: &[f64], second: &[f64]) -> f64 {
+    let (first, first_rest) = first.as_chunks::<4>();
+    let (second, second_rest) = second.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for (x, y) in first.iter().zip(second) {
+        for index in 0..4 {
+            sums[index] += x[index] * y[index];
+        }
+    }
+    let rest = first_rest.iter().zip(second_rest);
+    let rest: f64 = rest.map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }

@@ -1,6 +1,6 @@
 //! A periodic surface is known completely: its equivalent line has its moments.
 
-use crate::generate::Draws;
+use crate::draws::Draws;
 use asperity_fourier::{Complex64, plan_inverse};
 use asperity_surface::{Analysis, AnalysisOptions, Topography, analyse};
 use std::f64::consts::{PI, TAU};

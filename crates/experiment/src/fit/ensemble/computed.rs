@@ -145,36 +145,67 @@ impl ComputedLoop {
     }
 }
 
+impl ComputedLoop {
+    /// Returns the points of the approach or of the retraction at displacements in m relative to
+    /// the turning point.
+    fn points_at(&self, curve: &DisplacementCurve, displacements: &[f64]) -> Vec<Point> {
+        let mut points = Vec::with_capacity(displacements.len());
+        for &displacement in displacements {
+            points.push(Point {
+                displacement,
+                force: self.force_at(curve, displacement),
+            });
+        }
+        points
+    }
+
+    /// Returns the points at both ends of each jump of the force of at least `least` in N.
+    fn jump_ends(&self, curve: &DisplacementCurve, least: f64) -> Vec<Point> {
+        let mut points = Vec::new();
+        for ends in curve.jumps() {
+            let change = self.scale * (ends[1].force - ends[0].force);
+            if change.abs() < least {
+                continue;
+            }
+            for end in ends {
+                points.push(Point {
+                    displacement: end.displacement - self.top,
+                    force: self.scale * end.force,
+                });
+            }
+        }
+        points
+    }
+}
+
 impl ForceLoop<'_> {
     /// Presses the body further up to the preload, and returns the forces with noise at the
     /// measured displacements of approach and retraction.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
         let computed = self.compute(body, noise.of_preload)?;
-        let mut branches = Branches {
-            approach: Vec::with_capacity(protocol.approach.len()),
-            retraction: Vec::with_capacity(protocol.retraction.len()),
+        let mut approach = computed.points_at(&computed.pressed, &protocol.approach);
+        let displacements = until_loss(&protocol.retraction, computed.end());
+        let mut retraction = computed.points_at(&computed.pulled, &displacements);
+        let least_jump = NOTABLE * protocol.noise;
+        let [on_approach, on_retraction] = protocol.has_jump_ends;
+        if on_approach {
+            approach.extend(computed.jump_ends(&computed.pressed, least_jump));
+            approach.sort_by(|point, next| point.displacement.total_cmp(&next.displacement));
+        }
+        if on_retraction {
+            retraction.extend(computed.jump_ends(&computed.pulled, least_jump));
+            retraction.sort_by(|point, next| next.displacement.total_cmp(&point.displacement));
+        }
+        for (index, point) in approach.iter_mut().chain(&mut retraction).enumerate() {
+            point.force += noise.at(index);
+        }
+        Ok(Branches {
+            approach,
+            retraction,
             noise: protocol.noise,
             free: protocol.free,
-        };
-        for &displacement in &protocol.approach {
-            let force = computed.force_at(&computed.pressed, displacement);
-            let force = force + noise.at(branches.approach.len());
-            branches.approach.push(Point {
-                displacement,
-                force,
-            });
-        }
-        let first = branches.approach.len();
-        for displacement in until_loss(&protocol.retraction, computed.end()) {
-            let force = computed.force_at(&computed.pulled, displacement);
-            let force = force + noise.at(first + branches.retraction.len());
-            branches.retraction.push(Point {
-                displacement,
-                force,
-            });
-        }
-        Ok(branches)
+        })
     }
 
     /// Presses the body further up to the preload, and computes the approach and the retraction

@@ -116,6 +116,8 @@ impl Response {
 struct Expected {
     mean: f64,
     standard_deviation: f64,
+    /// Variance of the difference between a curve and the mean that its points cause.
+    of_steps: f64,
     slopes: Slopes,
 }
 
@@ -126,6 +128,7 @@ impl Expected {
         Expected {
             mean: moments.mean[0],
             standard_deviation: moments.covariance[0].max(f64::MIN_POSITIVE).sqrt(),
+            of_steps: scatter.error_of_steps(place)[0],
             slopes: Slopes::at(&scatter, place),
         }
     }
@@ -167,7 +170,8 @@ pub(crate) fn deviations(
     let mut deviations = Vec::with_capacity(SUMMARIES);
     for (index, expected) in expected.iter().enumerate() {
         let logarithm = measured.summaries[index] - expected.mean;
-        let error = expected.standard_deviation * (1.0 / count + 1.0 / computed).sqrt();
+        let of_profiles = expected.standard_deviation * (1.0 / count + 1.0 / computed).sqrt();
+        let error = of_profiles.hypot(expected.of_steps.sqrt());
         let deviation = logarithm / error;
         deviations.push(SummaryDeviation {
             summary: NAMES[index],

@@ -49,7 +49,7 @@ impl Likelihood {
 
     /// Returns the probability of the parameters if the mean prediction over `curves` curves is
     /// `prediction`. The prior is flat over ln γ and ln E*. The error of the mean comes from the
-    /// number of curves and from the number of random profiles.
+    /// number of curves, from the number of random profiles, and from the steps of the summaries.
     ///
     /// The first grid covers the whole table. The next grids are narrowed to the values with more
     /// than negligible probability, or widened where the probability does not end within the grid,
@@ -111,10 +111,11 @@ impl Likelihood {
         if place.range < low - rounding || place.range > high + rounding {
             return f64::NEG_INFINITY;
         }
+        let errors = self.scatter.error_of_steps(place);
         let moments = self.scatter.at(place);
+        let moments = moments.with_errors(observed.variance, errors);
         let inverse = moments.inverse();
-        let distance = inverse.squared_distance(moments.mean, observed.prediction);
-        let square = distance / observed.variance;
+        let square = inverse.squared_distance(moments.mean, observed.prediction);
         -0.5 * inverse.log_determinant
             - 0.5 * self.profiles * (square / (self.profiles - 1.0)).ln_1p()
     }

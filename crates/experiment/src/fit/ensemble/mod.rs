@@ -261,11 +261,15 @@ impl Comparison<'_> {
                 .half_width_by(shifts.work_by_height, shifts.work_by_hurst),
             None => 0.0,
         };
+        let best = posterior.best();
+        let variance = self.predictions.scatter.at(best).covariance[WORK];
+        let variance = variance.max(f64::MIN_POSITIVE);
         Precision {
             half_width: posterior.estimate(WORK).half_width(),
             of_roughness,
             curves: self.curves.len() as f64,
             profiles: self.options.profiles as f64,
+            of_steps: self.predictions.scatter.error_of_steps(best)[WORK] / variance,
         }
     }
 

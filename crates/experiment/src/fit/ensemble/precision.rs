@@ -19,13 +19,16 @@ pub(super) struct Precision {
     pub curves: f64,
     /// Number of random profiles.
     pub profiles: f64,
+    /// Variance of the error that the distances between points cause, in units of the variance over
+    /// the random profiles.
+    pub of_steps: f64,
 }
 
 impl Precision {
     /// Returns the variance of the mean prediction over `curves` curves, in units of the variance
     /// over the random profiles.
     fn variance(&self, curves: f64) -> f64 {
-        1.0 / curves + 1.0 / self.profiles
+        1.0 / curves + 1.0 / self.profiles + self.of_steps
     }
 
     /// Returns the sources of the uncertainty of the work of adhesion. The interval of `work`
@@ -36,7 +39,7 @@ impl Precision {
         let all = work.half_width().powi(2);
         Shares {
             places: square / self.curves / variance / all,
-            profiles: square / self.profiles / variance / all,
+            profiles: square * (1.0 / self.profiles + self.of_steps) / variance / all,
             roughness: self.of_roughness.powi(2) / all,
         }
     }

@@ -171,10 +171,12 @@ impl Predictions {
     /// Returns true if the prediction of a measured curve is farther from the mean of the random
     /// profiles at the most probable place than chance explains.
     fn is_foreign(&self, index: usize, best: Place) -> bool {
-        let moments = self.scatter.at(best);
-        let inverse = moments.inverse();
-        let distance = inverse.squared_distance(moments.mean, self.of_curves[index]);
-        let relative = distance / (1.0 + 1.0 / self.of_profiles.len() as f64);
+        let variance = 1.0 + 1.0 / self.of_profiles.len() as f64;
+        let errors = self.scatter.error_of_steps(best);
+        let moments = self.scatter.at(best).with_errors(variance, errors);
+        let relative = moments
+            .inverse()
+            .squared_distance(moments.mean, self.of_curves[index]);
         let most = if self.has_one_modulus {
             FOREIGN_OF_WORK
         } else {

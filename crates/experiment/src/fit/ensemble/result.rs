@@ -79,7 +79,8 @@ impl EnsembleFit {
 pub struct Shares {
     /// Share of the uncertainty that comes from the limited number of measured curves.
     pub places: f64,
-    /// Share of the uncertainty that comes from the limited number of random profiles.
+    /// Share of the uncertainty that comes from the limited number of random profiles, and from the
+    /// distances between the points of the curves, between which nothing is known.
     pub profiles: f64,
     /// Share of the uncertainty that comes from the stated errors of the roughness.
     pub roughness: f64,

@@ -3,6 +3,15 @@
 
 use super::table::{Place, Table};
 
+/// Signed binomial coefficients of a difference of sixth order. A smooth function has a small
+/// difference of this order.
+const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
+/// Sum of the squares of these coefficients: the variance of the difference of independent errors,
+/// in units of their variance.
+const SQUARES: f64 = 924.0;
+/// Number of differences on each side of a node whose mean square counts for this node.
+const NEAR: usize = 3;
+
 /// Mean and covariance of two values over the random profiles at a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
@@ -33,6 +42,18 @@ impl Moments {
         Moments {
             mean,
             covariance: [product(0, 0), product(0, 1), product(1, 1)],
+        }
+    }
+
+    /// Returns the same mean with the covariance times `factor` plus `errors`.
+    pub fn with_errors(&self, factor: f64, errors: [f64; 3]) -> Self {
+        let mut covariance = errors;
+        for (sum, own) in covariance.iter_mut().zip(self.covariance) {
+            *sum += factor * own;
+        }
+        Moments {
+            mean: self.mean,
+            covariance,
         }
     }
 
@@ -82,6 +103,8 @@ pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,
     nodes: Vec<Moments>,
+    /// Covariance of the errors of the means that all profiles have in common, at each range.
+    unevenness: Vec<[f64; 3]>,
 }
 
 /// Weights for the interpolation along an axis. `first` is the index of the first node with a
@@ -117,16 +140,16 @@ impl Scatter {
     /// of a random profile and the index of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let count = table.ranges.len() * table.moduli.len();
-        let mut nodes = Vec::with_capacity(count);
+        let mut values: Vec<Vec<[f64; 2]>> = Vec::with_capacity(count);
         for node in 0..count {
             let profiles = 0..table.profiles.len();
-            let values: Vec<[f64; 2]> = profiles.map(|profile| value(profile, node)).collect();
-            nodes.push(Moments::of(&values));
+            values.push(profiles.map(|profile| value(profile, node)).collect());
         }
         Scatter {
             ranges: table.ranges.clone(),
             moduli: table.moduli.clone(),
-            nodes,
+            nodes: values.iter().map(|values| Moments::of(values)).collect(),
+            unevenness: unevenness(&values, table.ranges.len(), table.moduli.len()),
         }
     }
 
@@ -161,6 +184,25 @@ impl Scatter {
         moments
     }
 
+    /// Returns the covariance of the difference between the values of a curve and the interpolated
+    /// means at a place, as far as it does not come from the random profile. Between two points of
+    /// a curve nothing is known, so the summaries change in steps with the parameters if all
+    /// profiles have nearly the same curve. Both the curve and the means have such steps.
+    pub fn error_of_steps(&self, place: Place) -> [f64; 3] {
+        let inside = clamp_to(&self.ranges, place.range);
+        let Weights { first, weights } = Weights::<2>::new(&self.ranges, inside);
+        let mut sums = [0.0; 3];
+        for (index, weight) in weights.iter().enumerate() {
+            if *weight == 0.0 {
+                continue;
+            }
+            for (sum, variance) in sums.iter_mut().zip(self.unevenness[first + index]) {
+                *sum += 2.0 * weight * variance;
+            }
+        }
+        sums
+    }
+
     /// Calls `add` with the weight and the moments of each node around a place. There are `COUNT`
     /// such nodes along each axis.
     fn interpolate<const COUNT: usize>(&self, place: Place, mut add: impl FnMut(f64, &Moments)) {
@@ -179,6 +221,65 @@ impl Scatter {
             }
         }
     }
+}
+
+/// Returns the covariance at each range of those errors of the means that all profiles have in
+/// common. `values` has the values of all profiles at each node. The errors follow from differences
+/// of sixth order along the ranges, which the smooth part of the means hardly has. Differences that
+/// come from the random profiles are left out, because the covariance of the profiles contains
+/// them. An axis of fewer nodes than [`DIFFERENCE`] gives no errors.
+fn unevenness(values: &[Vec<[f64; 2]>], ranges: usize, moduli: usize) -> Vec<[f64; 3]> {
+    let count = (ranges + 1).saturating_sub(DIFFERENCE.len());
+    let mut errors = vec![[0.0; 3]; ranges];
+    if count == 0 {
+        return errors;
+    }
+    let mut common = vec![[0.0; 3]; count];
+    for (first, squares) in common.iter_mut().enumerate() {
+        for modulus in 0..moduli {
+            let nodes = (first..).map(|range| &values[range * moduli + modulus]);
+            let of_row = common_square(&nodes.take(DIFFERENCE.len()).collect::<Vec<_>>());
+            for (sum, square) in squares.iter_mut().zip(of_row) {
+                *sum += square / (SQUARES * moduli as f64);
+            }
+        }
+    }
+    for (node, error) in errors.iter_mut().enumerate() {
+        let centre = node.saturating_sub(DIFFERENCE.len() / 2).min(count - 1);
+        let near = &common[centre.saturating_sub(NEAR)..(centre + NEAR + 1).min(count)];
+        for squares in near {
+            for (sum, square) in error.iter_mut().zip(squares) {
+                *sum += square / near.len() as f64;
+            }
+        }
+        *error = as_covariance(*error);
+    }
+    errors
+}
+
+/// Returns an estimate of the squares and of the product of both differences that all profiles have
+/// in common. `nodes` has the values of all profiles at the nodes of the difference.
+fn common_square(nodes: &[&Vec<[f64; 2]>]) -> [f64; 3] {
+    let mut differences = vec![[0.0; 2]; nodes[0].len()];
+    for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
+        for (difference, value) in differences.iter_mut().zip(values.iter()) {
+            difference[0] += coefficient * value[0];
+            difference[1] += coefficient * value[1];
+        }
+    }
+    let Moments { mean, covariance } = Moments::of(&differences);
+    let profiles = differences.len() as f64;
+    let products = [mean[0] * mean[0], mean[0] * mean[1], mean[1] * mean[1]];
+    [0, 1, 2].map(|index| products[index] - covariance[index] / profiles)
+}
+
+/// Returns the nearest covariance matrix to three estimated elements, whose variances may be
+/// negative by chance.
+fn as_covariance([first, both, second]: [f64; 3]) -> [f64; 3] {
+    let first = first.max(0.0);
+    let second = second.max(0.0);
+    let most = (first * second).sqrt();
+    [first, both.clamp(-most, most), second]
 }
 
 fn clamp_to(axis: &[f64], place: f64) -> f64 {
@@ -237,6 +338,45 @@ mod tests {
             );
             assert_eq!((found.mean[1], found.covariance[2]), (0.0, 0.0));
         }
+    }
+
+    /// Values that change in steps, as the place of a point between the points of a curve does, have
+    /// errors of this variance. Steps of single profiles belong to their scatter.
+    #[test]
+    fn steps_that_all_profiles_have_are_errors_of_the_means() {
+        let step = 0.013;
+        let deviation = step / 12.0_f64.sqrt();
+        let stepped = |value: f64| (value / step).round() * step;
+        let profiles = 64_u16;
+        let ranges: Vec<f64> = (0..16).map(|node| 0.2 * f64::from(node) - 1.5).collect();
+        let moduli: Vec<f64> = (0..4).map(|node| 0.462 * f64::from(node)).collect();
+        let nodes = ranges.len() * moduli.len();
+        let table = Table {
+            ranges,
+            moduli,
+            profiles: vec![vec![[0.0; SUMMARIES]; nodes]; usize::from(profiles)],
+        };
+        let places = table.places();
+        let smooth = |place: Place| (0.7 * place.range).sin() + 0.3 * place.modulus;
+        let error_of = |value: &dyn Fn(usize, Place) -> f64| {
+            let scatter = Scatter::of(&table, |profile, node| [value(profile, places[node]), 0.0]);
+            let mut sum = 0.0;
+            for place in &places {
+                let [first, both, second] = scatter.error_of_steps(*place);
+                assert!(first >= 0.0 && both == 0.0 && second == 0.0);
+                sum += first / nodes as f64;
+            }
+            sum.sqrt() / deviation
+        };
+        let common = error_of(&|_, place| stepped(smooth(place)));
+        assert!((common / 2.0_f64.sqrt() - 1.0).abs() < 0.25, "{common}");
+        let own = error_of(&|profile, place| {
+            let offset = (profile as f64 * 0.754_877).fract();
+            stepped(smooth(place) + 10.0 * step * offset)
+        });
+        assert!(own < 0.25, "{own}");
+        let none = error_of(&|profile, place| smooth(place) + 1e-3 * profile as f64);
+        assert!(none < 0.01, "{none}");
     }
 
     #[test]

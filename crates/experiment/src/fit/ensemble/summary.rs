@@ -48,6 +48,9 @@ const FLOOR: f64 = 3.0;
 const TENSION: f64 = 2.0;
 /// Largest magnitude of the force after loss of contact, in units of the noise.
 const LOST: f64 = 5.0;
+/// Largest distance of two points that are the ends of a jump of the force, as a share of the mean
+/// distance between points.
+const AT_JUMP: f64 = 1e-3;
 /// Scatter of the preloads, divided by the scatter that results from noise, above which the
 /// preloads count as different.
 const DIFFERENT: f64 = 2.0;
@@ -304,6 +307,9 @@ pub(crate) struct Protocol {
     pub retraction: Vec<f64>,
     /// Number of points at the beginning of the approach that give the zero of the force.
     pub free: usize,
+    /// True if the approach, and if the retraction, has points at both ends of its jumps, as a
+    /// computed curve has them. An instrument has points before and after a jump.
+    pub has_jump_ends: [bool; 2],
 }
 
 impl Protocol {
@@ -315,8 +321,21 @@ impl Protocol {
             approach: displacements(&branches.approach),
             retraction: displacements(&branches.retraction),
             free: branches.free,
+            has_jump_ends: [&branches.approach, &branches.retraction]
+                .map(|branch| has_jump_ends(branch, branches.noise)),
         }
     }
+}
+
+/// Returns true if two consecutive points have the same displacement, but different forces.
+fn has_jump_ends(branch: &[Point], noise: f64) -> bool {
+    let width = branch[branch.len() - 1].displacement - branch[0].displacement;
+    let near = AT_JUMP * width.abs() / branch.len() as f64;
+    branch.windows(2).any(|pair| {
+        let distance = pair[1].displacement - pair[0].displacement;
+        let change = pair[1].force - pair[0].force;
+        distance.abs() < near && change.abs() > LOST * noise
+    })
 }
 
 fn displacements(branch: &[Point]) -> Vec<f64> {
@@ -498,6 +517,22 @@ mod tests {
                 "{name}: {found}, {expected}"
             );
         }
+    }
+
+    /// Points at both ends of a jump are recognized by their displacements and forces.
+    #[test]
+    fn ends_of_jumps_are_recognized() {
+        let mut branches = sawtooth();
+        assert!(!has_jump_ends(&branches.retraction, branches.noise));
+        let last = branches
+            .retraction
+            .iter()
+            .rposition(|point| point.force != 0.0);
+        let end = branches.retraction[last.unwrap()];
+        let after = Point { force: 0.0, ..end };
+        branches.retraction.insert(last.unwrap() + 1, after);
+        assert!(has_jump_ends(&branches.retraction, branches.noise));
+        assert!(!has_jump_ends(&branches.retraction, 100.0));
     }
 
     /// A distance that ends between two points changes continuously with the curve, and not in

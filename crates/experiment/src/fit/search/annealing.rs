@@ -85,7 +85,7 @@ impl Search<'_> {
         self.spread_out(&mut population, generator)?;
         let mut samples = Vec::new();
         let mut blocks = Vec::new();
-        let parts = self.space.blocks(&population.best.in_contact);
+        let parts = self.blocks(&population.best);
         let moves = if self.space.relaxes() {
             LAST_MOVES_OF_RELAXATION
         } else {
@@ -120,6 +120,22 @@ impl Search<'_> {
             blocks,
             without_adhesion,
         })
+    }
+
+    /// Returns the indices of the points in contact in each part of each segment of all curves.
+    fn blocks(&self, member: &Member) -> Vec<Vec<usize>> {
+        let mut blocks = self.space.blocks(&member.in_contact);
+        let mut first = self.space.curve.force.len();
+        for further in &self.further {
+            for mut block in further.space.blocks(&member.in_contact[first..]) {
+                for index in &mut block {
+                    *index += first;
+                }
+                blocks.push(block);
+            }
+            first += further.space.curve.force.len();
+        }
+        blocks
     }
 
     /// Moves the members of a population until its extent grows no more. After a step of the noise
@@ -187,7 +203,7 @@ impl Search<'_> {
         rival: f64,
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
-        self.model.noise = COARSE;
+        self.set_accuracy(COARSE);
         let mut population = self.first_members(attempt, start, generator)?;
         let count = self.count_of_members();
         loop {
@@ -273,7 +289,7 @@ impl Search<'_> {
     /// Computes the forces of a population again with full accuracy, if they have low accuracy.
     fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
         if self.model.noise > 1.0 {
-            self.model.noise = 1.0;
+            self.set_accuracy(1.0);
             for member in population.members.iter_mut().chain([&mut population.best]) {
                 *member = self.member(std::mem::take(&mut member.place))?;
             }

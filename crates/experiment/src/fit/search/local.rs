@@ -119,13 +119,13 @@ impl Search<'_> {
     /// Lowers the cost from a place by least squares. The noise that is assumed falls with the
     /// residuals, and points beyond [`WRONG_SIDE`] times this noise have a smaller weight.
     fn least_squares_from(&mut self, place: Vec<f64>) -> Result<Descended, ExperimentError> {
-        self.model.noise = COARSE;
+        self.set_accuracy(COARSE);
         let mut best = self.member(self.space.inside(&place))?;
         let mut noise = self.misfit(&best, f64::INFINITY).clamp(1.0, LARGE);
         let mut damping = DAMPING;
         for _ in 0..STEPS {
             if noise < COARSE && self.model.noise > 1.0 {
-                self.model.noise = 1.0;
+                self.set_accuracy(1.0);
                 best = self.member(best.place)?;
             }
             let slopes = self.slopes(&best, noise)?;
@@ -159,7 +159,7 @@ impl Search<'_> {
             noise = misfit.min(0.5 * noise).max(least).min(noise);
         }
         if self.model.noise > 1.0 {
-            self.model.noise = 1.0;
+            self.set_accuracy(1.0);
             best = self.member(best.place)?;
         }
         Ok(Descended {
@@ -171,8 +171,11 @@ impl Search<'_> {
     /// Computes the effects of all coordinates on the residuals at the place of a member, for an
     /// assumed noise in units of the noise of the curve.
     fn slopes(&mut self, member: &Member, noise: f64) -> Result<Slopes, ExperimentError> {
-        let curve = self.space.curve;
-        let range = Extent::of(curve.force.iter().copied()).width() / curve.noise;
+        let mut leaps = Vec::with_capacity(member.residuals.len());
+        for curve in self.curves() {
+            let range = Extent::of(curve.force.iter().copied()).width() / curve.noise;
+            leaps.resize(leaps.len() + curve.force.len(), LEAPS * range);
+        }
         let residuals = self.lines.refined(&member.residuals, noise);
         let mut weighted = Vec::with_capacity(residuals.len());
         for residual in &residuals {
@@ -193,9 +196,9 @@ impl Search<'_> {
             let moved = self.member(place)?;
             let moved = self.lines.refined(&moved.residuals, noise);
             let mut effect = Vec::with_capacity(residuals.len());
-            for (after, before) in moved.iter().zip(&residuals) {
-                let change = after - before;
-                let is_jump = change.is_nan() || change.abs() > LEAPS * range;
+            for (point, after) in moved.iter().enumerate() {
+                let change = after - residuals[point];
+                let is_jump = change.is_nan() || change.abs() > leaps[point];
                 effect.push(if is_jump { 0.0 } else { change / step });
             }
             effects.push(effect);
@@ -230,7 +233,7 @@ impl Search<'_> {
         count: usize,
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
-        self.model.noise = 1.0;
+        self.set_accuracy(1.0);
         let best = centres[0].clone();
         let noise = self
             .misfit(&best, self.misfit(&best, 1.0).max(1.0))

@@ -17,11 +17,13 @@
 mod annealing;
 mod local;
 
+use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::fit::descent::descend;
+use crate::fit::further::FurtherCurve;
 use crate::fit::lines::Lines;
 use crate::fit::model::Model;
-use crate::fit::parameter::{Coordinate, Parameter};
+use crate::fit::parameter::{Coordinate, Parameter, Values};
 use crate::fit::population::{Member, Population, WRONG_SIDE, loss, share_of};
 use crate::fit::space::Space;
 use crate::fit::statistics::scale;
@@ -67,7 +69,10 @@ const COARSE: f64 = 10.0;
 /// Residual, in units of the noise, of a point whose computed force is not finite.
 const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
-const PRIMES: [usize; 11] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31];
+const PRIMES: [usize; 32] = [
+    2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89, 97,
+    101, 103, 107, 109, 113, 127, 131,
+];
 
 /// Result of a search.
 pub(crate) struct SearchResult {
@@ -103,7 +108,10 @@ struct Cooling {
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
+    /// Lines of all curves.
     pub lines: Lines,
+    /// Further curves of the specimen, whose points follow those of the curve of the space.
+    pub further: Vec<FurtherCurve<'a>>,
     /// Function that receives the number of curves computed so far.
     pub report: &'a mut dyn FnMut(usize),
 }
@@ -113,30 +121,47 @@ impl Search<'_> {
         if (self.space.stop)() {
             return Err(ContactError::Interrupted.into());
         }
-        (self.report)(self.model.evaluations);
-        let curve = self.space.curve;
-        let values = self.space.values(&place);
-        let zero = values[Parameter::Zero as usize];
-        let forces = self.model.forces(&values)?;
-        let mut residuals = Vec::with_capacity(forces.len());
-        let mut in_contact = curve.in_contact();
-        for (index, force) in forces.iter().enumerate() {
-            let residual = (curve.force[index] - force) / curve.noise;
-            residuals.push(if residual.is_finite() { residual } else { FAR });
-            // The model gives a body without contact exactly the force before contact, so any other
-            // force means contact.
-            in_contact[index] |= *force != zero;
-        }
-        Ok(Member {
+        let computed = self.evaluations();
+        (self.report)(computed);
+        let mut member = Member {
+            residuals: Vec::new(),
+            in_contact: Vec::new(),
             place,
-            residuals,
-            in_contact,
-        })
+        };
+        compare(self.space, &mut self.model, &mut member)?;
+        for further in &mut self.further {
+            let mut of_curve = further.member(&member.place);
+            compare(further.space, &mut further.model, &mut of_curve)?;
+            member.residuals.extend(of_curve.residuals);
+            member.in_contact.extend(of_curve.in_contact);
+        }
+        Ok(member)
+    }
+
+    /// Returns the number of force curves that were computed.
+    pub fn evaluations(&self) -> usize {
+        let further = self.further.iter();
+        let of_further: usize = further.map(|further| further.model.evaluations).sum();
+        self.model.evaluations + of_further
+    }
+
+    /// Sets the accuracy of the computed forces, as a noise in units of the noise of the curve.
+    fn set_accuracy(&mut self, noise: f64) {
+        self.model.noise = noise;
+        for further in &mut self.further {
+            further.model.noise = noise;
+        }
+    }
+
+    /// Returns all curves, whose points follow each other.
+    fn curves(&self) -> impl Iterator<Item = &MeasuredCurve> {
+        let further = self.further.iter().map(|further| further.space.curve);
+        [self.space.curve].into_iter().chain(further)
     }
 
     /// Computes the residuals for the coordinates `place`, with forces of full accuracy.
     pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
-        self.model.noise = 1.0;
+        self.set_accuracy(1.0);
         self.member(place.to_vec())
     }
 
@@ -149,17 +174,18 @@ impl Search<'_> {
         place: &[f64],
         residuals: &[f64],
     ) -> Result<Vec<f64>, ExperimentError> {
-        let noise = self.space.curve.noise;
-        self.model.noise = 1.0;
-        let values = self.space.values(place);
-        let jumps = self.model.jumps(&values, WRONG_SIDE * noise)?;
+        self.set_accuracy(1.0);
         let mut beyond = residuals.to_vec();
-        for (residual, jump) in beyond.iter_mut().zip(jumps) {
-            if let Some(jump) = jump
-                && residual.abs() > WRONG_SIDE
-            {
-                *residual -= residual.clamp(jump.low / noise, jump.high / noise);
-            }
+        let values = self.space.values(place);
+        let count = self.space.curve.force.len();
+        let (own, mut others) = beyond.split_at_mut(count);
+        take_jumps_off(self.space.curve, &mut self.model, &values, own)?;
+        for further in &mut self.further {
+            let values = further.space.values(&further.place(place));
+            let count = further.space.curve.force.len();
+            let (own, after) = others.split_at_mut(count);
+            take_jumps_off(further.space.curve, &mut further.model, &values, own)?;
+            others = after;
         }
         Ok(beyond)
     }
@@ -175,21 +201,24 @@ impl Search<'_> {
     /// drift or a tilt remains in them; otherwise 0. The same drift or tilt is present in contact,
     /// where changes of the parameters can hide it.
     fn remaining_line(&self, member: &Member) -> f64 {
-        let curve = self.space.curve;
-        if curve.remaining[..2] == [0.0; 2] {
-            return 0.0;
+        let mut largest: f64 = 0.0;
+        let mut first = 0;
+        for curve in self.curves() {
+            let range = first..first + curve.force.len();
+            first = range.end;
+            if curve.remaining[..2] == [0.0; 2] {
+                continue;
+            }
+            let residuals = self.lines.refined(&member.residuals, 1.0);
+            let free: Vec<f64> = range
+                .filter(|index| !member.in_contact[*index])
+                .map(|index| residuals[index])
+                .collect();
+            if !free.is_empty() {
+                largest = largest.max(scale(&free, WRONG_SIDE));
+            }
         }
-        let residuals = self.lines.refined(&member.residuals, 1.0);
-        let points = residuals.iter().zip(&member.in_contact);
-        let free: Vec<f64> = points
-            .filter(|(_, in_contact)| !**in_contact)
-            .map(|(residual, _)| *residual)
-            .collect();
-        if free.is_empty() {
-            0.0
-        } else {
-            scale(&free, WRONG_SIDE)
-        }
+        largest
     }
 
     /// Returns the cost of a member, a negative log-likelihood, for a noise in units of the noise
@@ -241,7 +270,7 @@ impl Search<'_> {
 
     /// Does the same as [`Search::descended`] from another place.
     fn descended_from(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
-        self.model.noise = 1.0;
+        self.set_accuracy(1.0);
         let mut best = self.member(place)?;
         let mut noise = self.misfit(&best, f64::INFINITY).clamp(1.0, LARGE);
         let mut step = FIRST_STEP;
@@ -308,7 +337,7 @@ impl Search<'_> {
         mut population: Population,
         mut generator: ChaCha8Rng,
     ) -> Result<SearchResult, ExperimentError> {
-        self.model.noise = 1.0;
+        self.set_accuracy(1.0);
         let mut start = self.member(self.space.start())?;
         let mut rivals = self.rivals(&population.best)?;
         for rival in &rivals {
@@ -389,6 +418,51 @@ impl Search<'_> {
         let expected = 0.5 * residuals.len() as f64;
         Ok(cost > (EXPECTED * expected).max(expected + CHANCE * expected.sqrt()))
     }
+}
+
+/// Compares the curve of a space with its model at the place of a member, and adds the residuals
+/// to the member.
+fn compare(
+    space: &Space<'_>,
+    model: &mut Model<'_>,
+    member: &mut Member,
+) -> Result<(), ExperimentError> {
+    let curve = space.curve;
+    let values = space.values(&member.place);
+    let zero = values[Parameter::Zero as usize];
+    let forces = model.forces(&values)?;
+    member.residuals.reserve(forces.len());
+    member.in_contact = curve.in_contact();
+    for (index, force) in forces.iter().enumerate() {
+        let residual = (curve.force[index] - force) / curve.noise;
+        member
+            .residuals
+            .push(if residual.is_finite() { residual } else { FAR });
+        // The model gives a body without contact exactly the force before contact, so any other
+        // force means contact.
+        member.in_contact[index] |= *force != zero;
+    }
+    Ok(())
+}
+
+/// Corrects the residuals of a curve at jumps of the model with these values of the parameters, see
+/// [`Search::beyond_jumps`].
+fn take_jumps_off(
+    curve: &MeasuredCurve,
+    model: &mut Model<'_>,
+    values: &Values,
+    residuals: &mut [f64],
+) -> Result<(), ExperimentError> {
+    let noise = curve.noise;
+    let jumps = model.jumps(values, WRONG_SIDE * noise)?;
+    for (residual, jump) in residuals.iter_mut().zip(jumps) {
+        if let Some(jump) = jump
+            && residual.abs() > WRONG_SIDE
+        {
+            *residual -= residual.clamp(jump.low / noise, jump.high / noise);
+        }
+    }
+    Ok(())
 }
 
 /// Returns a coordinate of a scattered member. `share`, from 0 to 1, is its place in the range.

@@ -3,7 +3,8 @@
 //! Each value has a path of names and, in lists and tuples, of indices: `roughness.hurst`,
 //! `loading.0`, `roughness.modes.1`. The whole text has the empty path. Names of structs and
 //! variants are not part of a path, and neither is `Some(…)`: in
-//! `roughness: Some(SelfAffine(hurst: 0.7))` the number 0.7 has the path `roughness.hurst`.
+//! `roughness: Some(SelfAffine(hurst: 0.7))` the number 0.7 has the path `roughness.hurst`. In
+//! `form: Spheres([(radius: 1.0)])` the number 1.0 has the path `form.0.radius`.
 
 use std::ops::Range;
 
@@ -247,14 +248,32 @@ impl Tokens<'_> {
     }
 
     /// Returns the token indices of the two brackets of the value that starts at the token `first`.
+    /// If the value is a variant that contains only a list, these are the brackets of the list.
     fn brackets(&self, first: usize) -> Option<(usize, usize)> {
         let has_name = self.is(first, Kind::Word);
         let open = if has_name { first + 1 } else { first };
         match self.tokens.get(open)?.kind {
+            Kind::Open('(', close) if has_name => {
+                Some(self.only_list(open, close).unwrap_or((open, close)))
+            }
             Kind::Open('(', close) => Some((open, close)),
             Kind::Open('[', close) if !has_name => Some((open, close)),
             _ => None,
         }
+    }
+
+    /// Returns the token indices of the brackets of a list, if this list is all that is between the
+    /// brackets `open` and `close`.
+    fn only_list(&self, open: usize, close: usize) -> Option<(usize, usize)> {
+        let Kind::Open('[', end) = self.tokens.get(open + 1)?.kind else {
+            return None;
+        };
+        let after = if self.is(end + 1, Kind::Comma) {
+            end + 2
+        } else {
+            end + 1
+        };
+        (after == close).then_some((open + 1, end))
     }
 
     /// Returns the byte range from the token `first` to the token before `end`.

@@ -90,7 +90,7 @@ impl OnePiece {
                     b.powi(3) / (3.0 * radius) + slope * (squares + arcs),
                 ]
             }
-            Form::Punch { .. } | Form::TwoSpheres { .. } | Form::Table { .. } => {
+            Form::Punch { .. } | Form::Spheres(_) | Form::Table { .. } => {
                 unreachable!("not in one piece with a smooth edge")
             }
         }

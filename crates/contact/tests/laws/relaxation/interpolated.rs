@@ -1,0 +1,76 @@
+//! Forces between the points of a record.
+
+use super::brute_force::{case, relaxing};
+use super::*;
+use asperity_contact::motion::RelaxingBody;
+
+fn records(number: u64, tolerance: f64) -> [StageRecord; 3] {
+    let (body, _, motion) = case(number);
+    let contact = relaxing(&body, &motion);
+    let mut solver = RelaxingBody::new(&contact)
+        .unwrap()
+        .with_tolerance(tolerance);
+    [
+        Move::ToIndentation(motion.deepest),
+        Move::Hold(motion.dwell),
+        Move::ToSeparation,
+    ]
+    .map(|stage| solver.advance(stage).unwrap())
+}
+
+/// Force at a time by interpolation between the points of a record.
+fn force_at(record: &StageRecord, seconds: f64) -> f64 {
+    let next = record.seconds.partition_point(|time| *time < seconds);
+    let next = next.clamp(1, record.seconds.len() - 1);
+    let [before, after] = [next - 1, next].map(|index| record.curve[index].force);
+    let step = record.seconds[next] - record.seconds[next - 1];
+    if step <= 0.0 {
+        return after;
+    }
+    let share = ((seconds - record.seconds[next - 1]) / step).clamp(0.0, 1.0);
+    before + share * (after - before)
+}
+
+/// Share of the duration of a stage up to which the moment of a jump may deviate.
+const MOMENT: f64 = 3e-4;
+
+/// A record has both sides of each jump, so that forces between its points deviate by no more than
+/// the steps do. The reference is a record of steps that are a thousand times as accurate.
+#[test]
+fn forces_between_the_points_of_a_record_are_accurate_beside_jumps_too() {
+    let mut worst = 0.0_f64;
+    let mut jumps = 0;
+    for number in 0..60 {
+        let coarse = records(number, 1e-3);
+        let fine = records(number, 1e-6);
+        let forces = fine.iter().flat_map(|record| &record.curve);
+        let scale = forces.fold(0.0_f64, |most, point| most.max(point.force.abs()));
+        for (coarse, fine) in coarse.iter().zip(&fine) {
+            if fine.seconds.len() < 2 {
+                continue;
+            }
+            let first = fine.seconds[0];
+            let duration = fine.seconds[fine.seconds.len() - 1] - first;
+            for (index, pair) in coarse.curve.windows(2).enumerate() {
+                let is_jump = (pair[1].force - pair[0].force).abs() > 0.05 * scale;
+                let step = coarse.seconds[index + 1] - coarse.seconds[index];
+                if is_jump && step < MOMENT * duration {
+                    assert_eq!(step, 0.0, "{number}: a jump takes time");
+                    jumps += 1;
+                }
+            }
+            for k in 0..2000 {
+                let seconds = first + duration * (f64::from(k) + 0.5) / 2000.0;
+                let found = force_at(coarse, seconds);
+                let near =
+                    [-1.0, 0.0, 1.0].map(|side| force_at(fine, seconds + side * MOMENT * duration));
+                let low = near.into_iter().fold(f64::INFINITY, f64::min);
+                let high = near.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                worst = worst.max((low - found).max(found - high) / scale);
+            }
+        }
+    }
+    println!("{jumps} jumps, largest deviation {worst:.1e}");
+    assert!(jumps > 20, "{jumps}");
+    assert!(worst < 2e-3, "{worst}");
+}
