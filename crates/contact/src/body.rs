@@ -494,6 +494,9 @@ impl Body {
     ///
     /// A pull-off force is `None` if the force stays above zero on the unloading. F_a(F=0) is also
     /// `None` if the force of the loading never returns to zero.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Stage::approach(self.stage.contact())?;

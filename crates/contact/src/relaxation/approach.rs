@@ -13,7 +13,8 @@ const INTERVALS: usize = 512;
 /// of the largest compression. Above it, an interval has a jump and is not interpolated.
 const JUMP: f64 = 1e-5;
 
-/// The elastic loading from separation, with the instantaneous modulus.
+/// Elastic loading from separation, with the modulus before any relaxation. Until the body turns, a
+/// relaxing contact has the same springs in contact as this loading.
 pub struct Approach {
     pub stage: Stage,
     /// Contacts at evenly spaced indentations from zero on.
@@ -34,7 +35,8 @@ impl Approach {
         })
     }
 
-    /// Prepares the contact for indentations up to `indentation` in m.
+    /// Computes the contacts at indentations from 0 to `indentation` in m, unless they are known
+    /// already.
     pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
         if indentation <= self.high {
             return Ok(());
@@ -48,8 +50,8 @@ impl Approach {
         Ok(())
     }
 
-    /// Returns the largest difference in m between the compressions of the table and a straight
-    /// line, between two indentations in m.
+    /// Returns by how much, at most, the compression of the elastic loading deviates from a
+    /// straight line between two indentations. The indentations and the result are in m.
     pub fn bend(&self, from: f64, to: f64) -> f64 {
         let first = self.table.partition_point(|state| state.indentation < from);
         let after = self.table.partition_point(|state| state.indentation <= to);
@@ -68,7 +70,7 @@ impl Approach {
         largest
     }
 
-    /// Returns the contact at an indentation in m.
+    /// Returns the contact of the elastic loading at an indentation in m.
     pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
         let intervals = self.table.len().saturating_sub(1) as f64;
         let place = indentation / self.high * intervals;

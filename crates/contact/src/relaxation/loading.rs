@@ -14,7 +14,7 @@ const GUESSES: usize = 60;
 /// Share of the largest force up to which the force of a goal is met.
 const SAME: f64 = 1e-13;
 
-/// A step of the drive, from a state to a displacement of the drive.
+/// A step of the drive: a motion at a constant speed to a displacement.
 #[derive(Clone, Copy)]
 pub struct Step {
     /// Displacement D of the drive at the end of the step in m.
@@ -161,8 +161,8 @@ impl Drive {
         SAME * self.largest_force
     }
 
-    /// Finds the state at which a motion reaches its goal, on the step from `from` to `to`. The
-    /// goal is not reached at `from`, and is reached at `to`.
+    /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
+    /// the state `to`. The goal is not reached at `from`, and is reached at `to`.
     pub fn reach(
         &mut self,
         from: &State,

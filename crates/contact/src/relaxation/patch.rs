@@ -10,15 +10,15 @@ use crate::history::Patch;
 /// Relative difference below which two tensions count as equal.
 const ROUNDING: f64 = 1e-12;
 
-/// An edge of a patch: it lies between the outermost spring of the patch and the first spring
-/// beyond.
+/// An edge of a patch. The edge lies between the outermost spring of the patch and the first spring
+/// outside the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
     /// Outermost spring of the patch on this side.
     pub spring: usize,
     /// Share of the cell beyond this spring that is in contact.
     pub share: f64,
-    /// Gap and memory at the other end of this cell.
+    /// Gap and memory at the outer end of this cell.
     pub outer: Spring,
 }
 
@@ -34,7 +34,7 @@ impl Edge {
     }
 }
 
-/// A patch with the place of its edges and its integrals.
+/// A patch after the turn of the body: the positions of its edges, and integrals over its length.
 #[derive(Clone, Copy, Debug)]
 pub struct StretchedPatch {
     pub left: Edge,
@@ -64,9 +64,10 @@ struct Receding<'a> {
 pub enum Settling {
     /// Nothing detaches.
     Holds,
-    /// The edges move as the drive does.
+    /// The edges move no further than the motion of the drive requires.
     Slides,
-    /// The edges move further than the drive requires, or the patch is lost or divided.
+    /// The edges move further than the motion of the drive requires, or the patch splits or
+    /// disappears.
     Jumps,
 }
 
@@ -74,9 +75,10 @@ pub enum Settling {
 enum Remainder {
     /// The patch bears its tension.
     Holds,
-    /// The patch has lost its last spring.
+    /// The patch has lost all its springs.
     Nothing,
-    /// The patch has lost the spring with this index, which lies inside.
+    /// The patch has lost a spring inside the patch, so that the patch splits. The value is the
+    /// index of this spring.
     Parts(usize),
 }
 
@@ -116,15 +118,16 @@ impl StretchedPatch {
         self.right.spring + 1 - self.left.spring
     }
 
-    /// Returns the largest tension of the patch in m.
+    /// Returns the largest tension of the patch in m. The tension of a spring is minus its force
+    /// divided by the instantaneous stiffness of a spring.
     pub fn tension(&self, line: &Line, field: &Field) -> f64 {
         let mut receding = Receding::new(line, field, self.left, self.right, self.core);
         let [left, right] = receding.tensions();
         left.max(right).max(receding.peak().tension)
     }
 
-    /// Returns the force in m that the springs bore which were in this patch, and which are in none
-    /// of the patches `held`.
+    /// Returns the force of those springs of this patch that are in none of the patches `held`,
+    /// divided by the stiffness of one spring, in m.
     pub fn lost_force(&self, held: &[StretchedPatch], field: &Field) -> f64 {
         let mut lost = self.sums;
         for patch in held {
@@ -134,8 +137,8 @@ impl StretchedPatch {
             + (1.0 - field.remaining) * field.decay * lost.memory
     }
 
-    /// Lets springs detach until each remaining patch bears its tension, and adds these patches to
-    /// `held`.
+    /// Lets springs of the patch detach until each remaining part bears its tension. The remaining
+    /// parts are added to the patches `held`. Returns how the edges moved.
     pub fn settle<R: DetachmentRule>(
         &self,
         line: &Line,

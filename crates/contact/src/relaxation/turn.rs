@@ -11,16 +11,16 @@ use crate::history::Patch;
 use crate::stage::Stage;
 use asperity_data::resized;
 
-/// The moment at which the body turns, and how it came there.
+/// The moment at which the body turns from loading to unloading, with the history of the loading.
 #[derive(Clone, Copy)]
 pub struct Turn<'a> {
-    /// The elastic approach, which the relaxing contact shares.
+    /// Elastic loading with the same springs in contact as the relaxing contact before the turn.
     pub stage: &'a Stage,
     pub relaxation: Relaxation,
     pub history: &'a History,
     /// Largest indentation in m that the body has reached.
     pub deepest: f64,
-    /// Time in s.
+    /// Time of the turn in s since first touch.
     pub seconds: f64,
 }
 
@@ -71,7 +71,8 @@ impl Turn<'_> {
         }
     }
 
-    /// Computes the memories of all springs in contact, and lists the patches.
+    /// Computes the memories of all springs in contact at the turn. Returns the profile with these
+    /// memories, and the patches in contact.
     pub fn memories(&self) -> Result<(Line, Vec<StretchedPatch>), ContactError> {
         let gaps = self.stage.contact().gaps();
         let thresholds = self.stage.thresholds();
