@@ -84,7 +84,7 @@ impl Place {
 pub enum ChosenBy {
     /// The user chooses by the number or the name of a channel.
     ChannelNumber,
-    /// The user chooses by the name of a surface in an archive with several surfaces.
+    /// The user chooses one of several surfaces in an archive by its name.
     SurfaceName,
 }
 

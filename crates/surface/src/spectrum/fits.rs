@@ -77,6 +77,9 @@ impl SpectrumFits {
 
     /// Fits an isotropic spectrum C2D to the observed powers. The fitted spectrum is given by its
     /// values at several wave numbers, the nodes.
+    ///
+    /// # Errors
+    /// Returns an error if the fit does not succeed.
     pub fn isotropic(
         &self,
         observations: &[Observation],

@@ -27,9 +27,10 @@ pub(super) struct MapPower {
     /// True if short waves parallel to one axis are left out, because whole rows or columns are
     /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
-    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
-    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
+    /// Difference between the remaining waves parallel to an axis and the waves in neighbouring
+    /// directions. It is the difference between the squared gradient of the waves parallel to the
+    /// axis and the squared gradient that the neighbouring directions lead to expect, as a share of
+    /// the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 

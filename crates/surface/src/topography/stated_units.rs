@@ -49,8 +49,8 @@ pub(super) struct Units<'a> {
 }
 
 impl<'a> Units<'a> {
-    /// Decides for which quantities the units in the options are meant. `has_positions` is true for
-    /// a profile in which each point has a position.
+    /// Decides to which quantities the units in the options apply. `has_positions` is true for a
+    /// profile in which each point has a position.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
         let mut option_of_heights = options.height_unit.or(options.unit);

@@ -185,7 +185,7 @@ impl Table {
         }
     }
 
-    /// Takes account of an empty line, so that the next row begins after a gap.
+    /// Notes an empty line in the text, so that there is a gap before the next row.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
