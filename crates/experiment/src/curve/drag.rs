@@ -45,8 +45,8 @@ const FOUND_FAR: f64 = 2.5;
 /// speed, so this is the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
 
-/// Forces of the drag of a fluid on a body in contact. The program has subtracted the drag from the
-/// curve.
+/// Forces of the drag of a fluid on a body in contact. Reading a curve subtracts the drag from its
+/// forces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DragForce {
@@ -71,8 +71,8 @@ pub(crate) struct Drag {
     /// retraction.
     pressed: f64,
     pulled: f64,
-    /// Number of points before contact that the drag describes. The field `after` is the number of
-    /// points after contact that the drag describes.
+    /// Number of points before contact from which the drag was found. The field `after` is the
+    /// number of such points after contact.
     pub before: usize,
     pub after: usize,
 }

@@ -35,16 +35,16 @@ const END: usize = 20;
 /// Jump of the force of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ForceJump {
-    /// Index, from 0, of the segment in which the force jumps.
+    /// Index, from 0, of the segment (a single loading or unloading) in which the force jumps.
     pub segment: usize,
     /// Displacement in m at the last point before the jump.
     pub displacement: f64,
-    /// Means of a few forces before and after the jump, N.
+    /// Mean force in N of a few points before the jump, and of a few points after the jump.
     pub forces: [f64; 2],
 }
 
 impl ForceJump {
-    /// Returns the magnitude of the jump, N.
+    /// Returns the magnitude of the jump in N.
     pub fn size(self) -> f64 {
         (self.forces[1] - self.forces[0]).abs()
     }

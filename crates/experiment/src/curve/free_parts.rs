@@ -53,7 +53,7 @@ const LIKE_NEIGHBOURS: f64 = 1.5;
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoFreePart {
-    /// The segment has too few points.
+    /// The segment has too few points to find where the contact begins.
     Few,
     /// The segment is a straight line, so that no contact is found. `range` is the change of the
     /// force along the line and `noise` the noise of the force, both in N.
@@ -222,7 +222,7 @@ pub(crate) struct FreeParts {
     /// True if the curve ends in contact although its last points look straight: a tension still
     /// holds the body at the end of the last retraction.
     pub ends_in_contact: bool,
-    /// Time and displacement of each point. Both are given as shares of the whole curve.
+    /// Time and displacement of each point, both divided by their range over the whole curve.
     pub shares: [Vec<f64>; 2],
 }
 
@@ -296,10 +296,10 @@ impl FreeParts {
         }
     }
 
-    /// Returns an estimate of the displacement in m at which the contact begins. It is the end of
-    /// the part before contact. For a retraction without an approach, it is the displacement at
-    /// which the compression ends. If such a retraction begins in tension, it is the displacement
-    /// at the middle one of its points in contact.
+    /// Returns an estimate of the displacement in m at which the contact begins. For a curve with
+    /// an approach, this is the end of the part before contact. For a retraction without an
+    /// approach, it is the displacement at which the compression ends. If such a retraction begins
+    /// in tension, it is the displacement of the middle one of the points in contact.
     pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];

@@ -18,7 +18,7 @@ pub(crate) struct Points {
     pub is_still: Vec<bool>,
     /// Time of each point in s; empty if it is not known.
     pub seconds: Vec<f64>,
-    /// Number of points of the file of which each point is the mean.
+    /// For each point, the number of points of the file of which it is the mean.
     pub counts: Vec<usize>,
 }
 

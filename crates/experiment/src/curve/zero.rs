@@ -137,14 +137,14 @@ impl Residual {
 
 /// Result of the subtraction of zero offset, drift and tilt from the force of a curve.
 pub(crate) struct Subtracted {
-    /// Terms in N that were found but not subtracted: drift, tilt and step. A term that was not
-    /// found is 0.
+    /// Drift, tilt and step of the force in N that were found but not subtracted, in this order.
+    /// The value is 0 if none was found.
     pub remaining: [f64; 3],
     /// Step of the force in N, caused by drag, that was subtracted from the retractions; 0 if there
     /// is none.
     pub step_of_retraction: f64,
-    /// Contributions to the force that were subtracted as lines: for each drift, tilt or step, the
-    /// values at all points. The zero offset is not included.
+    /// Contributions that were subtracted from the force: for each drift, tilt or step, its values
+    /// at all points. The zero offset is not included.
     pub columns: Vec<Vec<f64>>,
     /// Sentences on zero offset, drift, tilt and step, for the report.
     pub statement: Note,
@@ -155,7 +155,8 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Subtracts zero offset, drift and tilt from the force as the options request.
+    /// Subtracts zero offset, drift and tilt from the force, as far as the options request. `noise`
+    /// is the standard deviation of the noise of the force in N.
     pub fn subtract_lines(
         &self,
         points: &mut Points,

@@ -46,8 +46,7 @@ pub(crate) struct Known {
 /// Initial values of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Starts {
-    /// Work of adhesion in J/m² with which a smooth body would have the pull-off force of the
-    /// curve.
+    /// Work of adhesion in J/m² with which a smooth body would have the measured pull-off force.
     pub work: f64,
     /// Work of adhesion in J/m² below which the pull-off force of a smooth body would be hidden by
     /// the noise.
@@ -59,7 +58,7 @@ pub(crate) struct Starts {
     pub stiffness: f64,
     /// Displacement in m at first touch.
     pub touch: f64,
-    /// Distance in m that the instrument moves from first touch to the largest force.
+    /// Distance in m by which the instrument moves from first touch to the largest force.
     pub way: f64,
 }
 

@@ -19,7 +19,8 @@ const WILD: f64 = 10.0;
 /// Label that a file gives to the points of one part of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Number of the part. It increases where the name of the segment changes in the file.
+    /// Index of the part of the file to which the point belongs. A new part begins where the name
+    /// of the segment changes in the file.
     pub part: usize,
     /// True if the instrument pauses in this part, according to the name of the part.
     pub is_pause: bool,
@@ -50,8 +51,8 @@ pub(crate) struct Columns {
     pub missing: usize,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if this displacement excludes the deflection of the
-    /// instrument, otherwise `None`.
+    /// Name of the column of displacements if these are displacements of the body, without the
+    /// deflection of the instrument; otherwise `None`.
     pub of_body: Option<String>,
     /// Text for the report that describes the chosen columns and their units.
     pub assumed: String,

@@ -35,22 +35,24 @@ pub(crate) struct Specimen<'a> {
     pub scene: &'a CheckedScene,
     /// Stiffness of the instrument in N/m.
     pub stiffness: f64,
-    /// Work of adhesion on closing divided by the work of adhesion on opening.
+    /// Work of adhesion on closing, divided by the work of adhesion on opening.
     pub closing: f64,
-    /// Preload, displacements and noise of each measured curve. The computed curves take them in
-    /// turn.
+    /// Preload, displacements and noise of each measured curve. The computed curves use the
+    /// protocols in turn: the first curve the first protocol, and so on.
     pub protocols: &'a [Protocol],
     /// Function that returns true if the computation has to stop.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Specimen<'_> {
-    /// Returns the summaries of the curves of one random profile. There is a curve for each pair of
-    /// a value ln(γ/E*) in `ranges` and a value ln E* in `moduli`; all moduli of the first range
-    /// come first. `moduli` has to ascend.
+    /// Returns the summaries of the curves of one random profile. A summary is a number computed
+    /// from a curve, such as its pull-off force. There is a curve for each pair of a value ln(γ/E*)
+    /// in `ranges` and a value ln E* in `moduli`, with γ and E* in SI units. All moduli of the
+    /// first range come first. `moduli` has to ascend.
     ///
     /// Apart from the turning point and the instrument, the curve of the force divided by E* over
-    /// the indentation depends only on γ/E*. So one approach is computed for all moduli of a range.
+    /// the indentation depends only on γ/E*. Therefore one approach is computed for all moduli of a
+    /// range.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -272,8 +274,9 @@ pub(crate) struct Workers<'a> {
 }
 
 impl Workers<'_> {
-    /// Returns the summaries of the curves of each random profile at all nodes. All moduli of the
-    /// first range come first.
+    /// Returns the summaries of the curves of each random profile at all nodes. A summary is a
+    /// number computed from a curve. A node is a pair of a value ln(γ/E*) in `ranges` and a value
+    /// ln E* in `moduli`. All moduli of the first range come first.
     pub fn curves(
         &self,
         profiles: u64,

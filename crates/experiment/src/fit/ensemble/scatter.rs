@@ -16,7 +16,8 @@ const NEAR: usize = 3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
     pub mean: [f64; 2],
-    /// Variance of the first value, covariance, variance of the second value.
+    /// Covariance matrix of the two values: variance of the first value, covariance, and variance
+    /// of the second value.
     pub covariance: [f64; 3],
 }
 
@@ -45,7 +46,8 @@ impl Moments {
         }
     }
 
-    /// Returns the same mean with the covariance times `factor` plus `errors`.
+    /// Returns the same mean with another covariance matrix: the present one times `factor`, plus
+    /// `errors`.
     pub fn with_errors(&self, factor: f64, errors: [f64; 3]) -> Self {
         let mut covariance = errors;
         for (sum, own) in covariance.iter_mut().zip(self.covariance) {
@@ -57,8 +59,8 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance matrix. If the second value does not vary, as for a
-    /// given E*, the inverse ignores it.
+    /// Returns the inverse of the covariance matrix. The inverse ignores the second value if this
+    /// value does not vary, as ln E* for a given E*.
     pub fn inverse(&self) -> InverseCovariance {
         let [first, both, second] = self.covariance;
         if second == 0.0 {
@@ -81,7 +83,8 @@ impl Moments {
 }
 
 impl InverseCovariance {
-    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean).
+    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean), where x are the
+    /// `values` and Σ is the covariance matrix.
     pub fn squared_distance(&self, mean: [f64; 2], values: [f64; 2]) -> f64 {
         let [first, both, second] = self.elements;
         let x = values[0] - mean[0];
@@ -89,7 +92,7 @@ impl InverseCovariance {
         first * x * x + 2.0 * both * x * y + second * y * y
     }
 
-    /// Returns the product Σ⁻¹ x.
+    /// Returns the product Σ⁻¹ x, where x are the `values` and Σ is the covariance matrix.
     pub fn times(&self, values: [f64; 2]) -> [f64; 2] {
         let [first, both, second] = self.elements;
         let [x, y] = values;
@@ -136,8 +139,9 @@ impl<const COUNT: usize> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Computes the moments of two values at each node. `value` returns these values from the index
-    /// of a random profile and the index of a node.
+    /// Computes the means and covariances of two values over the random profiles, at each node. A
+    /// node is a pair of values for which curves were computed. `value` returns the two values from
+    /// the index of a random profile and the index of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let count = table.ranges.len() * table.moduli.len();
         let mut values: Vec<Vec<[f64; 2]>> = Vec::with_capacity(count);
@@ -153,15 +157,16 @@ impl Scatter {
         }
     }
 
-    /// Computes the moments of one summary; the second value is 0.
+    /// Computes the mean and the variance of one summary over the random profiles, at each node.
+    /// `index` is the index of the summary. The second value is 0.
     pub fn of_summary(table: &Table, index: usize) -> Self {
         Scatter::of(table, |profile, node| {
             [table.profiles[profile][node][index], 0.0]
         })
     }
 
-    /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
-    /// polynomials, and the covariance linearly.
+    /// Returns the mean and the covariance at a place between the nodes. The mean is interpolated
+    /// by cubic polynomials, and the covariance linearly.
     pub fn at(&self, place: Place) -> Moments {
         let mut moments = Moments {
             mean: [0.0; 2],
@@ -184,10 +189,11 @@ impl Scatter {
         moments
     }
 
-    /// Returns the covariance of the difference between the values of a curve and the interpolated
-    /// means at a place, as far as it does not come from the random profile. Between two points of
-    /// a curve nothing is known, so the summaries change in steps with the parameters if all
-    /// profiles have nearly the same curve. Both the curve and the means have such steps.
+    /// Returns that part of the covariance which does not come from the differences between random
+    /// profiles. It belongs to the difference between the values of a curve and the interpolated
+    /// means at a place. Nothing is known between two points of a curve. If all profiles have
+    /// nearly the same curve, the summaries therefore change in steps with the parameters. Both the
+    /// curve and the means have such steps.
     pub fn error_of_steps(&self, place: Place) -> [f64; 3] {
         let inside = clamp_to(&self.ranges, place.range);
         let Weights { first, weights } = Weights::<2>::new(&self.ranges, inside);
