@@ -16,9 +16,9 @@ const BLOCK: usize = 128;
 /// the processor.
 const TILE: usize = 16;
 
-/// A planned convolution of values of the type T. The rows are transformed first. Each block of
-/// columns is then processed in a single pass over the memory: it is gathered, transformed,
-/// multiplied by the transform of the kernel, transformed back and stored.
+/// A planned convolution of values of the type T. First all rows of the grid are transformed. Then
+/// each block of columns is processed in a single pass over the memory: the block is gathered,
+/// transformed, multiplied by the transform of the kernel, transformed back and stored.
 pub struct Convolution<T> {
     /// Number of rows and columns of the grid.
     cells: usize,

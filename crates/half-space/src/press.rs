@@ -27,7 +27,8 @@ const OUTWEIGHS: f64 = 1.5;
 /// Largest number of conjugate gradient steps on one grid.
 const MOST_STEPS: u64 = 400;
 
-/// The prescribed force or indentation, in units of the side L and the effective modulus E*.
+/// Prescribed force or indentation of a contact, as a number without a unit: divided by powers of
+/// the side L of the square and of the effective modulus E*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Mean pressure over the square, F/(E* L²).
@@ -181,10 +182,10 @@ impl Grid {
     }
 
     /// Sets the pressures and the cells in contact from the solution on the coarser grid `coarse`.
-    /// The edge of the contact follows from a length at each coarser cell. On the contact, this is
-    /// the displacement that the pressure of the cell causes at the cell; elsewhere it is minus the
-    /// gap. The length is interpolated between the coarser cells, and the edge lies where it
-    /// changes its sign.
+    /// The edge of the contact follows from a length in each coarser cell. In a cell in contact,
+    /// this length is the displacement of the cell that its own pressure causes. In any other cell
+    /// it is minus the gap. The length is interpolated between the coarser cells, and the edge lies
+    /// where it changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;
         let half = coarse.cells;
