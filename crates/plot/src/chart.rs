@@ -421,8 +421,8 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Returns the marker of one of several curves in a chart. `number` is the index of the curve
-    /// among them, from 0.
+    /// Returns the marker of one of several curves in a chart. `number` is the index of this curve,
+    /// from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
