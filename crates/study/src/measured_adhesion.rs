@@ -31,8 +31,8 @@ pub struct ProfileAdhesion {
     /// Pull-off force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
     pub pull_off_force: Option<f64>,
-    /// Change of F_a in N, computed to first order, if the spectrum changes at random within the
-    /// uncertainty of its fit. The change is limited so that the changed force is between zero and
+    /// Change of F_a in N when the spectrum changes at random within the uncertainty of its fit,
+    /// computed to first order. The change is limited so that the changed force is between zero and
     /// [`ProfileAdhesion::largest_force`]. `None` if there is no pull-off force before or after the
     /// change.
     pub fit_change: Option<f64>,

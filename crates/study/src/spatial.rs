@@ -33,9 +33,9 @@ pub(super) struct Body {
     /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. With
     /// this factor, the square surfaces have the same elastic energy per area as the profiles.
     pub adhesive_height_factor: f64,
-    /// Side L of the square, m.
+    /// Side L of the square in m.
     pub side: f64,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     pub modulus: f64,
     /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
@@ -108,7 +108,7 @@ pub(super) struct SquareLoading {
     pub forces: Vec<f64>,
     /// Turning point of the loop with adhesion.
     pub turn: Turn,
-    /// Step of the indentation in the loop, m.
+    /// Step of the indentation in the loop in m.
     pub step: f64,
 }
 
@@ -126,9 +126,9 @@ pub(super) struct Watch<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
-    /// Stiffness dF/dd of the contact, with the force F and the indentation d, N/m.
+    /// Stiffness dF/dd of the contact in N/m, with the force F and the indentation d.
     pub stiffness: f64,
-    /// Contact area, m².
+    /// Contact area in m².
     pub area: f64,
     pub residual: f64,
 }
@@ -136,11 +136,11 @@ pub(super) struct Pressing {
 /// Results of the loops of a square surface with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
-    /// Pull-off force, N.
+    /// Pull-off force in N.
     pub pull_off_force: f64,
     /// Pull-off force in N of a loop that turns at first touch.
     pub at_touch: f64,
-    /// Dissipated energy, J.
+    /// Dissipated energy in J.
     pub dissipated_energy: f64,
     /// Points of the loop from first touch on, each with indentation in m and force in N.
     pub curve: Vec<(f64, f64)>,

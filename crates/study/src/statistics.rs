@@ -205,7 +205,7 @@ impl Statistics {
         ))
     }
 
-    /// Returns the largest value of the quantity divided by the sum of the values on all profiles;
+    /// Returns the largest value of the quantity, divided by the sum of its values on all profiles;
     /// `None` if a value is negative or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
         let (least, most) = self.range;
@@ -332,9 +332,9 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if the profiles disagree, which means that less than
-    /// three quarters of the profiles of known regime are in the most frequent regime. Otherwise
-    /// `None`.
+    /// Returns the second most frequent regime if the profiles disagree; otherwise `None`. The
+    /// profiles disagree if less than three quarters of the profiles of known regime are in the
+    /// most frequent regime.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;

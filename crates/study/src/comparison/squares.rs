@@ -80,8 +80,8 @@ impl Comparison<'_> {
         Ok(time)
     }
 
-    /// Computes all square surfaces. `time` is the estimated time of one of them, from which the
-    /// reported progress follows.
+    /// Computes all square surfaces. `time` is the estimated computing time of a square surface,
+    /// with which the progress is computed that `control` receives.
     pub fn squares(
         &self,
         loading: &SquareLoading,
