@@ -174,6 +174,9 @@ impl Tally {
     }
 
     /// Returns the contact at each point of the grid.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
         let points = &self.grid.points;
         let slides = !self.edges.is_empty();

@@ -37,6 +37,9 @@ impl Approach {
 
     /// Computes the contacts at indentations from 0 to `indentation` in m, unless they are known
     /// already.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
         if indentation <= self.high {
             return Ok(());
@@ -71,6 +74,9 @@ impl Approach {
     }
 
     /// Returns the contact of the elastic loading at an indentation in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
         let intervals = self.table.len().saturating_sub(1) as f64;
         let place = indentation / self.high * intervals;

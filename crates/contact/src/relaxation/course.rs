@@ -33,6 +33,9 @@ pub struct Course<'a> {
 
 impl<'a> Course<'a> {
     /// Plans the motion from the state `from` to `goal`, and chooses the length of its steps.
+    ///
+    /// # Errors
+    /// Returns an error if no indentation has the target force, or if the memory does not suffice.
     pub fn new(
         drive: &'a mut Drive,
         from: &State,
@@ -106,6 +109,11 @@ impl<'a> Course<'a> {
 
     /// Moves the drive until the goal is reached. The computed states are added to `states` and to
     /// `recorder`.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::DetachesBefore`] or [`ContactError::OutOfReach`] if the body cannot
+    /// reach the goal, [`ContactError::Interrupted`] if the motion was interrupted, and
+    /// [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn run(
         &mut self,
         states: &mut Vec<State>,

@@ -22,6 +22,9 @@ pub struct Division {
 impl Division {
     /// Divides the profile of a contact. Returns `None` if the profile has so many springs that no
     /// division is needed.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn of(contact: &Contact) -> Result<Option<(Self, Contact)>, ContactError> {
         let springs = contact.gaps().len();
         if springs >= ENOUGH {

@@ -108,6 +108,9 @@ impl Drive {
 
     /// Returns the state after the drive has moved at a constant speed to the displacement `drive`
     /// in m. `seconds` is the duration of this motion in s.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn driven(
         &mut self,
         from: &State,
@@ -205,6 +208,9 @@ impl Drive {
 
     /// Returns the state after the body has moved at a constant speed to the indentation `to` in m.
     /// `seconds` is the duration of this motion in s. The drive stays in place.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn moved(&mut self, from: &State, to: f64, seconds: f64) -> Result<State, ContactError> {
         self.steps += 1;
         let ramp = Ramp::new(self.relaxation, seconds);

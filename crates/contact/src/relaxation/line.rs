@@ -25,6 +25,9 @@ impl Line {
     /// at the time `turned_at` in s. `is_in_contact` returns true for the index of a spring in
     /// contact. `remaining` is the share of the instantaneous modulus that remains after a long
     /// time.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn new(
         springs: Vec<Spring>,
         is_in_contact: impl Fn(usize) -> bool,

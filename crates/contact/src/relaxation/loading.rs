@@ -41,6 +41,9 @@ impl Drive {
     /// Moves the drive by a step, and adds the states on the way to `states`, which must begin with
     /// the state before the step. The step is halved until two halves lead to the same force as one
     /// step, and the force in the middle lies between, up to `tolerance` in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn step(
         &mut self,
         states: &mut Vec<State>,
@@ -163,6 +166,9 @@ impl Drive {
 
     /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
     /// the state `to`. The goal is not reached at `from`, and is reached at `to`.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn reach(
         &mut self,
         from: &State,

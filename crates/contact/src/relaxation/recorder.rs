@@ -79,6 +79,9 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds the last states of a stage, and returns what was recorded.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn finish(mut self, states: &[State]) -> Result<Recorded, ContactError> {
         for state in states {
             self.add(state);

@@ -73,6 +73,9 @@ impl Turn<'_> {
 
     /// Computes the memories of all springs in contact at the turn. Returns the profile with these
     /// memories, and the patches in contact.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn memories(&self) -> Result<(Line, Vec<StretchedPatch>), ContactError> {
         let gaps = self.stage.contact().gaps();
         let thresholds = self.stage.thresholds();

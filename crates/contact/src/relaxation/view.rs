@@ -47,6 +47,9 @@ impl View<'_> {
     /// Sets the numbers of springs to those of the profile before the division. `deepest` are the
     /// indices of the points of `curve` at which the body is at its largest indentation so far;
     /// only these points are changed.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn count_springs(
         &self,
         curve: &mut [CurvePoint],
