@@ -229,6 +229,9 @@ pub(crate) struct FreeParts {
 impl FreeParts {
     /// Finds the parts of a curve without contact. Each of the `points` is the mean of `averaged`
     /// points of the file. `least_noise` is the smallest assumed noise in N.
+    ///
+    /// # Errors
+    /// Returns an error if the part without contact has too few points, or if no contact is found.
     pub fn of(
         points: &Points,
         options: &CurveOptions,

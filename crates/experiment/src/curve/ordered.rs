@@ -33,6 +33,10 @@ impl Ordered {
     /// the body is pressed. The statements and the name of the column of the body are moved out of
     /// `columns`. `least_noise` is the smallest standard deviation in N that the noise of the force
     /// can have.
+    ///
+    /// # Errors
+    /// Returns an error if the curve has only one segment where it needs two, or if the body does
+    /// not approach first.
     pub fn of(
         columns: &mut Columns,
         options: &CurveOptions,

@@ -79,6 +79,9 @@ impl Points {
     /// `asked` is given, the signs of the quantities in `asked` are reversed. Otherwise the first
     /// segment shows which signs have to be reversed. Returns the quantities whose signs were
     /// reversed.
+    ///
+    /// # Errors
+    /// Returns an error if the body does not approach first when the signs in `asked` are reversed.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.range_of(self.segment[0]);
         let moved = self.displacement[first.end - 1] - self.displacement[0];

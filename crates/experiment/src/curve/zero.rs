@@ -157,6 +157,10 @@ impl FreeParts {
 
     /// Subtracts zero offset, drift and tilt from the force, as far as the options request. `noise`
     /// is the standard deviation of the noise of the force in N.
+    ///
+    /// # Errors
+    /// Returns an error if drift and tilt cannot be distinguished from each other in the part
+    /// without contact.
     pub fn subtract_lines(
         &self,
         points: &mut Points,

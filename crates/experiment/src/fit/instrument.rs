@@ -112,6 +112,9 @@ impl FittedStiffness<'_> {
     /// Returns sentences on a stiffness that was fitted while the modulus was known. On a hard
     /// specimen, they state what the stiffness means for the sensitivity of the instrument. On any
     /// other specimen, they state that it is not hard enough to find the stiffness.
+    ///
+    /// # Errors
+    /// Returns an error if the elastic contact of the specimen cannot be computed.
     pub fn sentences(&self, contact: &Contact) -> Result<Vec<Note>, ExperimentError> {
         let Some(found) = self.found() else {
             return Ok(Vec::new());

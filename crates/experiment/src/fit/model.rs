@@ -162,6 +162,10 @@ impl<'a> Model<'a> {
 
     /// Computes the forces in N at all points of the measured curve, for the given values of the
     /// parameters.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
@@ -179,6 +183,10 @@ impl<'a> Model<'a> {
     /// point, or `None` if it does not jump there. A jump counts if it lies between the previous
     /// and the next point and is at least `least` N. The range is given relative to the force of
     /// the model at the point, in N.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -221,6 +229,10 @@ impl<'a> Model<'a> {
     /// `least` N. Second, its measured force lies inside the jump, or nearer to the force of the
     /// model beyond the jump than to the force of the model at the point. All points between such a
     /// point and the jump have to lie on the wrong side too.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn distances_from_jumps(
         &mut self,
         values: &Values,
@@ -551,6 +563,9 @@ impl Sampling {
     }
 
     /// Returns the force curve of an unloading from the indentation `from` in m to separation.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn pull(self, stage: &Stage, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = stage.end().min(from);
         let separated = CurvePoint {
@@ -566,6 +581,9 @@ impl Sampling {
     /// `range` in m. A stage is one motion of the body. A larger `power` makes the points denser
     /// near the lower indentation. The points include both ends of each jump of at least
     /// [`Self::least_jump`], and the point `free` without contact.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn over(
         self,
         stage: &Stage,

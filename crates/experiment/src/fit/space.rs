@@ -298,6 +298,11 @@ impl Ranges<'_> {
 impl<'a> Space<'a> {
     /// Checks the free parameters and the scene. Returns the document, in which works of adhesion
     /// replace κ, and the coordinates of the fit.
+    ///
+    /// # Errors
+    /// Returns an error if no parameter is free, if a parameter is given twice, if the scene lacks
+    /// a free parameter or does not suit a fit, if the curve turns before contact, or if the
+    /// contact cannot be computed.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,

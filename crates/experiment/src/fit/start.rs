@@ -67,6 +67,9 @@ impl Starts {
     /// work of adhesion follows from the pull-off force, as if the body were smooth. The contact
     /// point is the one that was found when the curve was read, unless the extrapolated loading
     /// gives a very different one.
+    ///
+    /// # Errors
+    /// Returns an error if the contact without adhesion cannot be computed.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,

@@ -73,6 +73,10 @@ pub(crate) struct Stated<'a> {
 
 impl Choice {
     /// Chooses the columns of displacement, force and segment by their names and units.
+    ///
+    /// # Errors
+    /// Returns an error if the names and units do not determine the columns of displacement and
+    /// force.
     pub fn new(
         columns: &[TextColumn],
         stated: Stated<'_>,

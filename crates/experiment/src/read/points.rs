@@ -70,6 +70,10 @@ impl Columns {
     /// Creates columns from displacements in m and forces in N. A point with a value that is not
     /// finite is left out.
     /// `seconds` are the times of the points in s, or nothing.
+    ///
+    /// # Errors
+    /// Returns an error if the slices differ in length, if a value is larger than an instrument
+    /// could measure, or if a few displacements are far from all others.
     pub fn of_arrays(
         displacement: &[f64],
         force: &[f64],
@@ -302,6 +306,10 @@ impl Rows {
 
     /// Adds the points of a row. `value` returns the number in a column, or NaN if the number is
     /// missing. `text` returns the text of a cell.
+    ///
+    /// # Errors
+    /// Returns an error if a number of the row cannot be read, or is larger than an instrument
+    /// could measure.
     pub fn take<'a>(
         &mut self,
         place: &Place,

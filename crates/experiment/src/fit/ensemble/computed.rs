@@ -53,6 +53,9 @@ impl Specimen<'_> {
     /// Apart from the turning point and the instrument, the curve of the force divided by E* over
     /// the indentation depends only on γ/E*. Therefore one approach is computed for all moduli of a
     /// range.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -277,6 +280,9 @@ impl Workers<'_> {
     /// Returns the summaries of the curves of each random profile at all nodes. A summary is a
     /// number computed from a curve. A node is a pair of a value ln(γ/E*) in `ranges` and a value
     /// ln E* in `moduli`. All moduli of the first range come first.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn curves(
         &self,
         profiles: u64,

@@ -294,6 +294,9 @@ pub(crate) struct Shifts<'a> {
 impl Shifts<'_> {
     /// Returns the effect of a wrong roughness if `place` is the result. A place is a pair of ln γ
     /// and ln E*. Returns `None` if the scene has no self-affine roughness.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn at(&self, place: Place) -> Result<Option<RoughnessShifts>, ExperimentError> {
         let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
         else {

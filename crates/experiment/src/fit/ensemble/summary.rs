@@ -378,6 +378,10 @@ pub(crate) struct Measurement {
 impl Measurement {
     /// Computes the summaries of all measured curves. If the preloads differ only by noise, their
     /// mean is used for all curves.
+    ///
+    /// # Errors
+    /// Returns an error with the name of the curve if a curve lacks an approach or a retraction,
+    /// ends before the contact is lost, or has no positive preload.
     pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {

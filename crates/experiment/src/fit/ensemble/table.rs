@@ -120,6 +120,9 @@ impl Table {
 
     /// Adds `count` further values beyond one end of an axis of the table, and computes the curves
     /// for them.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn extend(
         &mut self,
         workers: &Workers<'_>,

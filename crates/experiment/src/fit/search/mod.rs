@@ -161,6 +161,9 @@ impl Search<'_> {
     }
 
     /// Computes the residuals at the coordinates `place`, with forces of full accuracy.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
         self.set_accuracy(1.0);
         self.member(place.to_vec())
@@ -170,6 +173,9 @@ impl Search<'_> {
     /// [`WRONG_SIDE`] and the model jumps at most one point away, the jump covers a range of
     /// forces. The corrected residual is the distance of the measured force from this range, so
     /// that a point inside the jump counts as described.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn beyond_jumps(
         &mut self,
         place: &[f64],
@@ -265,6 +271,9 @@ impl Search<'_> {
     /// begins at the initial values. The assumed noise decreases together with the residuals, so
     /// that all points count at first, and points at jumps count little in the end. The descent can
     /// follow a narrow valley of the cost that random sets of parameters miss.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn descended(&mut self) -> Result<Member, ExperimentError> {
         self.descended_from(self.space.start())
     }
@@ -306,6 +315,9 @@ impl Search<'_> {
     /// The curves of a half-space that relaxes take long to compute. Descents from starts then
     /// replace the first population, unless they end at different places that do not describe the
     /// curve.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
         if self.space.relaxes() {
             let mut generator = ChaCha8Rng::seed_from_u64(SEED);
@@ -319,6 +331,9 @@ impl Search<'_> {
     }
 
     /// Returns the first population of a search, and the random generator with which it was drawn.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         let population = self.anneal(0, None, 0.0, &mut generator)?;
@@ -333,6 +348,9 @@ impl Search<'_> {
 
     /// Completes the search of [`Search::find`] if the first population is already known.
     /// `generator` is the random generator with which this population was drawn.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn find_from(
         &mut self,
         mut population: Population,
