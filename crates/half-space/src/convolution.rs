@@ -78,6 +78,9 @@ impl<T: Precision + Default> Convolution<T> {
     /// `transform` are the wave numbers (k_x, k_y): numbers of waves on the side of the padded
     /// grid, from 0 to half of `padded`. Negative wave numbers are not needed, because the kernel
     /// is even.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -96,6 +99,9 @@ impl<T: Precision + Default> Convolution<T> {
     /// Plans the convolution with a kernel that is given by its values. The arguments of `kernel`
     /// are the distances (x, y) in cells. The side of the padded grid, `padded`, must be at least
     /// twice the side of the grid, `cells`.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn by_kernel(
         cells: usize,
         padded: usize,

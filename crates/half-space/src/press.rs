@@ -339,6 +339,9 @@ impl Grid {
 
     /// Solves the contact on this grid. The solver ends when no cell violates the conditions of
     /// contact by more than `tolerance` times the rms height `height`.
+    ///
+    /// # Errors
+    /// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
     pub fn solve(
         &mut self,
         given: Given,
@@ -393,6 +396,9 @@ impl Grid {
     /// Solves for the pressures at the indentation `depth` while the cells in contact do not
     /// change. The pressures may be negative, so that cells pull. The solver ends when each
     /// displacement on the contact deviates from the required one by at most `tolerance`.
+    ///
+    /// # Errors
+    /// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
     pub fn solve_fixed(
         &mut self,
         depth: f64,
@@ -657,6 +663,9 @@ impl<const N: usize> Sums<N> {
 
 /// Solves a contact on nested grids, from the coarsest to the finest. The finest grid is the last
 /// of `grids`, and its depths must be set.
+///
+/// # Errors
+/// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
 pub fn press(
     grids: &mut [Grid],
     boundary: Boundary,
