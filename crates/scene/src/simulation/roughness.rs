@@ -115,6 +115,10 @@ impl RoughnessMaker {
 
     /// Makes the heights of the roughness with this key. Random heights are written into the memory
     /// `memory`.
+    ///
+    /// # Errors
+    /// Returns an error if a measured file cannot be read or analysed, or if the memory does not
+    /// suffice.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match &key.source {
             Source::SelfAffine(spectrum) => {
