@@ -51,6 +51,10 @@ pub struct ProfileAdhesion {
 impl ProfileAdhesion {
     /// Computes the adhesion of a scene on the random profile with the given seed. `line` has the
     /// fitted spectrum and its uncertainty.
+    ///
+    /// # Errors
+    /// Returns an error if the profile or its contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,

@@ -190,6 +190,10 @@ impl Body {
     /// loaded without adhesion to each force of `loading`. Then follow two loops with adhesion: one
     /// turns at first touch, the other at the turning point of `loading`. The side of the surface
     /// has `cells` grid cells.
+    ///
+    /// # Errors
+    /// Returns an error if the surface or its contact cannot be computed, or if the computation is
+    /// stopped.
     pub fn load(
         &self,
         cells: usize,
@@ -223,6 +227,9 @@ impl Body {
 
     /// Returns the heights in m of the surface with the random phases of `seed`, row by row. Only
     /// the heights of the roughness are multiplied by `factor`, not the heights of the form.
+    ///
+    /// # Errors
+    /// Returns an error if the heights do not fit into memory.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(

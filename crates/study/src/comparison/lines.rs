@@ -72,6 +72,10 @@ impl LineLoop {
 impl Comparison<'_> {
     /// Computes the loading of the scene on the profile with the seed of the scene, and finds the
     /// last loop of this loading.
+    ///
+    /// # Errors
+    /// Returns an error if the scene cannot be computed, or if its loading has no preload above
+    /// zero.
     pub fn own_loading(&self) -> Result<OwnLoading, StudyError> {
         let line = &self.resolved.line;
         let outcome = run(line, &mut self.resolved.simulation(), self.stop)?;
@@ -113,6 +117,10 @@ impl Comparison<'_> {
     /// Computes the profiles. Their loops with adhesion come first, because the loading of the
     /// square surfaces depends on the preload and the depth of these loops, as means over the
     /// profiles. The depth is the distance between the indentations at the preload and at pull-off.
+    ///
+    /// # Errors
+    /// Returns an error if a profile or its contact cannot be computed, if the mean preload of the
+    /// profiles is not above zero, or if `control` stops the computation.
     pub fn lines(
         &self,
         own: &OwnLoading,
