@@ -37,6 +37,9 @@ pub(super) struct MapPower {
 impl MapPower {
     /// Computes the power spectrum of a map. If each row was levelled, the waves perpendicular to
     /// the rows are left out, because levelling changes these waves.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);

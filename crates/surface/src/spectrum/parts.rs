@@ -105,6 +105,9 @@ impl Spread {
 
 impl Blocks {
     /// Divides a surface into blocks and computes their powers.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn new(surface: &LevelledSurface) -> Result<Self, SurfaceError> {
         let is_profile = surface.rows == 1;
         let most = if is_profile {

@@ -40,6 +40,9 @@ impl Powers {
     /// Computes the power spectra of surfaces. `quarters` is 0 for the heights as they are. With 1,
     /// 2 or 3, the heights are first changed in one of three ways, by about as much as
     /// interpolation may have changed them ([`Topography::copied_heights`]).
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -57,6 +60,9 @@ impl Powers {
     /// Adds the power spectra of a surface. Each power is first multiplied by its factor from
     /// `weights`. A periodic surface needs no factors: without a window function, all its parts
     /// count equally.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,

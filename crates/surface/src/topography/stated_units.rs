@@ -91,6 +91,9 @@ impl<'a> Units<'a> {
 
     /// Returns the unit of the distances between points: along the rows if `axis` is 0,
     /// perpendicular to the rows if `axis` is 1.
+    ///
+    /// # Errors
+    /// Returns an error if neither the file nor the options state the unit.
     pub fn distances(&self, axis: usize) -> Result<Unit, SurfaceError> {
         let stated = [self.stated.along, self.stated.between];
         self.lateral("distances", stated[axis])
