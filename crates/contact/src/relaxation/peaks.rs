@@ -17,9 +17,9 @@ const LEAF: usize = 16;
 /// for all springs.
 #[derive(Clone, Copy, Debug)]
 pub struct Bound {
-    /// Largest tension in m before memories decay.
+    /// Bound in m at the turn of the body, when the memories of its springs have not decayed yet.
     pub fresh: f64,
-    /// Largest tension in m after memories have decayed completely.
+    /// Bound in m after a long time, when the memories of the springs have decayed completely.
     pub relaxed: f64,
 }
 
