@@ -21,7 +21,7 @@ pub(crate) struct Baseline {
     count: f64,
     mean: f64,
     pub slope: f64,
-    /// Standard deviation of the values from the line.
+    /// Standard deviation of the values from the line, in the unit of the values.
     pub noise: f64,
 }
 

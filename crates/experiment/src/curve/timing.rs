@@ -60,8 +60,7 @@ pub(crate) struct RestingPoint {
     pub force: f64,
     /// Time in s since the beginning of the rest; `None` without times.
     pub seconds: Option<f64>,
-    /// Values at this point of the contributions that were subtracted from the force, such as a
-    /// drift.
+    /// Contributions in N that were subtracted from the force at this point, such as a drift.
     pub lines: Vec<f64>,
 }
 

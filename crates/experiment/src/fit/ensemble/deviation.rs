@@ -292,7 +292,7 @@ pub(crate) struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    /// Returns the effect of a wrong roughness if `place` is the result. A place is a pair of ln γ
+    /// Returns the effect of a wrong roughness, if `place` is the result of the fit: a pair of ln γ
     /// and ln E*. Returns `None` if the scene has no self-affine roughness.
     ///
     /// # Errors

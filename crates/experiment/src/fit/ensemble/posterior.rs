@@ -34,9 +34,9 @@ const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 /// Ranges of the parameters for which a table has computed curves.
 #[derive(Clone, Copy)]
 pub(crate) struct Limits {
-    /// Smallest and largest ln(γ/E*).
+    /// Smallest and largest ln(γ/E*), with γ/E* in m.
     pub ranges: Extent,
-    /// Smallest and largest ln E*. Both are equal if E* is given.
+    /// Smallest and largest ln E*, with E* in Pa. Both are equal if E* is given.
     pub moduli: Extent,
 }
 
@@ -71,7 +71,7 @@ pub(crate) struct Extent {
 
 /// Probability of the parameters on a grid over ln γ and ln E*.
 pub(crate) struct Posterior {
-    /// Evenly spaced values of ln γ and of ln E*.
+    /// Evenly spaced values of ln γ and of ln E*, with γ in J/m² and E* in Pa.
     pub axes: [Vec<f64>; 2],
     /// Probability of each pair of values. All pairs with the first value of ln γ come first, in
     /// the order of ln E*.
@@ -168,7 +168,7 @@ impl Posterior {
         }
     }
 
-    /// Returns the most probable pair of parameters.
+    /// Returns the most probable pair of ln γ and ln E*.
     pub fn best(&self) -> Place {
         let weights = self.weights.iter().enumerate();
         let best = weights.max_by(|(_, weight), (_, next)| weight.total_cmp(next));

@@ -165,8 +165,8 @@ impl Scatter {
         })
     }
 
-    /// Returns the mean and the covariance at a place between the nodes. The mean is interpolated
-    /// by cubic polynomials, and the covariance linearly.
+    /// Returns the mean and the covariance at a place between the nodes, a pair of ln(γ/E*) and ln
+    /// E*. The mean is interpolated by cubic polynomials, and the covariance linearly.
     pub fn at(&self, place: Place) -> Moments {
         let mut moments = Moments {
             mean: [0.0; 2],

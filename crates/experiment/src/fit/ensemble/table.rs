@@ -19,7 +19,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Returns ln γ and ln E*.
+    /// Returns ln γ and ln E*, with γ in J/m² and E* in Pa.
     pub fn parameters(self) -> [f64; 2] {
         [self.range + self.modulus, self.modulus]
     }
@@ -59,9 +59,9 @@ impl Axis {
 
 /// Summaries of the curves of all random profiles at the nodes of a grid over ln(γ/E*) and ln E*.
 pub(crate) struct Table {
-    /// ln(γ/E*), ascending and evenly spaced.
+    /// Values of ln(γ/E*), ascending and evenly spaced, with γ/E* in m.
     pub ranges: Vec<f64>,
-    /// ln E*, ascending and evenly spaced.
+    /// Values of ln E*, ascending and evenly spaced, with E* in Pa.
     pub moduli: Vec<f64>,
     /// Summaries of the curves of each random profile at all nodes. A node is a pair of a value
     /// ln(γ/E*) and a value ln E*. All moduli of the first range come first.
