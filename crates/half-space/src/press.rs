@@ -56,15 +56,18 @@ pub struct Ended {
 pub struct Grid {
     pub cells: usize,
     pub operators: Operators,
-    /// Depth of each cell of the rigid surface below the highest point.
+    /// Depth of each cell of the rigid surface below the highest point, in units of the side of the
+    /// square.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// For each cell, the displacement of the half-space plus the depth of the rigid surface. In
-    /// the solution, this sum has the same value in all cells in contact.
+    /// For each cell, the displacement of the half-space plus the depth of the rigid surface, in
+    /// units of the side of the square. In the solution, this sum has the same value in all cells
+    /// in contact.
     pub levels: Vec<f64>,
     /// 1 for a cell off the contact, 0 for a cell on the contact.
     pub outside: Vec<f32>,
-    /// Value that `levels` has in all cells in contact, when the solution is found.
+    /// Value of `levels` in all cells in contact once the solution is found, in units of the side
+    /// of the square.
     pub level: f64,
     /// Number of cells in contact.
     count: f64,
