@@ -32,7 +32,8 @@ const WORK: &str = "adhesion.work";
 /// is answered on each of several random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number of the scene whose value is sought, or the preload in N, as an axis without values.
+    /// Number of the scene whose value is sought, or the preload in N. The axis has the path, name
+    /// and unit of this number, but no values.
     pub axis: Axis,
     /// Quantity that must reach [`Question::target`].
     pub quantity: Quantity,

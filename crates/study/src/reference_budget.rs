@@ -30,9 +30,9 @@ pub struct ReferenceBudget {
     /// profiles and square surfaces: its mean over the profiles divided by its mean over the square
     /// surfaces, minus 1. `None` if the difference is unknown.
     pub difference: Option<f64>,
-    /// Lower bound of the error of the model. It is the magnitude of `difference` as far as it
-    /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
-    /// and `None` if one of these errors is unknown.
+    /// Lower bound of the relative error of the model. It is the magnitude of `difference` as far
+    /// as it exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the
+    /// difference, and `None` if one of these errors is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,

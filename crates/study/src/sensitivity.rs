@@ -36,7 +36,7 @@ pub struct Changed {
 /// number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// Path, name and unit of the number, as an axis without values.
+    /// Path, name and unit of the number. The axis has no values.
     pub axis: Axis,
     /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A
     /// wavelength is rounded so that a whole number of waves fits on the length, as in the computed
