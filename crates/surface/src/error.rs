@@ -186,7 +186,7 @@ pub enum SurfaceError {
 }
 
 impl SurfaceError {
-    /// Returns the place of the fault.
+    /// Returns the place of the fault, such as a line of a file.
     pub fn place(&self) -> &Place {
         match self {
             SurfaceError::Refused { place, .. }
