@@ -12,8 +12,8 @@ impl Warning {
     /// should end, divided by the latter.
     pub const LARGEST_EXCESS_OF_FORCE: f64 = 0.01;
 
-    /// Smallest number of steps of the stepwise solver between the deepest and the highest place of
-    /// a loading.
+    /// Smallest number of steps of the stepwise solver between the deepest and the highest position
+    /// of the body in a loading.
     pub const LEAST_STEPS: f64 = 20.0;
 
     /// Smallest number of springs on the shortest wave. With this number the pull-off force of a
@@ -66,9 +66,9 @@ impl Warning {
     /// by more than this share, a warning advises to remove the trend.
     pub const MOST_OF_LONG_WAVES: f64 = 0.5;
 
-    /// Largest ratio of two steps of the height for which opposite ends of a periodic surface meet:
-    /// the step between the ends, divided by the largest step inside. On a truly periodic surface
-    /// the two steps are of about the same size.
+    /// Bound of the step between opposite ends of a periodic surface, divided by the largest step
+    /// between neighbouring points inside the surface. Above this ratio, the ends do not meet. On a
+    /// truly periodic surface the two steps are of about the same size.
     pub const LARGEST_STEP_OF_ENDS: f64 = 2.0;
 
     /// Ratio of the rms gradients of parts of one surface above which a warning reports the
@@ -91,9 +91,9 @@ impl Warning {
     /// Rms height of a surface in m above which the unit of heights is probably wrong.
     pub const IMPROBABLE_HEIGHT: f64 = 1e-3;
 
-    /// Largest ratio of the largest radius of the table of a form to the length of the profile.
-    /// Above this ratio, the unit of a table that is longer than any measured body is probably
-    /// wrong.
+    /// Bound for tables of forms that are longer than any measured body: the largest radius of the
+    /// table, divided by the length of the profile. Above this ratio, the unit of the table is
+    /// probably wrong.
     pub const LARGEST_REACH_OF_FORM: f64 = 100.0;
 
     /// Largest ratio of the rms heights of two surfaces that can be samples of one roughness.
