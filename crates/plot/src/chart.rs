@@ -376,10 +376,11 @@ pub enum Shape {
 /// each height shows the stress of a spring at this height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StressFill {
-    /// y of a spring without stress. Springs above this level are pressed, springs below it are
-    /// pulled.
+    /// Vertical coordinate of a spring without stress. Springs above this level are pressed,
+    /// springs below it are pulled.
     pub level: f64,
-    /// Distance from the level at which the colour is that of the largest stress.
+    /// Distance from the level, on the vertical axis, at which the colour is that of the largest
+    /// stress.
     pub full: f64,
 }
 
