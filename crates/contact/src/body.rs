@@ -438,8 +438,8 @@ impl Body {
     }
 
     /// Computes the unloading to separation from several turning points. At a turning point, a
-    /// loading from separation reaches one of the targets. The body must be separated. It does not
-    /// move.
+    /// loading from separation reaches one of the targets. This body must be separated, and is not
+    /// moved.
     ///
     /// `see` is called once for each target, in ascending order of the indentation at the turning
     /// point. The arguments of `see` are the index of the target and the [`Reversal`].

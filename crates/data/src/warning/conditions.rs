@@ -8,8 +8,8 @@ impl Warning {
     pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
 
     /// Largest relative error of the force at the end of a stage for which the steps of the
-    /// stepwise solver count as fine. The error is the difference from the force where the stage
-    /// should end, divided by the latter.
+    /// stepwise solver count as fine. The error is the difference between the reached force and the
+    /// target force, divided by the target force.
     pub const LARGEST_EXCESS_OF_FORCE: f64 = 0.01;
 
     /// Smallest number of steps of the stepwise solver between the deepest and the highest position

@@ -55,8 +55,8 @@ impl ForceJump {
 #[non_exhaustive]
 pub struct CurveFeatures {
     /// Number of jumps of the force. A jump is a drop of the force while the body is pressed, or a
-    /// rise of the force while the body is pulled. It occurs within three points, and is larger
-    /// than 6 times the noise and than 1 % of the range of the force.
+    /// rise of the force while the body is pulled, within three points. It must be larger than 6
+    /// times the noise, and larger than 1 % of the range of the force.
     pub jumps: usize,
     /// Largest number of jumps in one segment (a single loading or unloading). A sphere has at most
     /// one.

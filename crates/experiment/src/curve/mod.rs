@@ -58,8 +58,8 @@ pub struct MeasuredCurve {
     pub drag: Option<DragForce>,
     /// True if the body is out of contact at the end of the last retraction.
     pub detaches: bool,
-    /// Number of points of the file that are used. It is larger than the number of values of
-    /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
+    /// Number of points of the file that are used. In a long curve, neighbouring points are
+    /// averaged, so that there are fewer values in [`Self::force`].
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,

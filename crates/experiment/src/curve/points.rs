@@ -18,7 +18,7 @@ pub(crate) struct Points {
     pub is_still: Vec<bool>,
     /// Time of each point in s; empty if it is not known.
     pub seconds: Vec<f64>,
-    /// For each point, the number of points of the file of which it is the mean.
+    /// For each point, the number of points of the file whose mean it is.
     pub counts: Vec<usize>,
 }
 

@@ -109,9 +109,10 @@ impl FittedStiffness<'_> {
         is_far.then_some(Reason::StiffnessFarFromStated { found, stated })
     }
 
-    /// Returns sentences on a stiffness that was fitted while the modulus was known. On a hard
-    /// specimen, they state what the stiffness means for the sensitivity of the instrument. On any
-    /// other specimen, they state that it is not hard enough to find the stiffness.
+    /// Returns sentences on a stiffness of the instrument that was fitted while the modulus was
+    /// known. If the specimen is hard, the sentences state what the stiffness means for the
+    /// sensitivity of the instrument. Otherwise they state that the specimen is not hard enough to
+    /// find the stiffness.
     ///
     /// # Errors
     /// Returns an error if the elastic contact of the specimen cannot be computed.

@@ -244,8 +244,8 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed
-/// from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
+/// Parameter that a fit searches, with the range of the search if one is given. The parameter can
+/// be parsed from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -366,8 +366,8 @@ pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Scale of the coordinate, as a value of the parameter in its SI unit. For values that are
-    /// small against it, the coordinate is the value divided by the scale. It is used for a
+    /// Scale of the coordinate, as a value of the parameter in its SI unit. For much smaller values
+    /// of the parameter, the coordinate is the value divided by this scale. The scale is used for a
     /// parameter that may be positive or negative, for the work of adhesion, and for the share that
     /// relaxes.
     pub unit: f64,

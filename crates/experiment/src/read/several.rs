@@ -217,9 +217,9 @@ impl SeveralCurves {
         text
     }
 
-    /// Returns the text of one curve, with empty lines before it. They give each of its lines the
-    /// number that the line has in the whole text, so that an error names the right line. This text
-    /// takes longer to read than [`SeveralCurves::text`].
+    /// Returns the text of one curve after empty lines. Their number is such that each line of the
+    /// curve has the number that it has in the whole text, so that an error names the right line.
+    /// This text takes longer to read than [`SeveralCurves::text`].
     pub fn text_with_line_numbers(&self, index: usize) -> String {
         let begin = self.curves.get(index).map_or(0, |rows| rows.begin);
         "\n".repeat(begin.saturating_sub(self.head)) + &self.text(index)

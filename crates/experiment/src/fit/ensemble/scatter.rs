@@ -189,11 +189,11 @@ impl Scatter {
         moments
     }
 
-    /// Returns that part of the covariance which does not come from the differences between random
-    /// profiles. It belongs to the difference between the values of a curve and the interpolated
-    /// means at a place. Nothing is known between two points of a curve. If all profiles have
-    /// nearly the same curve, the summaries therefore change in steps with the parameters. Both the
-    /// curve and the means have such steps.
+    /// Returns the covariance that the distances between the points of a curve cause, in the
+    /// difference between the values of the curve and the interpolated means at a place. Nothing is
+    /// known between two points of a curve. If all profiles have nearly the same curve, the
+    /// summaries therefore change in steps with the parameters. Both the curve and the means have
+    /// such steps. The differences between random profiles are not included.
     pub fn error_of_steps(&self, place: Place) -> [f64; 3] {
         let inside = clamp_to(&self.ranges, place.range);
         let Weights { first, weights } = Weights::<2>::new(&self.ranges, inside);

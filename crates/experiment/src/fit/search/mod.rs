@@ -330,7 +330,8 @@ impl Search<'_> {
         self.find_from(population, generator)
     }
 
-    /// Returns the first population of a search, and the random generator with which it was drawn.
+    /// Draws the first population of a search, and returns it with the random generator after this
+    /// draw. A population is a number of sets of parameters.
     ///
     /// # Errors
     /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
