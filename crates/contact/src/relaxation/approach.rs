@@ -9,8 +9,9 @@ use crate::stage::Stage;
 
 /// Number of intervals of the table.
 const INTERVALS: usize = 512;
-/// Difference of the growths of the compression in neighbouring intervals of the table, as a share
-/// of the largest compression. Above it, an interval has a jump and is not interpolated.
+/// Largest difference between the growth of the compression in an interval of the table and its
+/// mean growth in the two neighbouring intervals, as a share of the largest compression. With a
+/// larger difference the compression jumps in the interval, which is then not interpolated.
 const JUMP: f64 = 1e-5;
 
 /// Elastic loading from separation, with the modulus before any relaxation. Until the body turns, a

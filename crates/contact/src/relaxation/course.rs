@@ -55,7 +55,8 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// Returns the way of the drive in one step, and prepares the approach for the way.
+    /// Returns the distance in m by which the drive moves in one step, and prepares the elastic
+    /// loading for this motion.
     fn step_of(
         drive: &mut Drive,
         from: &State,

@@ -22,7 +22,8 @@ const SHORT_GUESSES: usize = 8;
 /// Share of the largest force up to which instrument and contact may be out of equilibrium.
 const BALANCE: f64 = 1e-11;
 
-/// Way above the largest indentation, as a share of it, in which the body counts as being there.
+/// Distance above the largest indentation, as a share of this indentation, up to which the body
+/// still counts as being at the largest indentation.
 const SAME_DEPTH: f64 = 1e-9;
 
 /// A contact with relaxation and the history of its loading. From these follows the state of the
@@ -38,7 +39,8 @@ pub struct Drive {
     /// Stiffness of the instrument divided by the stiffness of one spring; infinite if the
     /// instrument is rigid.
     pub instrument: f64,
-    /// The memories at the last turn, if the history has not grown since.
+    /// Memories and patches at the last turn of the body; `None` if the history has grown since
+    /// this turn.
     turned: Option<KnownTurn>,
     /// Largest magnitude of the force so far, divided by the stiffness of one spring, in m.
     pub largest_force: f64,
@@ -46,7 +48,7 @@ pub struct Drive {
     pub steps: u64,
 }
 
-/// The memories and the patches of a turn after a number of moments.
+/// Memories and patches at a turn of the body, for a history with the stated number of moments.
 struct KnownTurn {
     moments: usize,
     line: Arc<Line>,
@@ -240,8 +242,8 @@ impl Drive {
         Ok(state)
     }
 
-    /// Returns the way in m by which the body may be above its largest indentation and still count
-    /// as being there. The equilibrium with the instrument is known to rounding only.
+    /// Returns the distance in m above the largest indentation up to which the body still counts as
+    /// being there. The equilibrium with the instrument is known only up to rounding errors.
     fn same_depth(&self, state: &State) -> f64 {
         SAME_DEPTH * (state.deepest + self.rule.largest_stretch(state.load.length))
     }

@@ -7,11 +7,13 @@ use crate::error::ContactError;
 /// Largest number of times that a step is halved. Where the contact jumps, the jump is located to
 /// this share of a step.
 const MOST_HALVINGS: u32 = 20;
-/// Change of the force, as a share of the tolerance, within which a jump of the force is located.
+/// Change of the force on a step, as a share of the tolerance, up to which a step with a jump is
+/// not divided further.
 const LOCATED: f64 = 0.25;
 /// Largest number of guesses of the moment at which a motion reaches its goal.
 const GUESSES: usize = 60;
-/// Share of the largest force up to which the force of a goal is met.
+/// Allowed difference between the reached force and the force of a goal, as a share of the largest
+/// force.
 const SAME: f64 = 1e-13;
 
 /// A step of the drive: a motion at a constant speed to a displacement.
@@ -57,7 +59,8 @@ impl Drive {
         self.divide(states, &from, step, whole, tolerance, MOST_HALVINGS)
     }
 
-    /// Divides a step, which leads to the state `whole` in one piece.
+    /// Adds the states on a step to `states`. `whole` is the state after the step, computed in one
+    /// piece. If two half steps do not lead to the same force, the halves are divided further.
     fn divide(
         &mut self,
         states: &mut Vec<State>,

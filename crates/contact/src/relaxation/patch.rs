@@ -40,12 +40,12 @@ pub struct StretchedPatch {
     pub left: Edge,
     pub right: Edge,
     pub sums: Sums,
-    /// Upper bound of the tension of all its places.
+    /// Upper bound of the tension at all positions of the patch.
     bound: Bound,
     core: Core,
 }
 
-/// The two sides of a patch while its edges recede.
+/// A patch that loses springs at its two edges, while the edges move inwards.
 struct Receding<'a> {
     line: &'a Line,
     field: &'a Field,
@@ -53,9 +53,11 @@ struct Receding<'a> {
     left: Edge,
     right: Edge,
     peaks: Peaks<'a>,
-    /// Smallest tension in m so far above the tension that the patch bears.
+    /// Smallest difference so far between the largest tension and the tension that the patch bears,
+    /// in m.
     least_excess: f64,
-    /// True if the patch was closer to bearing its tension before than it is now.
+    /// True if the largest tension exceeds the tension that the patch bears by more than before, so
+    /// that the edges jump.
     jumps: bool,
 }
 
@@ -87,7 +89,7 @@ impl StretchedPatch {
         Self::with_core(line, left, right, None)
     }
 
-    /// Creates a patch. `known` may be the core of a larger patch.
+    /// Creates a patch. `known` is a core that may be used again, such as that of a larger patch.
     fn with_core(line: &Line, left: Edge, right: Edge, known: Option<Core>) -> Self {
         let core = Core::renewed(known, line, left.spring, right.spring);
         let mut bound = core.bound_with_flanks(line, left.spring, right.spring);
@@ -301,9 +303,10 @@ impl<'a> Receding<'a> {
         }
     }
 
-    /// Slides the edges with the largest tension inwards, down to the tension of the other edge or
-    /// of the spring with the largest tension, `peak` in m. Returns true if the patch bears its
-    /// tension before. `slack` is a difference of tensions in m that is due to rounding.
+    /// Slides the edge with the larger tension inwards, or both edges if their tensions are equal.
+    /// An edge slides down to the tension of the other edge, or to `peak` in m, the largest tension
+    /// of a spring. Returns true if the patch bears its tension before that. `slack` is the
+    /// difference of tensions in m that rounding can cause.
     fn slide<R: DetachmentRule>(
         &mut self,
         rule: R,

@@ -25,8 +25,8 @@ pub struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Returns a place that attached at the indentation `threshold` in m, with its memory at the
-    /// time of the turn.
+    /// Returns gap and memory at a position that attached at the indentation `threshold` in m. The
+    /// memory is that at the time of the turn.
     fn spring(&self, gap: f64, threshold: f64) -> Spring {
         let attached = self.history.first_at(self.relaxation, threshold);
         let age = (self.seconds - attached.seconds) / self.relaxation.time();

@@ -23,7 +23,8 @@ const AROUND: usize = 4;
 const SHARP: f64 = 3.0;
 /// Number of displacements at which the forces of loading and unloading are compared.
 const COMPARED: usize = 200;
-/// Smallest force at the turning point, in units of the noise, for which a hysteresis is computed.
+/// Smallest force at the turning point, in units of the noise, for which the hysteresis is
+/// computed.
 const PRESSED: f64 = 10.0;
 /// Largest distance of a point of a pause from the median displacement of the pause, as a share of
 /// the range of displacements. Points farther away are not used.

@@ -33,21 +33,24 @@ const PARTS: [usize; 3] = [5, 10, 20];
 /// share, and the force changes there by more than [`NOTABLE`], the segment is in contact from its
 /// first point on.
 const STEEP: f64 = 0.5;
-/// Smallest change of the force that matters for [`STEEP`], as a share of the range of the force.
+/// Smallest change of the force for which the bound [`STEEP`] is applied, as a share of the range
+/// of the force.
 const NOTABLE: f64 = 0.05;
 
 /// Share of the largest tension above which the end of a retraction may still be in contact.
 const HELD: f64 = 0.5;
-/// Tension at the end of a retraction, in units of the noise, below which it is noise.
+/// Tension at the end of a retraction, in units of the noise, up to which it counts as noise.
 const BEYOND_NOISE: f64 = 5.0;
-/// Way of a part without contact whose force is such a tension, divided by the way over which the
-/// tension came about. A body that is held passes the largest tension on a shorter way.
+/// Bound of the ratio of two distances, below which the last points of a nearly straight tension
+/// are still in contact. The first distance is the length of this part of the curve. The second is
+/// the distance over which the tension came about.
 const LONG: f64 = 1.0;
 
-/// Least gain by a parabola over a straight line at the end of a retraction.
+/// Smallest gain of a parabola over a straight line, with which the last points of a retraction
+/// count as a parabola.
 const GAIN_BY_PARABOLA: f64 = 20.0;
-/// Noise of the points at the end about a parabola, divided by the noise between neighbours, up to
-/// which they are a parabola.
+/// Largest ratio of the noise of the last points about a parabola to the noise of neighbouring
+/// points, with which the last points count as a parabola.
 const LIKE_NEIGHBOURS: f64 = 1.5;
 
 /// Reason why a segment has no part without contact.

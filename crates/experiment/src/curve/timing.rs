@@ -7,13 +7,14 @@ use crate::curve::points::Points;
 use asperity_data::median;
 use std::ops::Range;
 
-/// Largest distance of the displacement during a rest from its median, as a share of the range of
-/// displacements.
+/// Largest distance of a displacement during a rest from the median displacement of the rest, as a
+/// share of the range of displacements.
 const STILL: f64 = 0.002;
-/// Distance from the turn, as a share of the range of displacements, up to which points do not
-/// enter a speed.
+/// Distance from the turning point, as a share of the range of displacements, up to which points
+/// are left out when a speed is computed.
 const NEAR: f64 = 0.01;
-/// Smallest share of the points of a pause that have to stay so close to the median.
+/// Smallest share of the points of a pause that stay within the distance [`STILL`] of the median
+/// displacement, if the pause is a rest.
 const MOST_STAY: f64 = 0.5;
 /// Largest number of points of a rest that a fit uses.
 const MOST_POINTS: usize = 200;

@@ -12,8 +12,8 @@ use asperity_data::{Note, Remedy, format_quantity, mean};
 /// Smallest drift or tilt, in standard errors, that is reported as a change left in the curve.
 const REMAINS: f64 = 5.0;
 /// Largest root mean square deviation of the parts without contact from the fit of drift, tilt and
-/// step, in units of the noise from differences of neighbouring points. With a larger deviation
-/// these parts are not straight.
+/// step, with which these parts count as straight. The unit is the noise computed from the
+/// differences of neighbouring points.
 const CURVED: f64 = 1.5;
 /// Smallest change of the force by a drift or tilt, in units of the deviation from the fit, that is
 /// significant if the parts without contact are not straight.

@@ -7,14 +7,17 @@ use asperity_data::format_rounded;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Largest residual in contact, in units of the noise, with which a model describes the curve.
+/// Largest robust root mean square of the residuals in contact, in units of the noise, with which a
+/// model describes the curve.
 pub(crate) const MISFIT: f64 = 1.5;
 /// Share of the largest force above which a residual is counted in
 /// [`Agreement::beyond_one_percent`].
 const NOTABLE: f64 = 0.01;
-/// Largest residual, as a share of the largest force, with which a model describes a curve well.
+/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// describes a curve well.
 const WELL: f64 = 0.01;
-/// Largest residual, as a share of the largest force, with which a model describes a curve roughly.
+/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// describes a curve roughly.
 const ROUGHLY: f64 = 0.03;
 /// Largest share of the points in contact that may lie at jumps. If there are more, they are
 /// treated like all other points.

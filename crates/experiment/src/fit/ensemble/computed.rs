@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of points of a computed approach or retraction, without the points at jumps.
 const SAMPLES: usize = 128;
-/// Smallest jump of the force, in units of the noise, at both ends of which a point of the curve is
-/// computed.
+/// Smallest jump of the force, in units of the noise, for which the curve gets a point at each end
+/// of the jump.
 const NOTABLE: f64 = 1.0;
 /// Largest number of points that are added to a computed retraction until contact is lost, divided
 /// by the number of points of the measured retraction.
@@ -29,7 +29,8 @@ const SEEDS_OF_SCENE: u64 = 1 << 32;
 /// noise.
 const LEAST_TURN: f64 = 0.5;
 
-/// Scene, instrument and preloads of the computed curves, and the request to stop.
+/// Scene, instrument and preloads of the computed curves, and the function that stops their
+/// computation.
 #[derive(Clone, Copy)]
 pub(crate) struct Specimen<'a> {
     pub scene: &'a CheckedScene,

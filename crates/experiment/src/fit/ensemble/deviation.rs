@@ -14,7 +14,7 @@ use rand::{RngExt, SeedableRng};
 
 /// Number of ensembles of profiles that are drawn from the random profiles of the table.
 const DRAWS: usize = 1000;
-/// Share of the drawn ensembles that the test accepts as described.
+/// Share of the drawn ensembles that the test accepts as described by the random profiles.
 const DESCRIBED: f64 = 0.99;
 /// Step of ln(γ/E*) and ln E* in the numerical derivatives of the means.
 const STEP: f64 = 0.05;
@@ -116,7 +116,8 @@ impl Response {
 struct Expected {
     mean: f64,
     standard_deviation: f64,
-    /// Variance of the difference between a curve and the mean that its points cause.
+    /// Variance that the distances between the points of a curve cause in the difference between
+    /// the curve and the mean.
     of_steps: f64,
     slopes: Slopes,
 }

@@ -6,10 +6,10 @@ use super::table::{Place, Table};
 /// Signed binomial coefficients of a difference of sixth order. A smooth function has a small
 /// difference of this order.
 const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
-/// Sum of the squares of these coefficients: the variance of the difference of independent errors,
-/// in units of their variance.
+/// Sum of the squares of these coefficients. If the errors of the values are independent, the
+/// variance of the difference is this number times the variance of a value.
 const SQUARES: f64 = 924.0;
-/// Number of differences on each side of a node whose mean square counts for this node.
+/// Number of differences on each side of a node from which the mean square of the node is computed.
 const NEAR: usize = 3;
 
 /// Mean and covariance of two values over the random profiles at a place.
@@ -106,7 +106,8 @@ pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,
     nodes: Vec<Moments>,
-    /// Covariance of the errors of the means that all profiles have in common, at each range.
+    /// Covariance, at each value of ln(γ/E*), of those errors of the means that all profiles have
+    /// in common.
     unevenness: Vec<[f64; 3]>,
 }
 

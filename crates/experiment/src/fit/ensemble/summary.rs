@@ -40,8 +40,8 @@ pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 /// Index, in the summaries, of the distance from the turning point back to half of the preload.
 pub(crate) const WAY_TO_HALF: usize = 3;
-/// Smallest pull-off force in a summary, in units of the noise; smaller forces are replaced by it,
-/// because they are noise.
+/// Smallest pull-off force in a summary, in units of the noise. A smaller force is noise, and is
+/// replaced by this one.
 const FLOOR: f64 = 3.0;
 /// Tension, in units of the noise, that is subtracted before the work of the tension is computed,
 /// so that noise alone does no work.
@@ -51,11 +51,11 @@ const LOST: f64 = 5.0;
 /// Largest distance of two points that are the ends of a jump of the force, as a share of the mean
 /// distance between points.
 const AT_JUMP: f64 = 1e-3;
-/// Scatter of the preloads, divided by the scatter that results from noise, above which the
-/// preloads count as different.
+/// Ratio of the scatter of the preloads to the scatter that noise causes, above which the preloads
+/// count as different.
 const DIFFERENT: f64 = 2.0;
-/// Largest factor between the noise of a curve and the median noise of all curves for which all are
-/// replaced by the median.
+/// Largest factor between the noise of one curve and the median noise of all curves, up to which
+/// the median replaces the noise of each curve.
 const ONE_NOISE: f64 = 1.5;
 
 /// Point of an approach or a retraction.
