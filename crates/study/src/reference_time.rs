@@ -35,7 +35,7 @@ impl SquareTime {
     /// Estimates the computing time of a square surface with `cells` grid cells along its side.
     ///
     /// # Errors
-    /// Returns an error if the memory does not suffice, or if `stop` returned true.
+    /// Returns an error if the surface cannot be computed, or if `stop` returned true.
     pub fn estimate(
         body: &Body,
         cells: usize,
