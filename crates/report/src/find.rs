@@ -502,7 +502,7 @@ impl FindReport<'_> {
         }
     }
 
-    /// Returns all crossings on a profile: `at least 2: 1.2 µN, 3.4 µN`.
+    /// Returns a text with all answers of the search on a profile: `at least 2: 1.2 µN, 3.4 µN`.
     fn crossings_in_words(&self, answer: &Answer) -> String {
         let unit = self.found.question.axis.unit;
         let numbers: Vec<String> = answer
