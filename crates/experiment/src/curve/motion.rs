@@ -187,6 +187,22 @@ mod tests {
         }
     }
 
+    /// During a rest the displacement grows by its rounding only, which is no piece of its own.
+    #[test]
+    fn a_rest_is_no_piece_of_a_length_by_rounding() {
+        let mut passages = passages([1e-7; 4], 20.0, 1.0);
+        let rounded = Passage {
+            displacement: passages[50].displacement * (1.0 + 1e-9),
+            seconds: passages[50].seconds + 10.0,
+        };
+        passages.insert(51, rounded);
+        let mut from = 0.0;
+        for piece in pieces_of(&passages, 1.0) {
+            assert!(piece.end - from >= 1e-12, "{piece:?}");
+            from = piece.end;
+        }
+    }
+
     #[test]
     fn an_uneven_motion_has_few_pieces() {
         let mut passages = passages([1e-7; 4], 0.0, 1.0);
