@@ -129,6 +129,11 @@ mod tests {
         let unloading = Branch::last_unloading(&records).unwrap();
         let smallest = records[1].smallest;
         assert_eq!(event(&records, &unloading, smallest), Some("pull-off"));
+        let after = CurvePoint {
+            indentation: smallest.indentation.next_down(),
+            ..smallest
+        };
+        assert_eq!(event(&records, &unloading, after), Some("detachment"));
         let still = [StageRecord {
             curve: vec![smallest; 2],
             ..records[1].clone()

@@ -303,7 +303,7 @@ static TABLE: &[Entry] = &[
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "back to the map over H and κ; show the map of the study, or the map of the scene", MAP),
     row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "next or previous preload of the study, or value of a further axis", MAP),
 
-    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load file preset example measured recent surface curve import read").rank(2),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene, a study, a plan, a force curve or a surface", SCENE).words("load files preset example measured recent surface curve import read").rank(2),
     row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file, or the plan of the selected map", SCENE).words("write file store store keep").rank(2),
     row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane as a table, a figure or text", SCENE).words("figure picture print image table data csv pdf save as png svg json report paper publication plot chart screenshot width"),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens this scene", SCENE).words("share link reproduce shell clipboard"),

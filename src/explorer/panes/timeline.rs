@@ -30,7 +30,7 @@ pub static ROW: PaneRow = PaneRow {
         "the stages of the loading, or their times if the body relaxes; a tick is a jump, its height the square root of \
          the elastic energy that springs gain or release. Such an energy is no loss: only a closed loop has a dissipated energy. ◇ jump-in, ▲ preload, ▼ \
          pull-off, ○ jump-out. With the pane selected, ← → move along the stage, Home and End go to the ends, + and - \
-         change the speed; a click goes there",
+         change the speed of play; a click goes there",
     )],
     ..PaneRow::EMPTY
 };

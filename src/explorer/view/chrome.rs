@@ -285,7 +285,7 @@ fn event_of_animation(app: &App) -> Option<String> {
     let records = app.played_stages();
     let player = app.playhead();
     if let Move::Hold(seconds) = records.get(player.stage)?.target {
-        return Some(format!("rest for {}", format_quantity(seconds, "s")));
+        return Some(format!("▶ rest for {}", format_quantity(seconds, "s")));
     }
     let events = &app.listed_events()?.ok()?.list;
     let passed = &events[..passed(records, events, player)];
@@ -294,7 +294,7 @@ fn event_of_animation(app: &App) -> Option<String> {
         .rfind(|event| event.mark.is_some() || event.instrument.is_some())?;
     let mut without_patches = *named;
     without_patches.jump = None;
-    Some(event_words(&without_patches))
+    Some(format!("▶ {}", event_words(&without_patches)))
 }
 
 /// Returns the main results of the loop for a line of this width, the most important first.

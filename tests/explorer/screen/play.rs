@@ -50,6 +50,43 @@ fn the_animation_is_paused_stepped_and_begun_again() {
 }
 
 #[test]
+fn the_status_line_names_marks_and_rests_while_the_animation_plays() {
+    let mut driver = Driver::start(relaxing());
+    let mut named: Vec<String> = Vec::new();
+    for _ in 0..200 {
+        driver.elapse(0.1);
+        let status = driver.status();
+        if let Some(event) = status.strip_prefix("▶ ") {
+            let event = event.split(" · ").next().unwrap_or_default().to_owned();
+            if named.last() != Some(&event) {
+                named.push(event);
+            }
+        }
+    }
+    for event in ["jump-in", "rest for 2 s", "preload", "pull-off"] {
+        assert!(named.iter().any(|name| name == event), "{event}: {named:?}");
+    }
+    assert!(!driver.app.play.playing);
+    assert!(!driver.status().contains('▶'), "{}", driver.status());
+}
+
+/// The pull-off is the state with the smallest force. The state after its jump has another name.
+#[test]
+fn the_state_after_the_jump_at_the_pull_off_is_not_called_pull_off() {
+    let mut driver = Driver::start(rough());
+    driver.press("!");
+    assert!(
+        driver.text().contains("(nN) · pull-off"),
+        "{}",
+        driver.text()
+    );
+    driver.press(";");
+    let text = driver.text();
+    assert!(text.contains("after pull-off · "), "{text}");
+    assert!(!text.contains("(nN) · pull-off"), "{text}");
+}
+
+#[test]
 fn a_key_goes_to_the_pull_off_of_the_loading() {
     let twice = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]";
     // The pull-off is that of the last unloading, as everywhere, though an earlier one pulls with a

@@ -238,3 +238,14 @@ fn a_key_of_a_pane_shows_the_pane() {
         }
     }
 }
+
+#[test]
+fn a_high_window_shows_the_events_below_the_results() {
+    let mut driver = pressed("");
+    for ((columns, rows), is_shown) in [((200, 60), true), ((120, 36), false)] {
+        driver.resize((columns, rows));
+        let layout = Layout::of(&driver.app);
+        assert_eq!(layout.pane(Pane::Events).is_some(), is_shown, "{rows} rows");
+        assert!(layout.pane(Pane::Result).is_some());
+    }
+}

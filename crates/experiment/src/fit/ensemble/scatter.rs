@@ -6,20 +6,21 @@ use super::table::{Place, Table};
 /// Signed binomial coefficients of a difference of sixth order. A smooth function has a small
 /// difference of this order.
 const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
-/// Sum of the squares of these coefficients: the variance of the difference of independent errors,
-/// in units of their variance.
+/// Sum of the squares of these coefficients. If the errors of the values are independent, the
+/// variance of the difference is this number times the variance of a value.
 const SQUARES: f64 = 924.0;
 /// Smallest mean square of the differences of the means, in units of the mean square that
 /// independent profiles cause, that shows differences which all profiles have in common.
 const LEAST_COMMON: f64 = 4.0;
-/// Number of differences on each side of a node whose mean square counts for this node.
+/// Number of differences on each side of a node from which the mean square of the node is computed.
 const NEAR: usize = 3;
 
 /// Mean and covariance of two values over the random profiles at a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
     pub mean: [f64; 2],
-    /// Variance of the first value, covariance, variance of the second value.
+    /// Covariance matrix of the two values: variance of the first value, covariance, and variance
+    /// of the second value.
     pub covariance: [f64; 3],
 }
 
@@ -48,7 +49,8 @@ impl Moments {
         }
     }
 
-    /// Returns the same mean with the covariance times `factor` plus `errors`.
+    /// Returns the same mean with another covariance matrix: the present one times `factor`, plus
+    /// `errors`.
     pub fn with_errors(&self, factor: f64, errors: [f64; 3]) -> Self {
         let mut covariance = errors;
         for (sum, own) in covariance.iter_mut().zip(self.covariance) {
@@ -60,8 +62,8 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance matrix. If the second value does not vary, as for a
-    /// given E*, the inverse ignores it.
+    /// Returns the inverse of the covariance matrix. The inverse ignores the second value if this
+    /// value does not vary, as ln E* for a given E*.
     pub fn inverse(&self) -> InverseCovariance {
         let [first, both, second] = self.covariance;
         if second == 0.0 {
@@ -84,7 +86,8 @@ impl Moments {
 }
 
 impl InverseCovariance {
-    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean).
+    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean), where x are the
+    /// `values` and Σ is the covariance matrix.
     pub fn squared_distance(&self, mean: [f64; 2], values: [f64; 2]) -> f64 {
         let [first, both, second] = self.elements;
         let x = values[0] - mean[0];
@@ -92,7 +95,7 @@ impl InverseCovariance {
         first * x * x + 2.0 * both * x * y + second * y * y
     }
 
-    /// Returns the product Σ⁻¹ x.
+    /// Returns the product Σ⁻¹ x, where x are the `values` and Σ is the covariance matrix.
     pub fn times(&self, values: [f64; 2]) -> [f64; 2] {
         let [first, both, second] = self.elements;
         let [x, y] = values;
@@ -106,7 +109,8 @@ pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,
     nodes: Vec<Moments>,
-    /// Covariance of the errors of the means that all profiles have in common, at each range.
+    /// Covariance, at each value of ln(γ/E*), of those errors of the means that all profiles have
+    /// in common.
     unevenness: Vec<[f64; 3]>,
 }
 
@@ -139,8 +143,9 @@ impl<const COUNT: usize> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Computes the moments of two values at each node. `value` returns these values from the index
-    /// of a random profile and the index of a node.
+    /// Computes the means and covariances of two values over the random profiles, at each node. A
+    /// node is a pair of values for which curves were computed. `value` returns the two values from
+    /// the index of a random profile and the index of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let count = table.ranges.len() * table.moduli.len();
         let mut values: Vec<Vec<[f64; 2]>> = Vec::with_capacity(count);
@@ -156,15 +161,16 @@ impl Scatter {
         }
     }
 
-    /// Computes the moments of one summary; the second value is 0.
+    /// Computes the mean and the variance of one summary over the random profiles, at each node.
+    /// `index` is the index of the summary. The second value is 0.
     pub fn of_summary(table: &Table, index: usize) -> Self {
         Scatter::of(table, |profile, node| {
             [table.profiles[profile][node][index], 0.0]
         })
     }
 
-    /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
-    /// polynomials, and the covariance linearly.
+    /// Returns the mean and the covariance at a place between the nodes, a pair of ln(γ/E*) and ln
+    /// E*. The mean is interpolated by cubic polynomials, and the covariance linearly.
     pub fn at(&self, place: Place) -> Moments {
         let mut moments = Moments {
             mean: [0.0; 2],
@@ -187,10 +193,11 @@ impl Scatter {
         moments
     }
 
-    /// Returns the covariance of the difference between the values of a curve and the interpolated
-    /// means at a place, as far as it does not come from the random profile. Between two points of
-    /// a curve nothing is known, so the summaries change in steps with the parameters if all
-    /// profiles have nearly the same curve. Both the curve and the means have such steps.
+    /// Returns the covariance that the distances between the points of a curve cause, in the
+    /// difference between the values of the curve and the interpolated means at a place. Nothing is
+    /// known between two points of a curve. If all profiles have nearly the same curve, the
+    /// summaries therefore change in steps with the parameters. Both the curve and the means have
+    /// such steps. The differences between random profiles are not included.
     pub fn error_of_steps(&self, place: Place) -> [f64; 3] {
         let inside = clamp_to(&self.ranges, place.range);
         let Weights { first, weights } = Weights::<2>::new(&self.ranges, inside);
