@@ -70,8 +70,8 @@ impl Specimen {
             truth,
             curves: [4, 8, 16, 32][seed as usize % 4],
             noise: rigid.pull_off() * between(0.0003, 0.02),
-            is_modulus_free: seed % 3 != 0,
-            sampled: if seed % 2 == 0 {
+            is_modulus_free: !seed.is_multiple_of(3),
+            sampled: if seed.is_multiple_of(2) {
                 Sampled::Evenly
             } else {
                 Sampled::ByEngine
