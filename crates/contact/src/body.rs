@@ -438,8 +438,8 @@ impl Body {
     }
 
     /// Computes the unloading to separation from several turning points. At a turning point, a
-    /// loading from separation reaches one of the targets. The body must be separated. It does not
-    /// move.
+    /// loading from separation reaches one of the targets. This body must be separated, and is not
+    /// moved.
     ///
     /// `see` is called once for each target, in ascending order of the indentation at the turning
     /// point. The arguments of `see` are the index of the target and the [`Reversal`].
@@ -494,6 +494,9 @@ impl Body {
     ///
     /// A pull-off force is `None` if the force stays above zero on the unloading. F_a(F=0) is also
     /// `None` if the force of the loading never returns to zero.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Stage::approach(self.stage.contact())?;

@@ -38,7 +38,7 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Divides a history into branches, and returns the branches in their order. `stages` are the
+    /// Divides a history into branches, and returns the branches in their order. `records` are the
     /// records of all loading stages.
     pub fn all(records: &[StageRecord]) -> Vec<Branch> {
         let mut branches: Vec<Branch> = Vec::new();

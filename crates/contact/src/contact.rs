@@ -122,8 +122,8 @@ impl ContactBuilder {
         ContactBuilder { edges, ..self }
     }
 
-    /// Sets the relaxation of the foundation. The modulus of the contact is then the modulus at
-    /// once. A share of zero is an elastic foundation.
+    /// Sets the relaxation of the foundation. The modulus of the contact is then the instantaneous
+    /// modulus, before any relaxation. With a share of zero the foundation remains elastic.
     #[must_use]
     pub fn relaxation(self, relaxation: Relaxation) -> Self {
         ContactBuilder {
@@ -132,9 +132,9 @@ impl ContactBuilder {
         }
     }
 
-    /// Sets the speed in m/s at which the drive of the instrument moves, or the body if the
-    /// instrument is rigid. A foundation with relaxation needs it; an elastic foundation does not
-    /// depend on it.
+    /// Sets the speed in m/s at which the drive of the instrument moves. If the instrument is
+    /// rigid, this is the speed of the body. A contact with relaxation needs a speed. Without
+    /// relaxation the speed has no effect.
     #[must_use]
     pub fn loading_speed(self, speed: f64) -> Self {
         ContactBuilder {

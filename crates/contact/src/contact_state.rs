@@ -56,10 +56,11 @@ impl ContactState {
         }
     }
 
-    /// Returns the state of the contact together with the instrument. The instrument is represented
+    /// Returns the sums over the contact and the instrument together. The instrument is represented
     /// by `springs` springs that lie parallel to the contact and are compressed by the indentation
-    /// d. The common force is then F + k d, where k is the stiffness of the instrument. An
-    /// instrument at the displacement D holds the body where the common force equals k D.
+    /// d. The common force is then F + k d, where F is the force of the contact and k the stiffness
+    /// of the instrument. An instrument at the displacement D holds the body where the common force
+    /// equals k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
         if springs == 0.0 {
@@ -173,6 +174,9 @@ impl Tally {
     }
 
     /// Returns the contact at each point of the grid.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
         let points = &self.grid.points;
         let slides = !self.edges.is_empty();

@@ -85,8 +85,8 @@ pub enum ContactError {
         "with relaxation the surface that has detached has not recovered; allowed: one approach and one unloading, or no relaxation"
     )]
     NotRecovered,
-    /// Many turning points of one loading and motions by hand exist for an elastic foundation
-    /// only, without [relaxation](crate::Relaxation).
+    /// An unloading from each of many turning points, and a motion by hand, are computed only for
+    /// an elastic foundation, without [relaxation](crate::Relaxation).
     #[error(
         "reversals and motions by hand need an elastic foundation; allowed: no relaxation, or one loading for each turning point"
     )]

@@ -109,9 +109,9 @@ impl Event {
 }
 
 impl JumpCollector {
-    /// Adds the jumps of a stage that has just been computed. The jumps of a foundation that
-    /// [relaxes](crate::Relaxation) are not known one by one, so it has none here, and its events
-    /// are its marks.
+    /// Adds the jumps of a stage that has just been computed. Single jumps are not known on a
+    /// foundation that [relaxes](crate::Relaxation). No jump is then added, and the events of the
+    /// loading are only the marks of the force curve.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] if the stage was computed by the [stepwise
@@ -147,8 +147,8 @@ impl JumpCollector {
         last.extreme.filter(|_| is_same && !touches)
     }
 
-    /// Forgets the stages after the first `count` ones, for a body that returns to an earlier
-    /// state.
+    /// Removes the jumps of all stages except the first `count` stages, for a body that returns to
+    /// an earlier state.
     pub fn truncate(&mut self, count: usize) {
         self.stages.truncate(count);
     }
@@ -165,12 +165,16 @@ impl JumpCollector {
         jumps.fold(0.0, |largest, jump| jump.energy.abs().max(largest))
     }
 
-    /// Returns the events of the loading. Of the jumps, only those are listed whose energy is at
-    /// least `least_share` of the largest one, and at most the `most` largest of them. `stages` are
-    /// the records of the stages.
+    /// Returns the events of the loading, of which `stages` are the records. All marks of the force
+    /// curve are listed. A jump is listed if its energy is at least `least_share` of the largest
+    /// energy of a jump. If more than `most` jumps have such an energy, only the `most` jumps with
+    /// the largest energies are listed.
     ///
     /// The forces of all patches are added up at each listed jump, which takes longer than to find
     /// the jumps.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn events(
         &self,
         records: &[StageRecord],

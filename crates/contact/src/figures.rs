@@ -63,7 +63,7 @@ impl Figures {
     }
 
     /// Computes the figures of a history with two stages: a loading of the separated body to the
-    /// target `stage`, and the unloading `reversal` back to separation.
+    /// target `record`, and the unloading `reversal` back to separation.
     pub fn of_reversal(record: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {

@@ -113,8 +113,8 @@ impl StageRecord {
     }
 
     /// Returns the time in s since first touch at which the motion passes a point of its curve;
-    /// `None` for a motion without times. Of several points at the same indentation, it is the one
-    /// with the nearest force.
+    /// `None` for a motion without times. If several points of the curve have the indentation of
+    /// this point, the time of the point with the nearest force is returned.
     pub fn time_of(&self, point: &CurvePoint) -> Option<f64> {
         let distance = |recorded: &CurvePoint| {
             let way = (recorded.indentation - point.indentation).abs();
@@ -314,8 +314,8 @@ pub struct History {
 }
 
 impl History {
-    /// Returns the deviation of the force in N that the steps of a relaxing body may have. Returns
-    /// `None` without [`Relaxation`], where there are no steps in time.
+    /// Returns the largest error in N that the finite steps in time may cause in a force of a
+    /// relaxing body. Returns `None` without [`Relaxation`], where there are no steps in time.
     pub fn step_error(&self) -> Option<f64> {
         let mut largest = None;
         for stage in self.stages.iter().filter(|stage| !stage.seconds.is_empty()) {

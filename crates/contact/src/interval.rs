@@ -47,15 +47,18 @@ pub struct Interval<R> {
     high: ContactState,
 }
 
-/// Part of a motion with an instrument that the body passes in a jump.
+/// Part of a motion that the body passes in a jump because the instrument that moves it is
+/// compliant.
 #[derive(Clone, Copy, Debug)]
 pub struct Jumped {
     /// Lowest and highest indentation in m.
     pub low: f64,
     pub high: f64,
-    /// Extreme of the common compression of contact and instrument so far, in m.
+    /// Common compression in m of contact and instrument at which the body jumps. It is the largest
+    /// one so far on loading, and the smallest one so far on unloading.
     pub level: f64,
-    /// Area between the compression and this level, in cells times m².
+    /// Area in cells times m² between the common compression, as a function of the indentation, and
+    /// this level.
     pub area: f64,
 }
 

@@ -330,6 +330,9 @@ impl Springs {
 
     /// Returns the contact tree of the gaps, which states where patches in contact can merge.
     /// `edges` states where the edges of contact patches may lie.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
         self.tree_in(ContactTree::default(), edges)
     }

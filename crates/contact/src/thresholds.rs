@@ -44,6 +44,9 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Computes the contact at each point of a grid of indentations.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points.len();

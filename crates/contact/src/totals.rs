@@ -113,8 +113,8 @@ fn twelfth(number: u128) -> u128 {
         + u128::from(low / 12)
 }
 
-/// The springs in contact at one indentation: the number of these springs, the number of patches,
-/// and the sums of the gaps and of the squared gaps of the springs.
+/// Sums over the springs in contact at one indentation: their number, the number of patches, and
+/// the sums of their gaps and of their squared gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Number of springs in contact.

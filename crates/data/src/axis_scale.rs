@@ -30,10 +30,10 @@ impl AxisScale {
         }
     }
 
-    /// Returns a fractional index that states where `number` lies among the ascending `values`. For
-    /// example, 1.5 means the middle, on this scale, between the values with the indices 1 and 2.
-    /// Outside the range of the values, the index is extrapolated. If there are fewer than two
-    /// values, the index is 0.
+    /// Returns where `number` lies among the ascending `values`, as an index that need not be a
+    /// whole number. For example, 1.5 means the middle, on this scale, between the values with the
+    /// indices 1 and 2. Outside the range of the values, the index is extrapolated. If there are
+    /// fewer than two values, the index is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let coordinates: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let coordinate = self.coordinate(number);

@@ -20,6 +20,9 @@ pub fn hexadecimal(hasher: Sha256) -> String {
 
 /// Returns the SHA-256 of the content of a file, as 64 hexadecimal digits. Two files with the same
 /// SHA-256 are copies.
+///
+/// # Errors
+/// Returns an error if the file cannot be read.
 pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let mut hasher = Sha256::new();

@@ -8,6 +8,9 @@ use std::io::Write;
 
 /// Writes a value as JSON on one line. `head` contains further entries, each with a key and a text.
 /// If the value is an object, these entries are written at the beginning of the object.
+///
+/// # Errors
+/// Returns an error if the value cannot be converted to JSON, or if `out` cannot be written.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,

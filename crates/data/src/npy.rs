@@ -18,6 +18,9 @@ const ALIGNMENT: usize = 64;
 /// Writes the signature and the header of a NumPy file. `descr` is the type of a value in Python's
 /// notation, such as `'<f8'`. `shape` contains the lengths of the axes as in a Python tuple, but
 /// without brackets: `100,` or `3, 100`.
+///
+/// # Errors
+/// Returns an error if `out` cannot be written.
 pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;

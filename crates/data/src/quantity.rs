@@ -34,8 +34,8 @@ const DIMENSIONS: &[Dimension] = &[
     dimension("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
-/// Error for a typed text that is not a number with the expected unit. The string is the whole
-/// error message.
+/// Error for a typed text that is not a number with the expected unit. The field is the whole error
+/// message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);

@@ -120,6 +120,9 @@ impl Table<'_> {
 
     /// Writes the table as CSV. First the lines of `provenance`, which say how the table was made,
     /// and the note on the columns are written as comments.
+    ///
+    /// # Errors
+    /// Returns an error if `out` cannot be written.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         for line in provenance.lines() {
             writeln!(out, "# {line}")?;
@@ -143,6 +146,9 @@ impl Table<'_> {
     }
 
     /// Writes the table as a NumPy array with one field for each column.
+    ///
+    /// # Errors
+    /// Returns an error if `out` cannot be written.
     pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
         let fields: Vec<_> = self
             .columns

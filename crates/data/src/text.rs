@@ -61,8 +61,8 @@ pub fn rounded_up(value: f64) -> f64 {
     }
 }
 
-/// Returns true for a character that could change how other text is displayed. Examples are control
-/// characters, bidirectional control characters and invisible characters.
+/// Returns true for a character that could change how the text around it is displayed. Examples are
+/// control characters, characters that change the direction of writing, and invisible characters.
 pub fn is_control(c: char) -> bool {
     let bidirectional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let invisible = matches!(
@@ -195,8 +195,8 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|unit| UNITS.contains(&unit))
 }
 
-/// Returns true if no line break is allowed between the words `word` and `next`. A line break is
-/// not allowed inside a number such as `16 384`, and between a number and a unit.
+/// Returns true if a text must not be broken into two lines between the words `word` and `next`.
+/// This is so inside a number such as `16 384`, and between a number and a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -249,8 +249,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which [`shown`] cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Returns a text from a file or a user as error messages quote this text: on one line, and cut
-/// after 80 characters. Control characters are replaced as by [`printable`].
+/// Returns a text as error messages quote it, where the text comes from a file or a user: on one
+/// line, and cut after 80 characters. Control characters are replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

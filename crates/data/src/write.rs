@@ -74,6 +74,10 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
 /// Writes the content that the function `write` gives to a regular file, a pipe or a device. A
 /// regular file is written as by [`write_new_file`]. For a pipe, the function waits until another
 /// program reads from the pipe.
+///
+/// # Errors
+/// Returns an error if the file cannot be written, if `write` returns an error, or if the file
+/// exists and `overwrite` is false.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -92,6 +96,10 @@ pub fn write_new(
 /// Writes a regular file with the content that the function `write` writes. This function first
 /// writes to a temporary file in the same folder. Other programs therefore see either the old file
 /// or the complete new file. An existing file is replaced only if `overwrite` is true.
+///
+/// # Errors
+/// Returns an error if the file cannot be written, if `write` returns an error, or if the file
+/// exists and `overwrite` is false.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -261,6 +269,9 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
 }
 
 /// Waits until the system has written the names of the files in the folder `path` to the disk.
+///
+/// # Errors
+/// Returns an error if the system cannot write the names.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() {

@@ -12,6 +12,8 @@
 //!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes,
 //!   and a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit
 //!   of a [`Parameter`].
+//! * Fitting a few curves of one specimen together, such as curves at several speeds:
+//!   [`Fit::run_together`].
 //! * Fitting the curves of one rough specimen: [`fit_ensemble`] fits several curves together, with
 //!   [`EnsembleOptions`]. The result is an [`EnsembleFit`], which has [`IntervalEstimate`]s,
 //!   [`Shares`], [`Prospect`]s, [`RoughnessShifts`], [`SummaryDeviation`]s and a

@@ -22,12 +22,14 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Limit at which a cell opens: the ratio of ½σg, the energy per area that the opening releases, to
-/// the work of adhesion. The value was fitted to spheres and is used for all bodies.
+/// Ratio of ½σg to the work of adhesion above which a cell in contact opens. σ is the tension of
+/// this cell in Pa, and g the gap in m of an open cell beside it, so that ½σg is an energy per
+/// area. The ratio was fitted to spheres and is used for all bodies.
 pub const OPENING: f64 = 1.29;
 
-/// Limit at which a cell closes: the ratio of ½σg, the energy per area of the crack closure, to the
-/// work of adhesion on closing.
+/// Ratio of ½σg to the work of adhesion on closing below which an open cell closes. g is the gap in
+/// m of this cell, and σ the tension in Pa of a cell in contact beside it, so that ½σg is an energy
+/// per area.
 pub const CLOSING: f64 = 0.8;
 
 /// Allowed deviation of stresses, divided by the largest stress at an edge.

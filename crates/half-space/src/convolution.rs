@@ -16,9 +16,9 @@ const BLOCK: usize = 128;
 /// the processor.
 const TILE: usize = 16;
 
-/// A planned convolution of values of the type T. The rows are transformed first. Each block of
-/// columns is then processed in a single pass over the memory: it is gathered, transformed,
-/// multiplied by the transform of the kernel, transformed back and stored.
+/// A planned convolution of values of the type T. First all rows of the grid are transformed. Then
+/// each block of columns is processed in a single pass over the memory: the block is gathered,
+/// transformed, multiplied by the transform of the kernel, transformed back and stored.
 pub struct Convolution<T> {
     /// Number of rows and columns of the grid.
     cells: usize,
@@ -78,6 +78,9 @@ impl<T: Precision + Default> Convolution<T> {
     /// `transform` are the wave numbers (k_x, k_y): numbers of waves on the side of the padded
     /// grid, from 0 to half of `padded`. Negative wave numbers are not needed, because the kernel
     /// is even.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -96,6 +99,9 @@ impl<T: Precision + Default> Convolution<T> {
     /// Plans the convolution with a kernel that is given by its values. The arguments of `kernel`
     /// are the distances (x, y) in cells. The side of the padded grid, `padded`, must be at least
     /// twice the side of the grid, `cells`.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn by_kernel(
         cells: usize,
         padded: usize,

@@ -27,7 +27,8 @@ const OUTWEIGHS: f64 = 1.5;
 /// Largest number of conjugate gradient steps on one grid.
 const MOST_STEPS: u64 = 400;
 
-/// The prescribed force or indentation, in units of the side L and the effective modulus E*.
+/// Prescribed force or indentation of a contact, as a number without a unit: divided by powers of
+/// the side L of the square and of the effective modulus E*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Mean pressure over the square, F/(E* L²).
@@ -55,15 +56,18 @@ pub struct Ended {
 pub struct Grid {
     pub cells: usize,
     pub operators: Operators,
-    /// Depth of each cell of the rigid surface below the highest point.
+    /// Depth of each cell of the rigid surface below the highest point, in units of the side of the
+    /// square.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// For each cell, the displacement of the half-space plus the depth of the rigid surface. In
-    /// the solution, this sum has the same value in all cells in contact.
+    /// For each cell, the displacement of the half-space plus the depth of the rigid surface, in
+    /// units of the side of the square. In the solution, this sum has the same value in all cells
+    /// in contact.
     pub levels: Vec<f64>,
     /// 1 for a cell off the contact, 0 for a cell on the contact.
     pub outside: Vec<f32>,
-    /// Value that `levels` has in all cells in contact, when the solution is found.
+    /// Value of `levels` in all cells in contact once the solution is found, in units of the side
+    /// of the square.
     pub level: f64,
     /// Number of cells in contact.
     count: f64,
@@ -181,10 +185,10 @@ impl Grid {
     }
 
     /// Sets the pressures and the cells in contact from the solution on the coarser grid `coarse`.
-    /// The edge of the contact follows from a length at each coarser cell. On the contact, this is
-    /// the displacement that the pressure of the cell causes at the cell; elsewhere it is minus the
-    /// gap. The length is interpolated between the coarser cells, and the edge lies where it
-    /// changes its sign.
+    /// The edge of the contact follows from a length in each coarser cell. In a cell in contact,
+    /// this length is the displacement of the cell that its own pressure causes. In any other cell
+    /// it is minus the gap. The length is interpolated between the coarser cells, and the edge lies
+    /// where it changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;
         let half = coarse.cells;
@@ -338,6 +342,9 @@ impl Grid {
 
     /// Solves the contact on this grid. The solver ends when no cell violates the conditions of
     /// contact by more than `tolerance` times the rms height `height`.
+    ///
+    /// # Errors
+    /// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
     pub fn solve(
         &mut self,
         given: Given,
@@ -392,6 +399,9 @@ impl Grid {
     /// Solves for the pressures at the indentation `depth` while the cells in contact do not
     /// change. The pressures may be negative, so that cells pull. The solver ends when each
     /// displacement on the contact deviates from the required one by at most `tolerance`.
+    ///
+    /// # Errors
+    /// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
     pub fn solve_fixed(
         &mut self,
         depth: f64,
@@ -656,6 +666,9 @@ impl<const N: usize> Sums<N> {
 
 /// Solves a contact on nested grids, from the coarsest to the finest. The finest grid is the last
 /// of `grids`, and its depths must be set.
+///
+/// # Errors
+/// Returns [`HalfSpaceError::Stopped`] if `stop` returned true.
 pub fn press(
     grids: &mut [Grid],
     boundary: Boundary,

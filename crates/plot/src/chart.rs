@@ -376,10 +376,11 @@ pub enum Shape {
 /// each height shows the stress of a spring at this height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StressFill {
-    /// y of a spring without stress. Springs above this level are pressed, springs below it are
-    /// pulled.
+    /// Vertical coordinate of a spring without stress. Springs above this level are pressed,
+    /// springs below it are pulled.
     pub level: f64,
-    /// Distance from the level at which the colour is that of the largest stress.
+    /// Distance from the level, on the vertical axis, at which the colour is that of the largest
+    /// stress.
     pub full: f64,
 }
 
@@ -421,8 +422,8 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Returns the marker of one of several curves in a chart. `number` is the index of the curve
-    /// among them, from 0.
+    /// Returns the marker of one of several curves in a chart. `number` is the index of this curve,
+    /// from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }

@@ -53,7 +53,7 @@ impl Colours {
 pub enum Background {
     Dark,
     Light,
-    /// The terminal does not say which background it has. The colours read on dark and on light
+    /// The terminal does not state its background. The colours can be read on dark and on light
     /// backgrounds.
     Unknown,
 }
@@ -79,7 +79,7 @@ impl Background {
     }
 }
 
-/// What a colour is for.
+/// Purpose of a colour, such as the colour of headings or of errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColourRole {
     Text,
@@ -96,13 +96,13 @@ pub enum ColourRole {
     /// Keys, and numbers to which the reader should pay attention.
     Key,
     Error,
-    /// Ground of the area inside a loop.
+    /// Background of the area inside a loop.
     LoopGround,
-    /// Ground of the rigid body.
+    /// Background of the rigid body.
     BodyGround,
-    /// Ground of the selected row.
+    /// Background of the selected row.
     SelectionGround,
-    /// Ground between two quartiles.
+    /// Background of the area between two quartiles.
     QuartileGround,
 }
 
@@ -217,7 +217,8 @@ struct StressIndices {
 /// that small stresses can be distinguished too.
 const STRESS_POWER: f64 = 0.7;
 
-/// Colours for a terminal or a picture: those that it can show and that read on its background.
+/// Colours that a terminal or a picture uses: they can be shown there, and can be read on its
+/// background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Colours that the terminal can show.
@@ -286,8 +287,9 @@ impl Palette {
         }
     }
 
-    /// Returns the ground of a role; `None` for a terminal that shows no grounds, because it has
-    /// too few colours or an unknown background.
+    /// Returns the background colour with which a terminal shades an area of this role. Returns
+    /// `None` for a terminal that shades no areas, because it has too few colours or an unknown
+    /// background.
     pub fn ground(self, role: ColourRole) -> Option<Color> {
         if matches!(self.colours, Colours::Plain | Colours::Ansi16) {
             return None;
@@ -295,7 +297,7 @@ impl Palette {
         Some(self.shown(self.swatch(role)?))
     }
 
-    /// Returns true for a terminal that can show the shades of a heat map.
+    /// Returns true for a terminal that can show the colour scale of a heat map.
     pub fn has_shades(self) -> bool {
         matches!(self.colours, Colours::Ansi256 | Colours::TrueColour)
     }
@@ -313,7 +315,8 @@ impl Palette {
         }
     }
 
-    /// Returns the style in which a terminal shows an ink.
+    /// Returns the style in which a terminal shows a line, an area or a text with the meaning
+    /// `ink`.
     pub fn ink(self, ink: Ink) -> Style {
         let style = self.style(ink.role());
         match ink {
@@ -463,7 +466,7 @@ fn nearest_index(colour: Rgb) -> u8 {
 }
 
 impl Ink {
-    /// Returns the role that determines the colour of the ink.
+    /// Returns the role that determines the colour of a line, an area or a text with this meaning.
     pub fn role(self) -> ColourRole {
         /// Colours of the curves of a figure. Neighbouring colours differ in lightness, so that
         /// they can be distinguished in a print without colours.
@@ -492,7 +495,8 @@ impl Ink {
         matches!(self, Ink::Loop | Ink::Body)
     }
 
-    /// Returns the colour of the ink in a figure with a white background.
+    /// Returns the colour, in a figure with a white background, of a line, an area or a text with
+    /// this meaning.
     pub fn on_paper(self) -> Rgb {
         Palette::LIGHT.rgb(self.role())
     }

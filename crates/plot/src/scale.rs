@@ -50,8 +50,8 @@ impl Span {
         }
     }
 
-    /// Returns the range of coordinates of an axis that shows these values, from the smallest to
-    /// the largest value, with two exceptions:
+    /// Returns the range of coordinates of an axis that shows these values. The range goes from the
+    /// smallest to the largest value, with two exceptions:
     ///
     /// * On a linear scale, the range begins at zero if the smallest value is at least 0 and at
     ///   most 0.3 times the largest value.

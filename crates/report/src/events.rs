@@ -23,7 +23,7 @@ pub struct EventsReport<'a> {
     /// Report on the results of the scene.
     pub run: RunReport<'a>,
     pub events: &'a Events,
-    /// Share of the largest energy that a jump needs to be listed.
+    /// Smallest share of the largest energy of a jump with which a jump is listed.
     pub least_share: f64,
 }
 
@@ -48,8 +48,9 @@ pub fn event_words(event: &Event) -> String {
     parts.join(" · ")
 }
 
-/// Returns how many jumps of the instrument are listed, to be added to the number of jumps of the
-/// contact; empty if there is none.
+/// Returns words with the number of listed jumps of the instrument, such as ` and 2 of the
+/// instrument`. The words follow the number of jumps of the contact. Returns an empty text if no
+/// jump of the instrument is listed.
 pub fn jumps_of_instrument(events: &Events) -> String {
     let of_instrument = events
         .list

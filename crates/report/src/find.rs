@@ -24,14 +24,15 @@ pub struct FindReport<'a> {
     pub title: &'a str,
     /// Scene, one number of which, such as the preload, is varied in the search.
     pub scene: &'a Scene,
-    /// Values of the varied number, on each profile, with which the result has the wanted value.
+    /// Answers of the search: for each profile, the values of the varied number with which the
+    /// result has the wanted value.
     pub found: &'a Found,
 }
 
-/// Returns the answer of a search in one or two sentences. The sentences state the median and the
-/// quartiles, over the profiles, of the number with which the result reaches the wanted value. The
-/// sentences also state how many profiles have no such number, and where the search may have missed
-/// a number.
+/// Returns the answer of a search in one or two sentences. The answer of a profile is the value of
+/// the varied number with which the result reaches the wanted value. The sentences state the median
+/// and the quartiles of the answers over the profiles, how many profiles have no answer, and where
+/// the search may have missed one.
 pub fn found_in_words(found: &Found) -> String {
     let words = SearchWords::new(found);
     let reaches_always = found.answers.iter().all(reaches_everywhere);
@@ -56,7 +57,7 @@ pub fn found_in_words(found: &Found) -> String {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AnswerPart {
     pub text: String,
-    /// Words that a reader with more room also wants; empty if there are none.
+    /// Further words for a text that has more room; empty if there are none.
     pub detail: String,
 }
 
@@ -66,9 +67,9 @@ impl AnswerPart {
     }
 }
 
-/// Returns the answer of a search in few words, the most important part first: the median over the
-/// profiles with the quartiles, such as `12.44 µN (6.71 to 17.3)`, then the number of profiles
-/// without such a value.
+/// Returns the answer of a search in few words, the most important part first. The first part is
+/// the median over the profiles with the quartiles, such as `12.44 µN (6.71 to 17.3)`. The next
+/// part is the number of profiles without an answer.
 pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
     let words = SearchWords::new(found);
     let count = found.answers.len();
@@ -501,7 +502,7 @@ impl FindReport<'_> {
         }
     }
 
-    /// Returns all crossings on a profile: `at least 2: 1.2 µN, 3.4 µN`.
+    /// Returns a text with all answers of the search on a profile: `at least 2: 1.2 µN, 3.4 µN`.
     fn crossings_in_words(&self, answer: &Answer) -> String {
         let unit = self.found.question.axis.unit;
         let numbers: Vec<String> = answer

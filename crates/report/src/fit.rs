@@ -27,9 +27,9 @@ pub struct FitReport<'a> {
     /// Fitted parameters of the scene, and how well the scene with these parameters describes the
     /// curve.
     pub fit: &'a FitResult,
-    /// Function that states in words how the user takes a [`Remedy`], a step that removes the cause
-    /// of an error or a warning. The words name an option of the command line, a row of the
-    /// explorer or an argument of Python.
+    /// Function that states in words how the user takes a [`Remedy`](asperity_data::Remedy), a step
+    /// that removes the cause of an error or a warning. The words name an option of the command
+    /// line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 

@@ -15,7 +15,7 @@ const FARTHER: f64 = 1000.0;
 #[derive(Clone, Copy)]
 pub(crate) struct ParametersSection<'a> {
     pub fit: &'a FitResult,
-    /// Returns true for a parameter that the section has.
+    /// Function that returns true for the parameters that the section lists.
     pub is_shown: fn(Parameter) -> bool,
     pub wording: Wording,
 }
@@ -26,7 +26,7 @@ impl<'a> ParametersSection<'a> {
         parameters.filter(move |fitted| (self.is_shown)(fitted.parameter))
     }
 
-    /// Adds the section.
+    /// Adds the section to the text `sheet`.
     pub fn add(self, sheet: &mut Sheet) {
         let header = ["", "value", "95 % interval", "standard error", "start"];
         let mut rows = vec![header.map(String::from)];

@@ -26,8 +26,9 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pairs of quantities that a computed scene has. Only a compliant instrument has a
-    /// displacement of its own, and only a body that relaxes has times.
+    /// Returns the pairs of quantities that a chart of a computed scene can show. Only with a
+    /// compliant instrument is the displacement another quantity than the indentation, and only a
+    /// body that relaxes has times.
     pub fn of_scene(outcome: &Outcome) -> Vec<LoopQuantities> {
         let mut offered = vec![LoopQuantities::ForceIndentation];
         if outcome.instrument.is_some() {
@@ -42,8 +43,8 @@ impl LoopQuantities {
         offered
     }
 
-    /// Returns the pair after this pair in a list of pairs, and the first one after the last one. A
-    /// pair that is not in the list counts as the first one.
+    /// Returns the pair that follows this pair in the list `offered`. The first pair follows the
+    /// last one. A pair that is not in the list counts as the first one.
     pub fn next(self, offered: &[LoopQuantities]) -> Self {
         let present = offered.iter().position(|&quantities| quantities == self);
         let next = present.unwrap_or(0) + 1;
@@ -170,7 +171,7 @@ impl LoopUnits {
 
     /// Returns the numbers on the horizontal and the vertical axis that belong to a point of a
     /// force curve. `seconds` is the time of the point in s since first touch, if the body relaxes.
-    /// Over the time, a point without a time has no place.
+    /// Returns `None` if the horizontal axis is the time and the point has no time.
     pub fn place(&self, point: &CurvePoint, seconds: Option<f64>) -> Option<(f64, f64)> {
         if self.quantities == LoopQuantities::ForceTime {
             seconds?;
@@ -184,12 +185,13 @@ impl LoopUnits {
         Some((across.number(&recorded), up.number(&recorded)))
     }
 
-    /// Returns the places of a marked point, as [`Self::place`] does.
+    /// Returns the numbers on the horizontal and the vertical axis that belong to a marked point,
+    /// as [`Self::place`] does.
     pub fn place_of_mark(&self, marked: &MarkedPoint) -> Option<(f64, f64)> {
         self.place(&marked.point, marked.seconds)
     }
 
-    /// Returns a force, given in N, as text in the unit of the chart.
+    /// Returns a force, given in N, as text in the unit in which the chart shows forces.
     pub fn force_in_words(&self, force: f64) -> String {
         match self.force {
             Some(unit) => format_rounded(force / unit, 3, "1"),

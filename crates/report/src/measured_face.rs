@@ -26,8 +26,8 @@ pub struct SurfaceFile {
     /// Length of a row in m and, for a map, also the length of a column in m. A length is 0 if the
     /// points are not evenly spaced.
     pub lengths: Vec<f64>,
-    /// Sizes of the borders without measured heights that were left out. For a map these are the
-    /// number of columns and the number of rows, for a profile the number of points.
+    /// Sizes of the borders without measured heights that were left out. For a map these are a
+    /// number of columns and a number of rows, for a profile a number of points.
     pub cropped: Vec<usize>,
     /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,

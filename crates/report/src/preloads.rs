@@ -44,9 +44,9 @@ pub struct PreloadReport<'a> {
 impl<'a> PreloadReport<'a> {
     /// Returns the figure of two charts: the pull-off force over the preload, and its distribution
     /// over the profiles at the largest preload. Returns `None` if there is no [`Self::staircase`].
-    /// If `has_values` is true, the legend states the pull-off forces without a preload: F_a(d=0)
-    /// after a loading that turns at first touch, and F_a(F=0) after a loading that turns at zero
-    /// force.
+    /// If `has_values` is true, the legend also states two pull-off forces without a preload:
+    /// F_a(d=0) after a loading that turns at first touch, and F_a(F=0) after a loading that turns
+    /// at zero force.
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let staircase = self.staircase?;
         let spread = self.results.spread_of_adhesion();

@@ -56,7 +56,8 @@ pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     text
 }
 
-/// Adds a line for each warning of a result below the line with the command.
+/// Returns the lines `provenance` with a further line for each warning of a result. These lines
+/// follow the line with the command.
 pub fn with_warnings(provenance: &str, warnings: &[String]) -> String {
     let mut text = String::new();
     for line in provenance.lines() {
@@ -70,8 +71,8 @@ pub fn with_warnings(provenance: &str, warnings: &[String]) -> String {
     text
 }
 
-/// Returns the keys and texts of two entries of a JSON object, taken from lines of
-/// [`scene_provenance`]: `program` with the version, and `command`.
+/// Returns two entries of a JSON object, each as a key and a text: `program` with the version, and
+/// `command` with the command. They are taken from the lines that [`scene_provenance`] returns.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let program = provenance.lines().next();
     let command = provenance

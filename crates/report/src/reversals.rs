@@ -27,8 +27,8 @@ pub struct ReversalReport<'a> {
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
-    /// Force F(d_r, d) at the indentation d on the unloading from each turning point d_r, the
-    /// indentation at which the loading ends.
+    /// Forces of the unloadings. The map has the force F(d_r, d) at the indentation d on the
+    /// unloading from each turning point d_r, the indentation at which a loading ends.
     pub map: &'a ReversalMap,
     /// Pull-off force and other quantities of the unloading ([`Results::OF_PRELOADS`]) as functions
     /// of the preload; `None` if no preload presses the bodies together.
@@ -170,8 +170,8 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
 }
 
 /// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the
-/// turning point d_r. The function is half the force at the turning point minus half the force at d
-/// on the unloading from there.
+/// turning point d_r. With the force F(d_r) at the turning point and the force F(d_r, d) at d on
+/// the unloading from the turning point, the function is ½ (F(d_r) − F(d_r, d)).
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     let points = drawn_indices(map.points.len());
     let turns = drawn_indices(map.reversals.len());

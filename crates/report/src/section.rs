@@ -73,10 +73,10 @@ pub struct Column {
 }
 
 impl Section {
-    /// Returns the chart of the heights over the position along the profile. `line` contains the
-    /// spring spacing of the profile and the index of its first spring, and `z` is the range of the
-    /// vertical axis in m. Springs that are compressed or stretched by `largest_stress`, in m, have
-    /// the colour of the largest stress.
+    /// Returns the chart of the heights over the position along the profile. `line` has the spring
+    /// spacing of the profile and the index of its first spring, and `z` is the range of the
+    /// vertical axis in m. `largest_stress` in m is the compression or stretch from which on
+    /// springs have the colour of the largest stress.
     pub fn chart(&self, line: LineFacts, z: Span, largest_stress: f64) -> Chart {
         let end = self.first + self.springs.max(1);
         let x = Span {
@@ -207,8 +207,9 @@ impl SectionContact<'_> {
         self.summit - self.indentation
     }
 
-    /// Returns the contact patches in the range `springs`, each as an index range of neighbouring
-    /// springs. Of a patch that extends beyond `springs`, only the springs inside are returned.
+    /// Returns the contact patches in the range `springs`, each as the range of indices of its
+    /// springs. Of a patch that extends beyond `springs`, only the springs inside this range are
+    /// returned.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = springs;
         let first = self.patches.partition_point(|patch| patch.last < start);

@@ -25,7 +25,7 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Returns median and scatter of some values; `None` if there are no values.
+    /// Returns the median and the scatter of some values; `None` if there are no values.
     pub fn new(
         name: &'static str,
         term: String,

@@ -70,8 +70,8 @@ pub(crate) fn sentences_section(sheet: &mut Sheet, sentences: &[String]) {
     }
 }
 
-/// Returns the list `warnings` for a JSON object. It has a text for each premise that a result does
-/// not meet, and is empty if all premises are met.
+/// Returns the entry `warnings` of a JSON object, which is a list of texts. The list has a text for
+/// each premise that a result does not meet, and is empty if all premises are met.
 pub fn warning_texts(warnings: &[Warning]) -> Vec<String> {
     warnings.iter().map(Warning::to_string).collect()
 }

@@ -272,7 +272,7 @@ impl ProfileBuilder {
         Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
-    /// Returns a scene with the profile of this builder, and with this modulus, adhesion and
+    /// Returns a scene with the profile of this builder, and with the given modulus, adhesion and
     /// loading. [`CheckedScene::with`] can change the other fields of the scene.
     ///
     /// # Errors

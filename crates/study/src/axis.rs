@@ -441,7 +441,7 @@ impl Target {
         }
     }
 
-    /// Returns the part of the computation that is repeated when the quantity changes.
+    /// Returns which part of the computation is repeated when the quantity changes.
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,

@@ -17,8 +17,8 @@ const LEAST: f64 = 1e-18;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passage {
     pub target: f64,
-    /// True if the quantity falls to exactly the target and remains equal to the target. False if
-    /// the quantity crosses the target.
+    /// True if the quantity reaches exactly the target and then remains equal to it. False if the
+    /// quantity crosses the target.
     pub falls_onto: bool,
 }
 

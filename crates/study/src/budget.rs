@@ -14,18 +14,18 @@ use serde::Serialize;
 /// error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error due to the finite number of springs, for the profile with the seed of the scene;
-    /// `None` if it is unknown.
+    /// Relative error due to the finite number of springs, for the profile with the seed of the
+    /// scene; `None` if it is unknown.
     pub grid: Option<f64>,
-    /// Error due to the steps in time of a half-space that relaxes; `None` without relaxation,
-    /// where there are no such steps.
+    /// Relative error due to the steps in time of a half-space that relaxes; `None` without
+    /// relaxation, where there are no such steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<f64>,
-    /// Error of the median over random profiles, due to the finite number of these profiles; `None`
-    /// if it is unknown.
+    /// Relative error of the median over random profiles, due to the finite number of these
+    /// profiles; `None` if it is unknown.
     pub sample: Option<f64>,
-    /// Error of the median over random profiles, due to the uncertainty of the spectrum of a
-    /// measured surface; `None` if it is unknown.
+    /// Relative error of the median over random profiles, due to the uncertainty of the spectrum of
+    /// a measured surface; `None` if it is unknown.
     pub surface: Option<f64>,
     /// Lower bound of the relative error of the model of one-dimensional profiles. It follows from
     /// the difference between the mean pull-off force on profiles and the mean pull-off force on

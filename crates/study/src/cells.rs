@@ -67,7 +67,7 @@ impl<'p> Cells<'p> {
     }
 
     /// Returns the number of units into which the plan is divided. A unit is a part of the plan
-    /// that one thread computes, on one random profile with unchanged roughness.
+    /// that one thread computes, on one random profile with the same roughness.
     pub fn units(&self) -> u64 {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }

@@ -41,12 +41,13 @@ impl Compared {
 /// Values of one quantity on all random profiles and on all random square surfaces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Values {
-    /// Value on each random profile.
+    /// Value on each random profile, in the SI unit of the quantity.
     pub lines: Vec<f64>,
-    /// Value on each random square surface.
+    /// Value on each random square surface, in the SI unit of the quantity.
     pub squares: Vec<f64>,
-    /// Value on each square surface, computed on a coarser grid with half as many cells along the
-    /// side. The list is empty if the coarser grid is not computed.
+    /// Value on each square surface, in the SI unit of the quantity, computed on a coarser grid
+    /// with half as many cells along the side. The list is empty if the coarser grid is not
+    /// computed.
     pub coarse: Vec<f64>,
 }
 

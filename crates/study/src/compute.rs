@@ -25,8 +25,8 @@ use std::thread::Builder;
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
-    /// Warnings of the streak, one for each cell that does not meet all premises of the model: the
-    /// number of the cell, and the premises that it does not meet.
+    /// Warnings of the streak, one for each cell that does not meet all premises of the model. Each
+    /// has the number of the cell and the premises that the cell does not meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
@@ -34,8 +34,8 @@ pub(super) struct SolvedStreak {
 /// consists of all cells that differ only in the preload.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
-    /// Numbers of the units that are to be computed. A unit is the part of the plan that one thread
-    /// computes on one random profile.
+    /// Numbers of the units that are to be computed. A unit is a part of the plan that one thread
+    /// computes, on one random profile.
     pub units: &'a [u64],
     /// Function that returns true if at least one record of a streak is missing. The streak is
     /// computed only in this case. A streak consists of all cells that differ only in the preload.

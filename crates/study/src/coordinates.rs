@@ -219,9 +219,8 @@ impl Coordinates {
     }
 
     /// Converts a relative difference between two numbers to the difference between their
-    /// coordinates. `share` is the difference of two numbers divided by their magnitude. `places`
-    /// are two numbers of the range; the conversion is valid near the one with the larger
-    /// magnitude.
+    /// coordinates. `share` is the relative difference. `places` are two numbers of the range. The
+    /// conversion is valid near that one of them which has the larger magnitude.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {
@@ -257,9 +256,9 @@ impl Coordinates {
         Some(all)
     }
 
-    /// Returns the numbers that divide the range into `intervals` nearly equal intervals, including
-    /// the ends of the range. If the range has at most `most` allowed numbers, all of them are
-    /// returned, and the second value is true.
+    /// Returns numbers that divide the range into `intervals` nearly equal intervals, including the
+    /// ends of the range. If the range has at most `most` allowed numbers, all of them are returned
+    /// instead. The second returned value states whether all allowed numbers are returned.
     pub fn spread(&self, intervals: usize, most: usize) -> (Vec<f64>, bool) {
         if let Some(all) = self.all_between(self.ends, most) {
             return (all, true);

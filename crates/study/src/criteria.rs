@@ -25,9 +25,9 @@ const THIS_PROGRAM: Criterion = Criterion::new(
 );
 
 /// Returns the criteria by which other theories and this program judge whether the bodies of a
-/// computed scene adhere without a preload; empty for a scene without adhesion. The criteria of
-/// this program come last. They use the medians over `ensemble` or, if there is no ensemble, the
-/// values of the scene's own profile.
+/// computed scene adhere without a preload. The list is empty for a scene without adhesion. The
+/// criteria of this program come last. They use the medians over `ensemble` or, if there is no
+/// ensemble, the values of the scene's own profile.
 ///
 /// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///

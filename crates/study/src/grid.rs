@@ -238,8 +238,9 @@ impl Grid {
         }
     }
 
-    /// Returns true if a place lies on the grid. Along each axis the grid begins half a
-    /// [cell](GridCell) before the first value and ends half a cell beyond the last value.
+    /// Returns true if a place, given by its values on the axes, lies on the grid. Along each axis
+    /// the grid begins half a [cell](GridCell) before the first value and ends half a cell beyond
+    /// the last value.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let (columns, rows) = self.size();

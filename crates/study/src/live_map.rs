@@ -148,9 +148,9 @@ impl LiveMap {
     }
 
     /// Computes the missing [cells](Plan) of this map on the calling thread, first at the coarse
-    /// and then at the finer resolutions. After each value of the Hurst exponent, `control`
-    /// receives the map. If `control` stops the computation, the map keeps the results computed so
-    /// far.
+    /// and then at the finer resolutions. As soon as all cells with one value of the Hurst exponent
+    /// are computed, `control` receives the map. If `control` stops the computation, the map keeps
+    /// the results computed so far.
     pub fn compute(&mut self, simulation: &mut Simulation, mut control: Control<'_, LiveMap>) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, take(simulation), control.stop());

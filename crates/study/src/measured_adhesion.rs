@@ -31,8 +31,8 @@ pub struct ProfileAdhesion {
     /// Pull-off force F_a in N for the spectrum that was fitted to the measurement; `None` if the
     /// force of the unloading is never negative.
     pub pull_off_force: Option<f64>,
-    /// Change of F_a in N, computed to first order, if the spectrum changes at random within the
-    /// uncertainty of its fit. The change is limited so that the changed force is between zero and
+    /// Change of F_a in N when the spectrum changes at random within the uncertainty of its fit,
+    /// computed to first order. The change is limited so that the changed force is between zero and
     /// [`ProfileAdhesion::largest_force`]. `None` if there is no pull-off force before or after the
     /// change.
     pub fit_change: Option<f64>,
@@ -51,6 +51,10 @@ pub struct ProfileAdhesion {
 impl ProfileAdhesion {
     /// Computes the adhesion of a scene on the random profile with the given seed. `line` has the
     /// fitted spectrum and its uncertainty.
+    ///
+    /// # Errors
+    /// Returns an error if the profile or its contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,

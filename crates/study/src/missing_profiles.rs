@@ -14,16 +14,16 @@ pub(super) struct MissingProfiles {
     pub plan: Plan,
     /// Indices of the random profiles that are to be computed, from 0.
     pub lines: Vec<u64>,
-    /// What happens if a cell cannot be computed.
+    /// What to do if a cell cannot be computed.
     pub failures: Failures,
 }
 
 /// What happens if a cell cannot be computed on a profile.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Failures {
-    /// The error ends the computation.
+    /// The error of the cell ends the computation.
     End,
-    /// The reason is recorded instead of values, and the computation continues.
+    /// The reason of the error is recorded instead of values, and the computation continues.
     Keep,
 }
 
@@ -31,8 +31,8 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// Warnings on this profile, one for each cell that does not meet all premises of the model:
-    /// the number of the cell, and the premises that it does not meet.
+    /// Warnings on this profile, one for each cell that does not meet all premises of the model.
+    /// Each has the number of the cell and the premises that the cell does not meet.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 

@@ -7,8 +7,8 @@ use super::results::Results;
 use asperity_data::Warning;
 use serde::{Deserialize, Serialize};
 
-/// Records of some profiles of a plan, and the premises of the model that they do not meet. Each
-/// entry begins with the number of the [cell](Plan) and the index of the profile.
+/// Records of some profiles of a plan, and the premises of the model that these profiles do not
+/// meet. Each entry begins with the number of the [cell](Plan) and the index of the profile.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StudyPart {
     pub(super) records: Vec<(u64, u64, Recorded)>,

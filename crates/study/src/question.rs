@@ -32,8 +32,8 @@ const WORK: &str = "adhesion.work";
 /// is answered on each of several random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number of the scene, or preload in N, whose value is sought. It is given as an axis without
-    /// values.
+    /// Number of the scene whose value is sought, or the preload in N. The axis has the path, name
+    /// and unit of this number, but no values.
     pub axis: Axis,
     /// Quantity that must reach [`Question::target`].
     pub quantity: Quantity,
@@ -88,8 +88,8 @@ pub struct Answer {
     pub is_proven: bool,
     /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
-    /// True if the quantity is at least the target. The first element is for the smallest tried
-    /// number, the second for the largest. Numbers at which the quantity has no value are ignored.
+    /// For the smallest and for the largest tried number: true if the quantity is at least the
+    /// target there. Numbers at which the quantity has no value are ignored.
     pub reached: [bool; 2],
     /// True if F_a(d=0), the pull-off force after first touch, already reaches the target, so that
     /// no preload is needed. Always false if no preload is sought, or if the quantity is not a
@@ -98,9 +98,9 @@ pub struct Answer {
     /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
     /// if the quantity has no value at any of these numbers.
     pub reachable: Option<(f64, f64)>,
-    /// Values of the quantity just below the first crossing and at it, if the quantity steps over
-    /// the target there. `None` if it reaches the target gradually, or if only some numbers are
-    /// allowed.
+    /// Values of the quantity just below the first crossing and at the crossing, if the quantity
+    /// jumps over the target there. `None` if the quantity reaches the target gradually, or if only
+    /// some numbers are allowed.
     pub step: Option<[f64; 2]>,
 }
 

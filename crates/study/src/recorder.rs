@@ -66,9 +66,9 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Returns the warnings collected so far, and removes them from this recorder. There is one for
-    /// each cell that does not meet all premises of the model: the number of the cell, and the
-    /// premises that it does not meet.
+    /// Returns the warnings collected so far, and removes them from this recorder. There is a
+    /// warning for each cell that does not meet all premises of the model. It has the number of the
+    /// cell and the premises that the cell does not meet.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }

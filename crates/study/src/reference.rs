@@ -168,8 +168,8 @@ pub struct Reference {
     /// Computing times in s: first the time of all profiles together, then the time of all square
     /// surfaces together.
     pub seconds: [f64; 2],
-    /// Mean computing time of one square surface in s, without the computation of the same surface
-    /// on the coarser grid.
+    /// Mean computing time of one square surface in s. The computation of the same surface on the
+    /// coarser grid is not included.
     pub seconds_of_square: f64,
 }
 

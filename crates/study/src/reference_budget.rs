@@ -13,10 +13,10 @@ pub struct ReferenceBudget {
     /// square surface. The gap is the distance between the bodies at a grid cell, and the largest
     /// error over all grid cells of all surfaces is taken.
     pub solver: f64,
-    /// Error due to the grid of the square surfaces: that of the mean pull-off force (without
-    /// adhesion, of the mean indentation) over these surfaces. It is the relative difference
-    /// between this mean and the mean over the same surfaces with half as many grid cells along the
-    /// side. `None` if half as many cells are too few.
+    /// Relative error due to the grid of the square surfaces. It is an error of the mean pull-off
+    /// force over these surfaces or, without adhesion, of their mean indentation. The error is the
+    /// relative difference between this mean and the mean over the same surfaces with half as many
+    /// grid cells along the side. `None` if half as many cells are too few.
     ///
     /// If the profile model is exact for the body, the difference between the means over the
     /// profiles and over the square surfaces is an error of the grid too. The error is then the
@@ -30,9 +30,9 @@ pub struct ReferenceBudget {
     /// profiles and square surfaces: its mean over the profiles divided by its mean over the square
     /// surfaces, minus 1. `None` if the difference is unknown.
     pub difference: Option<f64>,
-    /// Lower bound of the error of the model. It is the magnitude of `difference` as far as it
-    /// exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the difference,
-    /// and `None` if one of these errors is unknown.
+    /// Lower bound of the relative error of the model. It is the magnitude of `difference` as far
+    /// as it exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the
+    /// difference, and `None` if one of these errors is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,

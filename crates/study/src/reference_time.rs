@@ -33,6 +33,9 @@ pub struct SquareTime {
 
 impl SquareTime {
     /// Estimates the computing time of a square surface with `cells` grid cells along its side.
+    ///
+    /// # Errors
+    /// Returns an error if the surface cannot be computed, or if `stop` returned true.
     pub fn estimate(
         body: &Body,
         cells: usize,
@@ -74,7 +77,7 @@ impl SquareTime {
         self.seconds * surfaces.div_ceil(threads as u64) as f64
     }
 
-    /// Returns the share of one load (force or indentation) of one square surface in the
+    /// Returns the share of one load (a force or an indentation) of one square surface in the whole
     /// computation of `surfaces` square surfaces.
     pub fn share_of_load(&self, surfaces: u64) -> f64 {
         1.0 / (self.loads.max(1) as f64 * surfaces as f64)
@@ -82,7 +85,8 @@ impl SquareTime {
 }
 
 /// Returns an error if the comparison takes longer than a day. The comparison has `surfaces` square
-/// surfaces with `cells` grid cells along the side.
+/// surfaces with `cells` grid cells along the side, and is computed on `threads` threads. `time` is
+/// the estimated computing time of one of them.
 pub fn check_time(
     cells: usize,
     surfaces: u64,

@@ -50,11 +50,11 @@ pub(super) struct RoughContact {
     pub amplitude: Amplitude,
     /// Work of adhesion divided by the effective modulus, γ/E*, in m.
     pub stretch: f64,
-    /// Range z₀ of the attraction between the surfaces, m.
+    /// Range z₀ of the attraction between the surfaces in m.
     pub range: f64,
     /// Spectrum of a self-affine surface; `None` for a measured surface.
     pub spectrum: Option<SelfAffine>,
-    /// Length L of the profile, m.
+    /// Length L of the profile in m.
     pub length: f64,
     pub tabor_number: Option<f64>,
 }

@@ -67,6 +67,9 @@ struct Suspect {
 impl Scan {
     /// Scans the whole range of `coordinates` for numbers at which a quantity crosses `target`.
     /// `compute` returns the quantity at several numbers.
+    ///
+    /// # Errors
+    /// Returns the first error of `compute`.
     pub fn of(
         coordinates: Coordinates,
         target: f64,

@@ -26,9 +26,9 @@ pub struct Changed {
     /// Medians of the results over the random profiles in SI units, in the order of
     /// [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// Range over the profiles of the relative change of each result: its smallest and its largest
-    /// value. `None` if the profile of the scene is fixed. The results are in the order of
-    /// [`Sensitivity::RESULTS`].
+    /// Range over the profiles of the relative change of each result. Each element is the smallest
+    /// and the largest change of one result, in the order of [`Sensitivity::RESULTS`]. `None` if
+    /// the profile of the scene is fixed.
     pub range: [Option<(f64, f64)>; 3],
 }
 
@@ -36,16 +36,16 @@ pub struct Changed {
 /// number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
-    /// Path, name and unit of the number, as an axis without values.
+    /// Path, name and unit of the number. The axis has no values.
     pub axis: Axis,
     /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A
     /// wavelength is rounded so that a whole number of waves fits on the length, as in the computed
     /// profile.
     pub value: f64,
-    /// Smaller value of the number and then larger value of the number, each with the results for
-    /// this value. The results are `None` if the scene does not allow the value. The values usually
-    /// differ from [`Influence::value`] by the share [`Sensitivity::STEP`]. A wavelength or a whole
-    /// number may differ by another share.
+    /// Smaller and larger value of the number, each with the results for this value. The results
+    /// are `None` if the scene does not allow the value. The values usually differ from
+    /// [`Influence::value`] by the share [`Sensitivity::STEP`]. A wavelength or a whole number may
+    /// differ by another share.
     pub sides: [(f64, Option<Changed>); 2],
 }
 

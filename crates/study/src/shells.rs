@@ -8,11 +8,11 @@ use std::f64::consts::TAU;
 /// Roughness of the profiles or of the square surfaces of a comparison, computed from their waves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ComparedRoughness {
-    /// Root mean square height h, m.
+    /// Root mean square height h in m.
     pub rms_height: f64,
-    /// Root mean square gradient ⟨∇z⟩.
+    /// Root mean square gradient ⟨∇z⟩, a number without a unit.
     pub rms_gradient: f64,
-    /// Elastic energy e_el per area that flattens the roughness, J/m².
+    /// Elastic energy e_el per area in J/m² that flattens the roughness.
     pub elastic_energy: f64,
 }
 
@@ -140,8 +140,8 @@ impl Shells {
             .then(|| (mode - first) as usize)
     }
 
-    /// Returns the mean square height in m² of one wave of the square surface. `waves` is the
-    /// number of periods of this wave over the side of the square.
+    /// Returns the mean square height in m² that one wave contributes to the square surface.
+    /// `waves` is the number of periods of this wave over the side of the square.
     pub fn variance(&self, waves: f64) -> f64 {
         match self.shell(waves) {
             Some(shell) => self.factors[shell] * self.variance_before_scaling(waves),
@@ -153,7 +153,7 @@ impl Shells {
         self.spectrum.variance_of_surface(waves, self.side) / waves
     }
 
-    /// Returns the roughness of the square surface. `modulus` is in Pa.
+    /// Returns the roughness of the square surface. `modulus` is the effective modulus in Pa.
     pub fn roughness(&self, modulus: f64) -> ComparedRoughness {
         let mut height = 0.0;
         let mut slope = 0.0;

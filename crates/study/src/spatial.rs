@@ -33,9 +33,9 @@ pub(super) struct Body {
     /// Factor by which the heights of the roughness are multiplied in contacts with adhesion. With
     /// this factor, the square surfaces have the same elastic energy per area as the profiles.
     pub adhesive_height_factor: f64,
-    /// Side L of the square, m.
+    /// Side L of the square in m.
     pub side: f64,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     pub modulus: f64,
     /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
@@ -108,7 +108,7 @@ pub(super) struct SquareLoading {
     pub forces: Vec<f64>,
     /// Turning point of the loop with adhesion.
     pub turn: Turn,
-    /// Step of the indentation in the loop, m.
+    /// Step of the indentation in the loop in m.
     pub step: f64,
 }
 
@@ -126,9 +126,9 @@ pub(super) struct Watch<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
-    /// Stiffness dF/dd of the contact, with the force F and the indentation d, N/m.
+    /// Stiffness dF/dd of the contact in N/m, with the force F and the indentation d.
     pub stiffness: f64,
-    /// Contact area, m².
+    /// Contact area in m².
     pub area: f64,
     pub residual: f64,
 }
@@ -136,11 +136,11 @@ pub(super) struct Pressing {
 /// Results of the loops of a square surface with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
-    /// Pull-off force, N.
+    /// Pull-off force in N.
     pub pull_off_force: f64,
     /// Pull-off force in N of a loop that turns at first touch.
     pub at_touch: f64,
-    /// Dissipated energy, J.
+    /// Dissipated energy in J.
     pub dissipated_energy: f64,
     /// Points of the loop from first touch on, each with indentation in m and force in N.
     pub curve: Vec<(f64, f64)>,
@@ -190,6 +190,10 @@ impl Body {
     /// loaded without adhesion to each force of `loading`. Then follow two loops with adhesion: one
     /// turns at first touch, the other at the turning point of `loading`. The side of the surface
     /// has `cells` grid cells.
+    ///
+    /// # Errors
+    /// Returns an error if the surface or its contact cannot be computed, or if the computation is
+    /// stopped.
     pub fn load(
         &self,
         cells: usize,
@@ -223,6 +227,9 @@ impl Body {
 
     /// Returns the heights in m of the surface with the random phases of `seed`, row by row. Only
     /// the heights of the roughness are multiplied by `factor`, not the heights of the form.
+    ///
+    /// # Errors
+    /// Returns an error if the heights do not fit into memory.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(

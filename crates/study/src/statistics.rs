@@ -34,12 +34,12 @@ pub struct Statistics {
     /// Number of profiles on which the quantity has a value. Only these profiles enter the
     /// statistics.
     pub count: usize,
-    /// Mean of the quantity over the profiles with a value.
+    /// Mean over the profiles with a value, in the SI unit of the quantity.
     pub mean: f64,
-    /// Lower quartile, median and upper quartile of the quantity, interpolated between neighbouring
-    /// values.
+    /// Lower quartile, median and upper quartile, interpolated between neighbouring values, in the
+    /// SI unit of the quantity.
     pub quartiles: [f64; 3],
-    /// Smallest and largest value of the quantity among the profiles.
+    /// Smallest and largest value among the profiles, in the SI unit of the quantity.
     pub range: (f64, f64),
     /// Lower and upper end of the 95 % confidence interval of the median, for any distribution.
     /// `None` for fewer than 4 values. The interval contains the median of infinitely many profiles
@@ -85,10 +85,11 @@ impl From<Statistics> for StatisticsJson {
 /// their mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// Sample standard deviation of the values, with the divisor `count − 1`.
+    /// Sample standard deviation of the values, with the divisor `count − 1`, in the SI unit of the
+    /// quantity.
     pub standard_deviation: f64,
-    /// Standard error of the mean over the profiles: the standard deviation divided by the square
-    /// root of the number of values.
+    /// Standard error of the mean over the profiles, in the SI unit of the quantity: the standard
+    /// deviation divided by the square root of the number of values.
     pub standard_error: f64,
     /// Lower and upper end of the 95 % confidence interval of the mean over the profiles, by
     /// Student's t. If the quantity has a bound, such as 0 for a force, the interval does not reach
@@ -205,7 +206,7 @@ impl Statistics {
         ))
     }
 
-    /// Returns the largest value of the quantity divided by the sum of the values on all profiles;
+    /// Returns the largest value of the quantity, divided by the sum of its values on all profiles;
     /// `None` if a value is negative or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
         let (least, most) = self.range;
@@ -332,9 +333,9 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if the profiles disagree, which means that less than
-    /// three quarters of the profiles of known regime are in the most frequent regime. Otherwise
-    /// `None`.
+    /// Returns the second most frequent regime if the profiles disagree; otherwise `None`. The
+    /// profiles disagree if less than three quarters of the profiles of known regime are in the
+    /// most frequent regime.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;

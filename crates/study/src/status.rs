@@ -33,7 +33,8 @@ pub struct Status {
 pub struct ShardStatus {
     /// Name of the part of the plan: `3/8` for part 3 of 8.
     pub shard: String,
-    /// Number of records that this part of the plan has once it is complete.
+    /// Number of records that this part of the plan has once it is complete. A record has the
+    /// results of one [cell](crate::Plan) on one random profile.
     pub total: u64,
     /// Number of records of this part that are already in files of the study. A record has the
     /// results of one [cell](crate::Plan) on one random profile.
@@ -42,7 +43,7 @@ pub struct ShardStatus {
     pub attempts: Vec<Attempt>,
 }
 
-/// One process that has worked on a part of a plan, with the records in the file that it wrote.
+/// Work of one process on a part of a plan: the process, and the records in the file that it wrote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file that the process wrote.

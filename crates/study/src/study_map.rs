@@ -168,9 +168,9 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` has a place on map number `slice`. Such a scene may differ from the
-    /// scene of the map in two respects only: the values on the axes of the map, and the number of
-    /// points in the force curve.
+    /// Returns true if a scene has a place on map number `slice`. It may differ from the scene of
+    /// the map in two respects only: the values on the axes of the map, and the number of points of
+    /// the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> = self
             .over()

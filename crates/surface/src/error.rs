@@ -84,7 +84,7 @@ impl Place {
 pub enum ChosenBy {
     /// The user chooses by the number or the name of a channel.
     ChannelNumber,
-    /// The user chooses by the name of a surface in an archive with several surfaces.
+    /// The user chooses one of several surfaces in an archive by its name.
     SurfaceName,
 }
 
@@ -186,7 +186,7 @@ pub enum SurfaceError {
 }
 
 impl SurfaceError {
-    /// Returns the place of the fault.
+    /// Returns the place of the fault, such as a line of a file.
     pub fn place(&self) -> &Place {
         match self {
             SurfaceError::Refused { place, .. }

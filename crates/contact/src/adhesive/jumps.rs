@@ -12,15 +12,16 @@ use super::{Runs, SquaredStretch};
 use crate::detachment::DetachmentRule;
 use crate::history::Patch;
 
-/// End of the range of indentations of a run: either the indentation at which the run begins, with
-/// its smallest patch, or the indentation at which it ends, with its largest patch.
+/// One end of a run. A run is a patch over a range of indentations in which the edges of the patch
+/// do not jump. The run begins at the smallest of these indentations, where its patch is smallest,
+/// and ends at the largest of them, where its patch is largest.
 #[derive(Clone, Copy, Debug)]
 pub struct Boundary {
     pub indentation: f64,
     /// Index of the run in the list of runs.
     run: u32,
-    /// Number of springs of the patch. It is positive where the run begins, and negative where it
-    /// ends.
+    /// Number of springs of the patch. The number is positive at the beginning of a run, and
+    /// negative at its end.
     pub springs: i32,
 }
 
@@ -108,9 +109,10 @@ fn lowest_bit(number: usize) -> usize {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
-    /// Returns the boundaries of all runs at indentations above `low` and up to `high` (m), in
-    /// ascending order. At one indentation, the run of a larger patch comes just before the runs of
-    /// the smaller patches inside it, and the right one of two separate patches comes first.
+    /// Returns the ends of all runs at indentations above `low` and up to `high` (m), in ascending
+    /// order of the indentation. At one indentation, the run of a larger patch comes just before
+    /// the runs of the smaller patches inside this patch. Of two separate patches, the right one
+    /// comes first.
     pub fn boundaries(&self, low: f64, high: f64) -> Vec<Boundary> {
         let mut boundaries = Vec::new();
         for (index, run) in self.runs.iter().enumerate() {

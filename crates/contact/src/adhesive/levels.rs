@@ -418,9 +418,10 @@ impl<R: DetachmentRule> Slider<R> {
     }
 
     /// Returns ∫ Δl² dℓ in cells times m², from zero to the length of the patch at an indentation
-    /// in m. Δl is the largest stretch that a patch of the length ℓ bears. The integral is the sum
-    /// of the squared stretches with which springs attached at the moving edges. Half the integral
-    /// times the stiffness of a spring is the surface energy of the patch.
+    /// in m. Δl is the largest stretch that a patch of the length ℓ bears. ℓ is given in cells, the
+    /// distances between neighbouring springs. The integral is the sum of the squared stretches
+    /// with which springs attached at the moving edges. Half the integral times the stiffness of a
+    /// spring is the surface energy of the patch.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.cells + self.edge_cells(indentation).length;
         self.rule.squares_up_to(length)

@@ -156,6 +156,9 @@ impl Closing {
     /// Lists the runs of a loading from right to left, in the order that [`Run`] describes. A run
     /// is a patch over a range of indentations in which the edges of the patch do not jump. `held`
     /// are the patches that are in contact at the beginning of the loading.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn list<const SLIDES: bool, R: DetachmentRule>(
         &self,
         ground: &Ground<'_, SLIDES, R>,

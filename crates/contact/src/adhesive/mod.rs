@@ -98,6 +98,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     }
 
     /// Computes the contact at each point of a grid of indentations.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let low = grid.points[0];
         let high = grid.high();

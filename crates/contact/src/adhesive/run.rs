@@ -210,9 +210,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns a gap in m below which every spring beside the patch certainly belongs to the patch
-    /// at `indentation` in m. The patch has at least the springs of `span`. The returned gap holds
-    /// on loading and on unloading. It saves evaluations of the rule of Hess.
+    /// Returns a gap in m such that every spring beside the patch with a smaller gap certainly
+    /// belongs to the patch at `indentation` in m. The patch has at least the springs of `span`.
+    /// The returned gap is valid on loading and on unloading, and saves evaluations of the rule of
+    /// Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let stretch = self

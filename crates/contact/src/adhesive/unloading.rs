@@ -89,6 +89,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// the spring. The indentation of the split is therefore t_v = min(t of the larger patch,
     /// smallest φ of v). φ is the indentation at which a patch with its edges at a given gap is in
     /// equilibrium; see the module `run`.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {
         let mut listed = RunList {
             runs: Vec::new(),

@@ -15,7 +15,7 @@ use crate::history::Direction;
 use asperity_data::gauss_nodes_on_quarter_circle;
 use std::fmt::Debug;
 
-/// The rule that all contacts use.
+/// Rule of detachment that all contacts use.
 pub type ContactRule = HessRule;
 
 /// Relative margin for rounding errors by which bounds of stretches and gaps are widened or

@@ -9,11 +9,13 @@ use crate::stage::Stage;
 
 /// Number of intervals of the table.
 const INTERVALS: usize = 512;
-/// Difference of the growths of the compression in neighbouring intervals of the table, as a share
-/// of the largest compression. Above it, an interval has a jump and is not interpolated.
+/// Largest difference between the growth of the compression in an interval of the table and its
+/// mean growth in the two neighbouring intervals, as a share of the largest compression. With a
+/// larger difference the compression jumps in the interval, which is then not interpolated.
 const JUMP: f64 = 1e-5;
 
-/// The elastic loading from separation, with the instantaneous modulus.
+/// Elastic loading from separation, with the modulus before any relaxation. Until the body turns, a
+/// relaxing contact has the same springs in contact as this loading.
 pub struct Approach {
     pub stage: Stage,
     /// Contacts at evenly spaced indentations from zero on.
@@ -34,7 +36,11 @@ impl Approach {
         })
     }
 
-    /// Prepares the contact for indentations up to `indentation` in m.
+    /// Computes the contacts at indentations from 0 to `indentation` in m, unless they are known
+    /// already.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn prepare(&mut self, indentation: f64) -> Result<(), ContactError> {
         if indentation <= self.high {
             return Ok(());
@@ -48,8 +54,8 @@ impl Approach {
         Ok(())
     }
 
-    /// Returns the largest difference in m between the compressions of the table and a straight
-    /// line, between two indentations in m.
+    /// Returns by how much, at most, the compression of the elastic loading deviates from a
+    /// straight line between two indentations. The indentations and the result are in m.
     pub fn bend(&self, from: f64, to: f64) -> f64 {
         let first = self.table.partition_point(|state| state.indentation < from);
         let after = self.table.partition_point(|state| state.indentation <= to);
@@ -68,7 +74,10 @@ impl Approach {
         largest
     }
 
-    /// Returns the contact at an indentation in m.
+    /// Returns the contact of the elastic loading at an indentation in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
         let intervals = self.table.len().saturating_sub(1) as f64;
         let place = indentation / self.high * intervals;

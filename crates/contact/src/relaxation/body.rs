@@ -72,7 +72,8 @@ impl<'a> RelaxingBody<'a> {
         })
     }
 
-    /// Sets the error of the force that the steps may have, as a share of the largest force.
+    /// Sets the largest error that the finite steps in time may cause in the force, as a share of
+    /// the largest force.
     #[must_use]
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         RelaxingBody { tolerance, ..self }
@@ -88,8 +89,8 @@ impl<'a> RelaxingBody<'a> {
         Ok(())
     }
 
-    /// Interrupts a stage with [`ContactError::Interrupted`] as soon as `stop` returns true. It is
-    /// asked before each step of the drive.
+    /// Sets a function that interrupts a stage. `stop` is called before each step of the drive. As
+    /// soon as it returns true, the stage ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn with_stop(self, stop: &'a dyn Fn() -> bool) -> Self {
         RelaxingBody { stop, ..self }
@@ -297,7 +298,10 @@ impl<'a> RelaxingBody<'a> {
     }
 
     /// Returns the states of the patches in contact, from left to right. The force and the stretch
-    /// of a patch are those with relaxation.
+    /// of each patch take account of the relaxation.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn patch_states(&self) -> Result<Vec<PatchState>, ContactError> {
         let mut patches = self.drive.patch_states(&self.state)?;
         if let Some(division) = &self.division {

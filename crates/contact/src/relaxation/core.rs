@@ -44,7 +44,8 @@ impl Core {
         }
     }
 
-    /// Returns the core of the patch after its edges have receded.
+    /// Returns the core of a patch with the springs from `first` to `last`. `known` is the core of
+    /// the patch before its edges receded, which is returned if it still suits the patch.
     pub fn renewed(known: Option<Core>, line: &Line, first: usize, last: usize) -> Self {
         match known {
             Some(core) if core.is_inside(first, last) => core,
@@ -52,8 +53,8 @@ impl Core {
         }
     }
 
-    /// Returns an upper bound of the tension of the springs from `first` to `last`, among which the
-    /// core is.
+    /// Returns an upper bound of the tension of the springs from `first` to `last`. All springs of
+    /// the core must be among them.
     pub fn bound_with_flanks(&self, line: &Line, first: usize, last: usize) -> Bound {
         let mut bound = self.bound;
         let [from, to] = self.springs.unwrap_or([last + 1, last]);

@@ -8,13 +8,15 @@ use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::history::{Direction, Goal, Work};
 
-/// Number of steps of a stage before they are divided.
+/// Number of equal steps with which a stage is planned. A step that is not accurate enough is
+/// halved later.
 pub const STEPS: usize = 48;
 /// Largest number of steps of one stage. The length of steps is doubled again and again, so that no
 /// target within reach needs as many.
 const MOST_STEPS: usize = 1 << 12;
 
-/// A motion of the drive to a goal.
+/// A motion of the drive of the instrument in small steps, until the goal of a loading stage is
+/// reached.
 pub struct Course<'a> {
     drive: &'a mut Drive,
     direction: Direction,
@@ -23,14 +25,17 @@ pub struct Course<'a> {
     step: f64,
     /// Speed of the drive in m/s.
     pub speed: f64,
-    /// Error of the force that the steps may have, as a share of the largest force.
+    /// Largest error that the steps may cause in the force, as a share of the largest force.
     pub tolerance: f64,
-    /// Returns true if the motion is to be interrupted.
+    /// Function that returns true if the motion has to be interrupted.
     pub stop: &'a dyn Fn() -> bool,
 }
 
 impl<'a> Course<'a> {
-    /// Plans a motion from the state `from`.
+    /// Plans the motion from the state `from` to `goal`, and chooses the length of its steps.
+    ///
+    /// # Errors
+    /// Returns an error if no indentation has the target force, or if the memory does not suffice.
     pub fn new(
         drive: &'a mut Drive,
         from: &State,
@@ -50,7 +55,8 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// Returns the way of the drive in one step, and prepares the approach for the way.
+    /// Returns the distance in m by which the drive moves in one step, and prepares the elastic
+    /// loading for this motion.
     fn step_of(
         drive: &mut Drive,
         from: &State,
@@ -102,7 +108,13 @@ impl<'a> Course<'a> {
         Ok(small * 1e-3 / STEPS as f64)
     }
 
-    /// Moves the drive until the goal is reached.
+    /// Moves the drive until the goal is reached. The computed states are added to `states` and to
+    /// `recorder`.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::DetachesBefore`] or [`ContactError::OutOfReach`] if the body cannot
+    /// reach the goal, [`ContactError::Interrupted`] if the motion was interrupted, and
+    /// [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn run(
         &mut self,
         states: &mut Vec<State>,

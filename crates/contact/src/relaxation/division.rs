@@ -10,7 +10,7 @@ use asperity_data::resized;
 /// Number of springs from which on a profile is not divided.
 const ENOUGH: usize = 1000;
 
-/// A profile whose cells are divided into equal parts.
+/// A profile whose cells, the parts between two neighbouring springs, are divided into equal parts.
 pub struct Division {
     /// Number of parts of a cell, which is odd, so that the ends of the profile stay in place.
     parts: usize,
@@ -20,7 +20,11 @@ pub struct Division {
 }
 
 impl Division {
-    /// Divides the profile of a contact. Returns `None` if the profile has enough springs.
+    /// Divides the profile of a contact. Returns `None` if the profile has so many springs that no
+    /// division is needed.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn of(contact: &Contact) -> Result<Option<(Self, Contact)>, ContactError> {
         let springs = contact.gaps().len();
         if springs >= ENOUGH {
@@ -40,13 +44,13 @@ impl Division {
         Ok(Some((division, divided)))
     }
 
-    /// Returns the elastic approach of the profile before the division.
+    /// Returns the elastic loading of the profile before the division.
     pub fn approach(&self) -> &Stage {
         &self.coarse
     }
 
-    /// Returns the springs of a patch of the divided profile. A patch that has no spring is given
-    /// the nearest one.
+    /// Converts a patch of the divided profile to the springs of the profile before the division. A
+    /// patch that contains none of these springs becomes the spring nearest to it.
     pub fn whole(&self, patch: Patch) -> Patch {
         let half = self.parts / 2;
         let first = (patch.first + self.parts - 1).saturating_sub(half) / self.parts;

@@ -22,29 +22,33 @@ const SHORT_GUESSES: usize = 8;
 /// Share of the largest force up to which instrument and contact may be out of equilibrium.
 const BALANCE: f64 = 1e-11;
 
-/// Way above the largest indentation, as a share of it, in which the body counts as being there.
+/// Distance above the largest indentation, as a share of this indentation, up to which the body
+/// still counts as being at the largest indentation.
 const SAME_DEPTH: f64 = 1e-9;
 
-/// The contact and its approach, from which the state after a step follows.
+/// A contact with relaxation and the history of its loading. From these follows the state of the
+/// contact after a step of the motion.
 pub struct Drive {
     pub contact: Contact,
     pub relaxation: Relaxation,
     pub approach: Approach,
-    /// The moments of the approach up to the state from which steps are made.
+    /// History of the loading up to the state from which the next step begins.
     pub history: History,
     /// Rule of detachment.
     rule: ContactRule,
-    /// Stiffness of the instrument, divided by that of a spring; infinite if it is rigid.
+    /// Stiffness of the instrument divided by the stiffness of one spring; infinite if the
+    /// instrument is rigid.
     pub instrument: f64,
-    /// The memories at the last turn, if the history has not grown since.
+    /// Memories and patches at the last turn of the body; `None` if the history has grown since
+    /// this turn.
     turned: Option<KnownTurn>,
-    /// Largest magnitude of the force so far, in m.
+    /// Largest magnitude of the force so far, divided by the stiffness of one spring, in m.
     pub largest_force: f64,
-    /// Number of steps of the indentation that were computed.
+    /// Number of computed steps of the indentation.
     pub steps: u64,
 }
 
-/// The memories and the patches of a turn after a number of moments.
+/// Memories and patches at a turn of the body, for a history with the stated number of moments.
 struct KnownTurn {
     moments: usize,
     line: Arc<Line>,
@@ -70,13 +74,13 @@ impl Drive {
         self.relaxation.remaining_share()
     }
 
-    /// Returns the force of a state in m.
+    /// Returns the force of a state, divided by the stiffness of one spring, in m.
     pub fn force(&self, state: &State) -> f64 {
         state.load.force(self.remaining())
     }
 
-    /// Adds a state to the history of the approach, if the body has never been deeper. `before` is
-    /// the state one step before.
+    /// Adds a state to the history of the loading, if the body has never been deeper than in this
+    /// state. `before` is the state one step earlier.
     pub fn remember(&mut self, before: &State, state: &State) {
         if !matches!(state.phase, Phase::Deepest) {
             return;
@@ -96,7 +100,7 @@ impl Drive {
         });
     }
 
-    /// Removes all moments of the history after the first `moments` ones.
+    /// Removes all moments of the history of the loading except the first `moments` ones.
     pub fn forget(&mut self, moments: usize) {
         if moments < self.history.len() {
             self.history.truncate(moments);
@@ -104,8 +108,11 @@ impl Drive {
         }
     }
 
-    /// Returns the state after the drive has moved evenly to the displacement `drive` in m within
-    /// `seconds`.
+    /// Returns the state after the drive has moved at a constant speed to the displacement `drive`
+    /// in m. `seconds` is the duration of this motion in s.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn driven(
         &mut self,
         from: &State,
@@ -201,8 +208,11 @@ impl Drive {
         self.force(state) + self.instrument * (state.indentation - drive)
     }
 
-    /// Returns the state after the body has moved evenly to the indentation `to` in m within
-    /// `seconds`. The drive stays where it is.
+    /// Returns the state after the body has moved at a constant speed to the indentation `to` in m.
+    /// `seconds` is the duration of this motion in s. The drive stays in place.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn moved(&mut self, from: &State, to: f64, seconds: f64) -> Result<State, ContactError> {
         self.steps += 1;
         let ramp = Ramp::new(self.relaxation, seconds);
@@ -232,8 +242,8 @@ impl Drive {
         Ok(state)
     }
 
-    /// Returns the way in m by which the body may be above its largest indentation and still count
-    /// as being there. The equilibrium with the instrument is known to rounding only.
+    /// Returns the distance in m above the largest indentation up to which the body still counts as
+    /// being there. The equilibrium with the instrument is known only up to rounding errors.
     fn same_depth(&self, state: &State) -> f64 {
         SAME_DEPTH * (state.deepest + self.rule.largest_stretch(state.load.length))
     }
@@ -291,7 +301,8 @@ impl Drive {
         Ok(())
     }
 
-    /// Returns what the forces of all springs have in common.
+    /// Returns those numbers of a state that are the same for all springs: the indentation, the
+    /// common memory, and the factor by which the memories of springs have decayed.
     pub fn field(&self, line: &Line, state: &State) -> Field {
         let age = (state.seconds - line.turned_at) / self.relaxation.time();
         Field {

@@ -13,6 +13,9 @@ use crate::stage::PatchState;
 
 impl Drive {
     /// Returns the states of the patches in contact, from left to right.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn patch_states(&self, state: &State) -> Result<Vec<PatchState>, ContactError> {
         match &state.phase {
             Phase::Apart => Ok(Vec::new()),

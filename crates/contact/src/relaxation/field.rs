@@ -1,16 +1,19 @@
 //! Springs with their memories, and the tension of all springs at one moment.
 
-/// The gap and the memory of a place of the profile.
+/// Gap and memory at a position of the profile, which may lie between two springs. The memory is a
+/// number that a spring keeps from the moment at which it attached; the module `relaxation` defines
+/// it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spring {
     /// Gap in m.
     pub gap: f64,
-    /// Memory in m, at the moment at which the body turned.
+    /// Memory in m at the moment at which the body turned from loading to unloading.
     pub memory: f64,
 }
 
 impl Spring {
-    /// Returns the place between two places, at the share `share` of the way to `other`.
+    /// Interpolates gap and memory linearly between this position and the position `other`. A
+    /// `share` of 0 gives this position, and a `share` of 1 gives `other`.
     #[inline]
     pub fn between(self, other: Spring, share: f64) -> Spring {
         Spring {
@@ -20,34 +23,37 @@ impl Spring {
     }
 }
 
-/// Part of the force that is the same for all springs at one moment.
+/// Those parts of the tension that are the same for all springs at one moment. The tension of a
+/// spring is minus its force divided by the instantaneous stiffness of a spring, in m.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
-    /// Share of the modulus that remains after a long time.
+    /// Share of the instantaneous modulus that remains after a long time.
     pub remaining: f64,
     /// Factor e^(−t/τ) by which memories have decayed since the body turned.
     pub decay: f64,
     /// Indentation d in m.
     pub indentation: f64,
-    /// Common memory J in m.
+    /// Common memory J in m, the same number for all springs; the module `relaxation` defines it.
     pub memory: f64,
 }
 
 impl Field {
-    /// Returns the tension of a place in m, apart from the term that all places share.
+    /// Returns that part of the tension in m at a position of the profile which depends on the gap
+    /// and the memory there. The tension is this part minus [`Self::common`].
     #[inline]
     pub fn own_tension(&self, spring: Spring) -> f64 {
         self.remaining * spring.gap - (1.0 - self.remaining) * self.decay * spring.memory
     }
 
-    /// Returns the term in m that the tension of each place lacks to its own tension.
+    /// Returns that part of the tension in m which is the same at all positions of the profile.
     #[inline]
     pub fn common(&self) -> f64 {
         self.remaining * self.indentation + (1.0 - self.remaining) * self.memory
     }
 }
 
-/// Integrals over the length of a patch, with lengths in cells.
+/// Integrals over the length of a patch. c is the gap and m the memory at the position x, which is
+/// in cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sums {
     /// Length in cells.
@@ -63,7 +69,8 @@ pub struct Sums {
 }
 
 impl Sums {
-    /// Returns the integrals over a piece of the profile on which gap and memory are straight.
+    /// Returns the integrals over a piece of the profile of the length `length` in cells. Gap and
+    /// memory are linear functions of the position on this piece.
     #[inline]
     pub fn of_piece(from: Spring, to: Spring, length: f64) -> Self {
         let half = 0.5 * length;

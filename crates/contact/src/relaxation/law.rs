@@ -30,11 +30,11 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// Largest share of the modulus that may relax. A foundation that relaxes completely has no
-    /// force at rest and no equilibrium.
+    /// Largest share of the modulus that may relax. If the whole modulus relaxed, no force would
+    /// remain at rest, and there would be no equilibrium.
     pub const LARGEST_SHARE: f64 = 0.99;
 
-    /// Error of the force that the steps of a motion in time may have, as a share of the largest
+    /// Largest error that the finite steps in time may cause in a force, as a share of the largest
     /// force.
     pub const STEP_ERROR: f64 = 1e-3;
 

@@ -6,23 +6,28 @@ use crate::error::ContactError;
 use asperity_data::gathered;
 use std::ops::RangeInclusive;
 
-/// The profile with the memory of each spring that was in contact when the body turned.
+/// The profile of a body that has turned from loading to unloading. The profile has the gap of each
+/// spring, and the memory of each spring that was in contact at the turn.
 #[derive(Debug)]
 pub struct Line {
     springs: Vec<Spring>,
     /// Integrals from the first spring to each spring.
     sums: Vec<Sums>,
     peaks: PeakTree,
-    /// Share of the modulus that remains after a long time.
+    /// Share of the instantaneous modulus that remains after a long time.
     pub remaining: f64,
-    /// Time in s of the turn. Memories are those of this time.
+    /// Time in s at which the body turned. The memories are those at this time.
     pub turned_at: f64,
 }
 
 impl Line {
-    /// Creates the line. `springs` are the springs with their memories at the time `turned_at` in s.
-    /// `is_in_contact` is true for the index of a spring in contact, and `remaining` the share of
-    /// the modulus that remains.
+    /// Creates the profile with its memories. `springs` has the gap of each spring, and its memory
+    /// at the time `turned_at` in s. `is_in_contact` returns true for the index of a spring in
+    /// contact. `remaining` is the share of the instantaneous modulus that remains after a long
+    /// time.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn new(
         springs: Vec<Spring>,
         is_in_contact: impl Fn(usize) -> bool,
@@ -50,14 +55,16 @@ impl Line {
         self.springs[index]
     }
 
-    /// Returns the integrals from one spring to another one.
+    /// Returns the integrals over the profile between the springs with the indices `first` and
+    /// `last`.
     #[inline]
     pub fn sums_between(&self, first: usize, last: usize) -> Sums {
         self.sums[last].minus(self.sums[first])
     }
 
-    /// Returns the spring with the largest tension among `springs` and `known`, and its tension in
-    /// m apart from the term that all springs share.
+    /// Returns the spring with the largest tension among the springs with the indices `springs` and
+    /// the spring `known`. The returned tension in m lacks the part that is the same for all
+    /// springs.
     #[inline]
     pub fn peak(&self, springs: RangeInclusive<usize>, known: Peak, field: &Field) -> Peak {
         self.peaks.largest(springs, known, field.decay, |index| {
@@ -65,7 +72,8 @@ impl Line {
         })
     }
 
-    /// Returns an upper bound of the tension of the springs of a range at any later moment.
+    /// Returns an upper bound of the tension of the springs from `first` to `last`, which holds at
+    /// any moment after the turn.
     pub fn bound(&self, first: usize, last: usize) -> Bound {
         let fresh = Field {
             remaining: self.remaining,

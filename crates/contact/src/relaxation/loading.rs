@@ -7,14 +7,16 @@ use crate::error::ContactError;
 /// Largest number of times that a step is halved. Where the contact jumps, the jump is located to
 /// this share of a step.
 const MOST_HALVINGS: u32 = 20;
-/// Change of the force, as a share of the tolerance, within which a jump of the force is located.
+/// Change of the force on a step, as a share of the tolerance, up to which a step with a jump is
+/// not divided further.
 const LOCATED: f64 = 0.25;
 /// Largest number of guesses of the moment at which a motion reaches its goal.
 const GUESSES: usize = 60;
-/// Share of the largest force up to which the force of a goal is met.
+/// Allowed difference between the reached force and the force of a goal, as a share of the largest
+/// force.
 const SAME: f64 = 1e-13;
 
-/// A step of the drive, from a state to a displacement of the drive.
+/// A step of the drive: a motion at a constant speed to a displacement.
 #[derive(Clone, Copy)]
 pub struct Step {
     /// Displacement D of the drive at the end of the step in m.
@@ -41,6 +43,9 @@ impl Drive {
     /// Moves the drive by a step, and adds the states on the way to `states`, which must begin with
     /// the state before the step. The step is halved until two halves lead to the same force as one
     /// step, and the force in the middle lies between, up to `tolerance` in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn step(
         &mut self,
         states: &mut Vec<State>,
@@ -54,7 +59,8 @@ impl Drive {
         self.divide(states, &from, step, whole, tolerance, MOST_HALVINGS)
     }
 
-    /// Divides a step, which leads to the state `whole` in one piece.
+    /// Adds the states on a step to `states`. `whole` is the state after the step, computed in one
+    /// piece. If two half steps do not lead to the same force, the halves are divided further.
     fn divide(
         &mut self,
         states: &mut Vec<State>,
@@ -161,8 +167,11 @@ impl Drive {
         SAME * self.largest_force
     }
 
-    /// Finds the state at which a motion reaches its goal, on the step from `from` to `to`. The
-    /// goal is not reached at `from`, and is reached at `to`.
+    /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
+    /// the state `to`. The goal is not reached at `from`, and is reached at `to`.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn reach(
         &mut self,
         from: &State,

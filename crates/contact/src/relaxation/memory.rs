@@ -6,19 +6,20 @@ use super::law::Relaxation;
 /// Lengths of time relative to the relaxation time, below which (1 − e^(−x))/x is computed as 1.
 const AT_ONCE: f64 = 1e-300;
 
-/// A step of the motion in which the indentation changes evenly in time.
+/// A step of the motion in which the indentation changes at a constant speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Ramp {
-    /// Factor e^(−Δt/τ) by which memories decay in the step.
+    /// Factor e^(−Δt/τ) by which memories decay in the step. Δt is the duration of the step and τ
+    /// the relaxation time.
     pub decay: f64,
-    /// Mean (1 − e^(−Δt/τ)) τ/Δt of this factor over the step.
+    /// Mean of the decaying factor e^(−t/τ) over the step, (1 − e^(−Δt/τ)) τ/Δt.
     pub mean_decay: f64,
-    /// Mean of the squared factor over the step.
+    /// Mean of the square of this factor over the step.
     pub mean_square: f64,
 }
 
 impl Ramp {
-    /// Creates a step that takes `seconds`. The step may take no time: it is then a jump.
+    /// Creates a step with the duration `seconds` in s. A step with the duration 0 is a jump.
     pub fn new(relaxation: Relaxation, seconds: f64) -> Self {
         let duration = seconds / relaxation.time();
         Ramp {
@@ -28,8 +29,8 @@ impl Ramp {
         }
     }
 
-    /// Returns J in m after the step. `memory` is J before the step, and `way` the change of the
-    /// indentation, both in m.
+    /// Returns the common memory J in m after the step. `memory` is J before the step, and `way` is
+    /// the change of the indentation, both in m.
     pub fn memory(&self, memory: f64, way: f64) -> f64 {
         memory * self.decay + way * self.mean_decay
     }
@@ -42,7 +43,7 @@ fn mean_decay(duration: f64) -> f64 {
     -(-duration).exp_m1() / duration
 }
 
-/// A moment of the approach: the indentation that the body then reached for the first time.
+/// A moment of the loading at which the body reached an indentation for the first time.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// Indentation in m.
@@ -53,8 +54,8 @@ pub struct Moment {
     pub memory: f64,
 }
 
-/// The moments of the approach, with ascending indentations and times. Between two moments the
-/// indentation grows evenly in time.
+/// History of the loading: moments with ascending indentations and times. Between two moments the
+/// indentation grows at a constant speed.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     moments: Vec<Moment>,
@@ -78,8 +79,8 @@ impl History {
         self.moments[index].seconds
     }
 
-    /// Returns the moment at which the body first reached an indentation in m. Indentations beyond
-    /// the history count as its first or its last moment.
+    /// Returns the moment at which the body first reached an indentation in m. If the indentation
+    /// lies outside the history, returns the first or the last moment of the history.
     pub fn first_at(&self, relaxation: Relaxation, indentation: f64) -> Moment {
         let next = self
             .moments

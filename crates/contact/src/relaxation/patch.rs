@@ -10,15 +10,15 @@ use crate::history::Patch;
 /// Relative difference below which two tensions count as equal.
 const ROUNDING: f64 = 1e-12;
 
-/// An edge of a patch: it lies between the outermost spring of the patch and the first spring
-/// beyond.
+/// An edge of a patch. The edge lies between the outermost spring of the patch and the first spring
+/// outside the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
     /// Outermost spring of the patch on this side.
     pub spring: usize,
     /// Share of the cell beyond this spring that is in contact.
     pub share: f64,
-    /// Gap and memory at the other end of this cell.
+    /// Gap and memory at the outer end of this cell.
     pub outer: Spring,
 }
 
@@ -34,18 +34,18 @@ impl Edge {
     }
 }
 
-/// A patch with the place of its edges and its integrals.
+/// A patch after the turn of the body: the positions of its edges, and integrals over its length.
 #[derive(Clone, Copy, Debug)]
 pub struct StretchedPatch {
     pub left: Edge,
     pub right: Edge,
     pub sums: Sums,
-    /// Upper bound of the tension of all its places.
+    /// Upper bound of the tension at all positions of the patch.
     bound: Bound,
     core: Core,
 }
 
-/// The two sides of a patch while its edges recede.
+/// A patch that loses springs at its two edges, while the edges move inwards.
 struct Receding<'a> {
     line: &'a Line,
     field: &'a Field,
@@ -53,9 +53,11 @@ struct Receding<'a> {
     left: Edge,
     right: Edge,
     peaks: Peaks<'a>,
-    /// Smallest tension in m so far above the tension that the patch bears.
+    /// Smallest difference so far between the largest tension and the tension that the patch bears,
+    /// in m.
     least_excess: f64,
-    /// True if the patch was closer to bearing its tension before than it is now.
+    /// True if the largest tension exceeds the tension that the patch bears by more than before, so
+    /// that the edges jump.
     jumps: bool,
 }
 
@@ -64,9 +66,10 @@ struct Receding<'a> {
 pub enum Settling {
     /// Nothing detaches.
     Holds,
-    /// The edges move as the drive does.
+    /// The edges move no further than the motion of the drive requires.
     Slides,
-    /// The edges move further than the drive requires, or the patch is lost or divided.
+    /// The edges move further than the motion of the drive requires, or the patch splits or
+    /// disappears.
     Jumps,
 }
 
@@ -74,9 +77,10 @@ pub enum Settling {
 enum Remainder {
     /// The patch bears its tension.
     Holds,
-    /// The patch has lost its last spring.
+    /// The patch has lost all its springs.
     Nothing,
-    /// The patch has lost the spring with this index, which lies inside.
+    /// The patch has lost a spring inside the patch, so that the patch splits. The value is the
+    /// index of this spring.
     Parts(usize),
 }
 
@@ -85,7 +89,7 @@ impl StretchedPatch {
         Self::with_core(line, left, right, None)
     }
 
-    /// Creates a patch. `known` may be the core of a larger patch.
+    /// Creates a patch. `known` is a core that may be used again, such as that of a larger patch.
     fn with_core(line: &Line, left: Edge, right: Edge, known: Option<Core>) -> Self {
         let core = Core::renewed(known, line, left.spring, right.spring);
         let mut bound = core.bound_with_flanks(line, left.spring, right.spring);
@@ -116,15 +120,16 @@ impl StretchedPatch {
         self.right.spring + 1 - self.left.spring
     }
 
-    /// Returns the largest tension of the patch in m.
+    /// Returns the largest tension of the patch in m. The tension of a spring is minus its force
+    /// divided by the instantaneous stiffness of a spring.
     pub fn tension(&self, line: &Line, field: &Field) -> f64 {
         let mut receding = Receding::new(line, field, self.left, self.right, self.core);
         let [left, right] = receding.tensions();
         left.max(right).max(receding.peak().tension)
     }
 
-    /// Returns the force in m that the springs bore which were in this patch, and which are in none
-    /// of the patches `held`.
+    /// Returns the force of those springs of this patch that are in none of the patches `held`,
+    /// divided by the stiffness of one spring, in m.
     pub fn lost_force(&self, held: &[StretchedPatch], field: &Field) -> f64 {
         let mut lost = self.sums;
         for patch in held {
@@ -134,8 +139,8 @@ impl StretchedPatch {
             + (1.0 - field.remaining) * field.decay * lost.memory
     }
 
-    /// Lets springs detach until each remaining patch bears its tension, and adds these patches to
-    /// `held`.
+    /// Lets springs of the patch detach until each remaining part bears its tension. The remaining
+    /// parts are added to the patches `held`. Returns how the edges moved.
     pub fn settle<R: DetachmentRule>(
         &self,
         line: &Line,
@@ -298,9 +303,10 @@ impl<'a> Receding<'a> {
         }
     }
 
-    /// Slides the edges with the largest tension inwards, down to the tension of the other edge or
-    /// of the spring with the largest tension, `peak` in m. Returns true if the patch bears its
-    /// tension before. `slack` is a difference of tensions in m that is due to rounding.
+    /// Slides the edge with the larger tension inwards, or both edges if their tensions are equal.
+    /// An edge slides down to the tension of the other edge, or to `peak` in m, the largest tension
+    /// of a spring. Returns true if the patch bears its tension before that. `slack` is the
+    /// difference of tensions in m that rounding can cause.
     fn slide<R: DetachmentRule>(
         &mut self,
         rule: R,

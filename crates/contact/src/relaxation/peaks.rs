@@ -13,12 +13,13 @@ use std::ops::RangeInclusive;
 /// Number of springs that a leaf of the tree has. Springs of a leaf are examined one by one.
 const LEAF: usize = 16;
 
-/// Upper bound of the tension of a set of springs, apart from the term that all springs share.
+/// Upper bound of the tension of a set of springs, without the part of the tension that is the same
+/// for all springs.
 #[derive(Clone, Copy, Debug)]
 pub struct Bound {
-    /// Largest tension in m before memories decay.
+    /// Bound in m at the turn of the body, when the memories of its springs have not decayed yet.
     pub fresh: f64,
-    /// Largest tension in m after memories have decayed completely.
+    /// Bound in m after a long time, when the memories of the springs have decayed completely.
     pub relaxed: f64,
 }
 
@@ -33,7 +34,7 @@ impl Bound {
         self.relaxed = self.relaxed.max(other.relaxed);
     }
 
-    /// Returns a bound of the tension in m when memories have decayed by the factor `decay`.
+    /// Returns the bound of the tension in m after memories have decayed by the factor `decay`.
     #[inline]
     pub fn at(&self, decay: f64) -> f64 {
         if self.relaxed == f64::NEG_INFINITY {
@@ -43,7 +44,7 @@ impl Bound {
     }
 }
 
-/// A spring and its tension in m, apart from the term that all springs share.
+/// A spring and its tension in m, without the part of the tension that is the same for all springs.
 #[derive(Clone, Copy, Debug)]
 pub struct Peak {
     pub spring: usize,
@@ -51,13 +52,14 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// A peak below all springs.
+    /// No spring, with a tension below the tension of any spring. A search for the largest tension
+    /// can begin with it.
     pub const NONE: Self = Peak {
         spring: 0,
         tension: f64::NEG_INFINITY,
     };
 
-    /// Returns the one of two springs that has the larger tension.
+    /// Returns this spring or `other`, whichever has the larger tension.
     #[inline]
     pub fn larger(self, other: Peak) -> Peak {
         if other.tension > self.tension {
@@ -68,7 +70,8 @@ impl Peak {
     }
 }
 
-/// A tree of bounds over the springs.
+/// Tree of upper bounds of the tension, each over a range of springs. The tree serves to find the
+/// largest tension without a look at each spring.
 #[derive(Clone, Debug)]
 pub struct PeakTree {
     /// Bounds of the ranges: the children of the range `k` are `2 k` and `2 k + 1`.
@@ -91,9 +94,10 @@ impl PeakTree {
         Ok(PeakTree { bounds, leaves })
     }
 
-    /// Finds the spring with the largest tension among `springs`. Returns `known` if none of them
-    /// has a larger tension. `tension` is the tension of a spring in m, with memories decayed by
-    /// the factor `decay`.
+    /// Finds the spring with the largest tension among the springs with the indices `springs`.
+    /// Returns `known` if none of them has a larger tension than `known`. `tension` returns the
+    /// tension in m of the spring with a given index, after memories have decayed by the factor
+    /// `decay`.
     pub fn largest(
         &self,
         springs: RangeInclusive<usize>,
@@ -162,7 +166,8 @@ impl<T: Fn(usize) -> f64> Search<T> {
     }
 }
 
-/// Returns the bound of one spring. `remaining` is the share of the modulus that remains.
+/// Returns the upper bound of the tension of one spring. `remaining` is the share of the
+/// instantaneous modulus that remains after a long time.
 pub fn bound_of(spring: Spring, remaining: f64) -> Bound {
     Bound {
         fresh: remaining * spring.gap - (1.0 - remaining) * spring.memory,

@@ -9,7 +9,7 @@ use crate::history::{CurvePoint, Direction, Patch, StageRecord};
 use crate::target::Move;
 use asperity_data::CompensatedSum;
 
-/// Collects the points of a stage, and the springs that detach on it.
+/// Collects the points of the force curve of a stage, and the springs that detach in this stage.
 pub struct Recorder<'a> {
     view: View<'a>,
     recorded: Recorded,
@@ -19,7 +19,7 @@ pub struct Recorder<'a> {
     deepest: Vec<usize>,
 }
 
-/// Points of a stage, and the springs that detached on it.
+/// Points of the force curve of a stage, and the springs that detached in this stage.
 pub struct Recorded {
     curve: Vec<CurvePoint>,
     seconds: Vec<f64>,
@@ -32,7 +32,7 @@ pub struct Recorded {
 }
 
 impl<'a> Recorder<'a> {
-    /// Creates the recorder of a stage of a profile with `springs` springs.
+    /// Creates an empty record of a stage. The profile has `springs` springs.
     pub fn new(view: View<'a>, springs: usize) -> Self {
         Recorder {
             view,
@@ -69,7 +69,8 @@ impl<'a> Recorder<'a> {
         recorded.fresh_squares.push(state.load.fresh_squares);
     }
 
-    /// Moves all states except the last one to the record. The motion continues from the last one.
+    /// Moves all states except the last one from `states` to the record. The motion continues from
+    /// the last state.
     pub fn add_all_but_last(&mut self, states: &mut Vec<State>) {
         let kept = states.len() - 1;
         for state in states.drain(..kept) {
@@ -78,6 +79,9 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds the last states of a stage, and returns what was recorded.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn finish(mut self, states: &[State]) -> Result<Recorded, ContactError> {
         for state in states {
             self.add(state);
@@ -95,8 +99,8 @@ impl<'a> Recorder<'a> {
 }
 
 impl Recorded {
-    /// Returns the indentation in m at which each spring detached; infinite for a spring that did
-    /// not detach.
+    /// Returns for each spring the indentation in m at which the spring detached; infinite for a
+    /// spring that did not detach.
     pub fn detached_at(&self) -> &[f64] {
         &self.detached_at
     }

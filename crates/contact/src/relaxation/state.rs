@@ -16,18 +16,18 @@ pub struct Load {
     pub length: f64,
     /// ∫ u dx in m, where u is the compression of a spring and x is in cells.
     pub compression: f64,
-    /// ∫ v dx in m, where v is that part of the compression which has not relaxed.
+    /// ∫ v dx in m, where v is that part of the compression of a spring that has not relaxed.
     pub fresh: f64,
-    /// ∫ u² dx in m².
+    /// ∫ u² dx in m², where u is the compression of a spring and x is in cells.
     pub squares: f64,
-    /// ∫ v² dx in m².
+    /// ∫ v² dx in m², where v is that part of the compression of a spring that has not relaxed.
     pub fresh_squares: f64,
     pub springs: u64,
     pub patches: u64,
 }
 
 impl Load {
-    /// Returns the elastic part of the load on the approach; nothing of it has relaxed.
+    /// Returns the sums for a contact of the elastic loading, in which nothing has relaxed yet.
     pub fn of_approach(state: &ContactState) -> Self {
         Load {
             length: state.length,
@@ -40,7 +40,8 @@ impl Load {
         }
     }
 
-    /// Sums up the patches of a body that has turned.
+    /// Returns the sums over the patches of a body that has turned. `field` has the numbers that
+    /// are the same for all springs.
     pub fn of_patches(patches: &[StretchedPatch], field: &Field) -> Self {
         let mut sums = Sums::default();
         let mut springs = 0;
@@ -71,18 +72,20 @@ impl Load {
         }
     }
 
-    /// Returns the force in m. `remaining` is the share of the modulus that remains.
+    /// Returns the force divided by the stiffness of one spring, in m. `remaining` is the share of
+    /// the instantaneous modulus that remains after a long time.
     pub fn force(&self, remaining: f64) -> f64 {
         remaining * self.compression + (1.0 - remaining) * self.fresh
     }
 }
 
-/// Part of the motion: separated, at the largest indentation, or after the turn.
+/// Part of the motion: before first touch, at the largest indentation so far, or after the turn.
 #[derive(Clone, Debug)]
 pub enum Phase {
     /// The body has touched nothing yet.
     Apart,
-    /// The body is at its largest indentation so far: the contact is that of the approach.
+    /// The body is at its largest indentation so far. The springs in contact are those of the
+    /// elastic loading.
     Deepest,
     /// The body is above its largest indentation.
     Turned(Turned),
@@ -93,7 +96,8 @@ pub enum Phase {
 pub struct Turned {
     pub line: Arc<Line>,
     pub patches: Vec<StretchedPatch>,
-    /// True if springs have detached, which do not attach again.
+    /// True if springs have detached since the turn. A spring that has detached does not attach
+    /// again.
     pub detached: bool,
 }
 
@@ -108,17 +112,19 @@ pub struct State {
     pub indentation: f64,
     /// Largest indentation so far in m.
     pub deepest: f64,
-    /// Common memory J of all springs in m.
+    /// Common memory J in m, the same number for all springs; the module `relaxation` defines it.
     pub memory: f64,
     pub load: Load,
     pub phase: Phase,
-    /// Change of the force in m by jumps on the step to this state. Jumps that cancel leave no
-    /// other trace.
+    /// Magnitude of the jumps of the force on the step to this state, divided by the stiffness of
+    /// one spring, in m. Jumps with opposite signs can leave the force unchanged, so that only this
+    /// number shows them.
     pub jump: f64,
-    /// Mean growth of the force in m/s on the step to this state; `None` after a jump.
+    /// Mean growth of the force on the step to this state; `None` after a jump. The force is
+    /// divided by the stiffness of one spring, so that the unit is m/s.
     pub growth: Option<f64>,
-    /// True if this is the state before a jump, put at the moment of the jump. It belongs to the
-    /// record, and no step begins or ends there.
+    /// True if this is the state just before a jump, with the time of the jump. Such a state
+    /// belongs to the record of the stage, but no step begins or ends there.
     pub precedes_jump: bool,
 }
 
@@ -139,7 +145,8 @@ impl State {
         }
     }
 
-    /// Returns this state at the moment of a jump that leads to the state `after`.
+    /// Returns the state just before a jump, with the time of the jump. This state is the state
+    /// before the step that has the jump, and `after` is the state after the jump.
     pub fn before_jump(&self, after: &State, is_rigid: bool) -> Self {
         let indentation = if is_rigid {
             after.drive
@@ -155,7 +162,7 @@ impl State {
         }
     }
 
-    /// Returns the state at the begin of a stage, where the motion of the drive changes.
+    /// Returns the state at the beginning of a stage, where the motion of the drive changes.
     pub fn at_rest(&self) -> Self {
         State {
             growth: None,

@@ -11,22 +11,22 @@ use crate::history::Patch;
 use crate::stage::Stage;
 use asperity_data::resized;
 
-/// The moment at which the body turns, and how it came there.
+/// The moment at which the body turns from loading to unloading, with the history of the loading.
 #[derive(Clone, Copy)]
 pub struct Turn<'a> {
-    /// The elastic approach, which the relaxing contact shares.
+    /// Elastic loading with the same springs in contact as the relaxing contact before the turn.
     pub stage: &'a Stage,
     pub relaxation: Relaxation,
     pub history: &'a History,
     /// Largest indentation in m that the body has reached.
     pub deepest: f64,
-    /// Time in s.
+    /// Time of the turn in s since first touch.
     pub seconds: f64,
 }
 
 impl Turn<'_> {
-    /// Returns a place that attached at the indentation `threshold` in m, with its memory at the
-    /// time of the turn.
+    /// Returns gap and memory at a position that attached at the indentation `threshold` in m. The
+    /// memory is that at the time of the turn.
     fn spring(&self, gap: f64, threshold: f64) -> Spring {
         let attached = self.history.first_at(self.relaxation, threshold);
         let age = (self.seconds - attached.seconds) / self.relaxation.time();
@@ -71,7 +71,11 @@ impl Turn<'_> {
         }
     }
 
-    /// Computes the memories of all springs in contact, and lists the patches.
+    /// Computes the memories of all springs in contact at the turn. Returns the profile with these
+    /// memories, and the patches in contact.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn memories(&self) -> Result<(Line, Vec<StretchedPatch>), ContactError> {
         let gaps = self.stage.contact().gaps();
         let thresholds = self.stage.thresholds();

@@ -7,19 +7,20 @@ use crate::error::ContactError;
 use crate::foundation::Foundation;
 use crate::history::{CurvePoint, Patch};
 
-/// Converts states to points and patches.
+/// Converts states of a relaxing contact to points of the force curve and to patches of the profile
+/// before its division.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// Foundation of the profile after its division.
     pub foundation: Foundation,
-    /// Share of the modulus that remains after a long time.
+    /// Share of the instantaneous modulus that remains after a long time.
     pub remaining: f64,
     pub division: Option<&'a Division>,
 }
 
 impl View<'_> {
-    /// Returns the point of the force curve. Without memory to count them, its springs are those of
-    /// the division.
+    /// Returns the point of the force curve. Its number of springs is that of the profile before
+    /// the division, unless the memory does not suffice to count them.
     pub fn point(&self, state: &State) -> CurvePoint {
         let mut curve = [self.curve_point(state)];
         if matches!(state.phase, Phase::Deepest) && self.count_springs(&mut curve, vec![0]).is_err()
@@ -29,8 +30,8 @@ impl View<'_> {
         curve[0]
     }
 
-    /// Returns the point of the force curve. For a body at its largest indentation the springs of
-    /// a division are counted later, by [`View::count_springs`].
+    /// Returns the point of the force curve. For a body at its largest indentation, the number of
+    /// springs is that of the divided profile, until [`View::count_springs`] corrects it.
     pub fn curve_point(&self, state: &State) -> CurvePoint {
         let mut point = state.point(self.foundation, self.remaining);
         if self.division.is_some()
@@ -43,8 +44,12 @@ impl View<'_> {
         point
     }
 
-    /// Counts the springs before the division, at those points of a curve with the indices
-    /// `deepest`, at which the body is at its largest indentation.
+    /// Sets the numbers of springs to those of the profile before the division. `deepest` are the
+    /// indices of the points of `curve` at which the body is at its largest indentation so far;
+    /// only these points are changed.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn count_springs(
         &self,
         curve: &mut [CurvePoint],
@@ -69,7 +74,8 @@ impl View<'_> {
         Ok(())
     }
 
-    /// Returns the patches of a body above its largest indentation; otherwise `None`.
+    /// Returns the patches of a body that is above its largest indentation; `None` for any other
+    /// body.
     pub fn turned_patches(&self, state: &State) -> Option<Vec<Patch>> {
         let Phase::Turned(turned) = &state.phase else {
             return None;
@@ -78,7 +84,7 @@ impl View<'_> {
         Some(self.whole(patches.collect()))
     }
 
-    /// Returns patches of the profile before its division.
+    /// Converts patches of the divided profile to patches of the profile before its division.
     pub fn whole(&self, mut patches: Vec<Patch>) -> Vec<Patch> {
         if let Some(division) = self.division {
             for patch in &mut patches {

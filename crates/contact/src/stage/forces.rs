@@ -57,11 +57,17 @@ pub(crate) struct SeparatedEnds {
 
 impl Stage {
     /// Returns the point of the force curve of this motion at an indentation in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
         Ok(self.state(indentation)?.point(self.contact.foundation))
     }
 
     /// Returns the points of the force curve of this motion at ascending indentations in m.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn curve(&self, indentations: &[f64]) -> Result<Vec<CurvePoint>, ContactError> {
         if indentations.is_empty() {
             return Ok(Vec::new());

@@ -139,9 +139,9 @@ impl Jump {
 }
 
 impl StageRecord {
-    /// Returns the range of indentations in m that this motion passes, such that the events above
-    /// the first and up to the second happen on the motion. The first is −∞ if the body touches or
-    /// separates on the motion, because this happens at its end or just below it.
+    /// Returns two indentations in m. All events above the first and up to the second happen on
+    /// this motion. The first is −∞ if the body touches or separates on the motion, because this
+    /// happens at the lower end of the motion or just below it.
     pub fn passed(&self) -> [f64; 2] {
         let is_separated_at_an_end = [self.curve.first(), self.curve.last()]
             .into_iter()
@@ -203,6 +203,9 @@ impl Stage {
 
     /// Returns the force of the whole contact in N before and after each of the `jumps` of this
     /// motion.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn forces_at_jumps(&self, jumps: &[Jump]) -> Result<Vec<[f64; 2]>, ContactError> {
         let mut indentations = Vec::with_capacity(2 * jumps.len());
         for jump in jumps {

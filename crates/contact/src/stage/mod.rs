@@ -178,6 +178,9 @@ impl Stage {
     }
 
     /// Computes the loading that begins with a separated body.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if !contact.has_adhesion() {
             return Ok(Stage::without_adhesion(contact, Direction::Loading));

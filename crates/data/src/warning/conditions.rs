@@ -7,12 +7,13 @@ impl Warning {
     /// Smallest number of springs in contact with which a force is accurate.
     pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
 
-    /// Largest difference between the force at the end of a stage and the force where it should
-    /// end, as a share of the latter, for which the steps of the stepwise solver count as fine.
+    /// Largest relative error of the force at the end of a stage for which the steps of the
+    /// stepwise solver count as fine. The error is the difference between the reached force and the
+    /// target force, divided by the target force.
     pub const LARGEST_EXCESS_OF_FORCE: f64 = 0.01;
 
-    /// Smallest number of steps of the stepwise solver between the deepest and the highest place of
-    /// a loading.
+    /// Smallest number of steps of the stepwise solver between the deepest and the highest position
+    /// of the body in a loading.
     pub const LEAST_STEPS: f64 = 20.0;
 
     /// Smallest number of springs on the shortest wave. With this number the pull-off force of a
@@ -23,12 +24,13 @@ impl Warning {
     /// without a warning.
     pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
 
-    /// Largest relative difference of the rms heights of a profile and of a longer scan for which
-    /// there is no warning.
+    /// Largest relative difference between the rms heights of a profile and of a scan longer than
+    /// the profile, for which there is no warning.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
-    /// Largest length of a profile, divided by the length of the scan, at which the scan lacks only
-    /// few waves of the profile.
+    /// Largest ratio of the length of a profile to the length of the scan for which there is no
+    /// warning that long waves are missing. Up to this ratio the scan lacks only few waves of the
+    /// profile.
     pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.1;
 
     /// Smallest number of the longest waves on the length of a nominally flat body for which the
@@ -47,8 +49,8 @@ impl Warning {
     /// computes.
     pub const JKR_TABOR_NUMBER: f64 = 5.0;
 
-    /// Number of measured profiles from which the rms height, gradient and curvature are as
-    /// accurate as from a map.
+    /// Number of measured profiles from which on the rms height, gradient and curvature are as
+    /// accurate as those of a map.
     pub const MANY_PROFILES: u64 = 100;
 
     /// Share of long waves in the mean squared height of a scan above which the rms height depends
@@ -60,13 +62,13 @@ impl Warning {
     /// quarter of the scan.
     pub const FORM_OF_SCAN: f64 = 0.9;
 
-    /// A warning advises to remove a trend if this removal takes off more than this share of the
-    /// power of the long waves of a scan.
+    /// Share of the power of the long waves of a scan. If the removal of a trend reduces this power
+    /// by more than this share, a warning advises to remove the trend.
     pub const MOST_OF_LONG_WAVES: f64 = 0.5;
 
-    /// Largest ratio of two steps of the height for which opposite ends of a periodic surface meet:
-    /// the step between the ends, divided by the largest step inside. On a truly periodic surface
-    /// the two steps are of about the same size.
+    /// Bound of the step between opposite ends of a periodic surface, divided by the largest step
+    /// between neighbouring points inside the surface. Above this ratio, the ends do not meet. On a
+    /// truly periodic surface the two steps are of about the same size.
     pub const LARGEST_STEP_OF_ENDS: f64 = 2.0;
 
     /// Ratio of the rms gradients of parts of one surface above which a warning reports the
@@ -89,8 +91,9 @@ impl Warning {
     /// Rms height of a surface in m above which the unit of heights is probably wrong.
     pub const IMPROBABLE_HEIGHT: f64 = 1e-3;
 
-    /// Largest radius of a form table, divided by the length of the profile, at which the unit of
-    /// an improbably long table may be right.
+    /// Bound for tables of forms that are longer than any measured body: the largest radius of the
+    /// table, divided by the length of the profile. Above this ratio, the unit of the table is
+    /// probably wrong.
     pub const LARGEST_REACH_OF_FORM: f64 = 100.0;
 
     /// Largest ratio of the rms heights of two surfaces that can be samples of one roughness.
@@ -114,9 +117,9 @@ impl Warning {
     }
 
     /// Returns a warning if the steps of the stepwise solver are too coarse. `step` is the length
-    /// of a step in m, and `way` is the distance in m between the deepest and the highest place of
-    /// the loading. `forces` has, for each stage that ends at a force, this force and the force at
-    /// the end of the stage in N.
+    /// of a step in m, and `way` is the distance in m between the deepest and the highest position
+    /// of the body in the loading. `forces` has an element for each stage that ends at a force: the
+    /// target force, and the force at the end of the stage, both in N.
     pub fn of_steps(step: f64, way: f64, forces: &[[f64; 2]]) -> Option<Warning> {
         let excess = |[target, end]: &[f64; 2]| (end - target).abs() / target.abs();
         let farthest = forces
@@ -132,7 +135,8 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if the shortest wave of the roughness has few springs.
+    /// Returns a warning if the shortest wave of the roughness has few springs. `springs` is the
+    /// number of springs on this wave.
     pub fn of_springs_per_wave(springs: f64) -> Option<Warning> {
         let is_few = springs < Self::LEAST_SPRINGS_PER_WAVE as f64;
         is_few.then_some(Warning::FewSpringsPerWave { springs })
@@ -152,8 +156,8 @@ impl Warning {
         (waves < Self::LEAST_LONG_WAVES).then_some(Warning::FewLongWaves { waves })
     }
 
-    /// Returns a warning if the slopes of a roughness are not small. `is_measured` is true for a
-    /// measured surface.
+    /// Returns a warning if the slopes of a roughness are not small. `rms_gradient` is the rms
+    /// gradient of the roughness. `is_measured` is true for a measured surface.
     pub fn of_gradient(rms_gradient: f64, is_measured: bool) -> Option<Warning> {
         let is_steep = rms_gradient > Self::LARGEST_GRADIENT;
         is_steep.then_some(Warning::SteepRoughness {
@@ -162,7 +166,8 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if the form of a body is steep at the edge of the contact.
+    /// Returns a warning if the form of a body is steep at the edge of the contact. `slope` is the
+    /// slope of the form there.
     pub fn of_slope_of_form(slope: f64) -> Option<Warning> {
         (slope > Self::LARGEST_GRADIENT).then_some(Warning::SteepForm { slope })
     }
@@ -178,7 +183,8 @@ impl Warning {
     }
 
     /// Returns a warning if a scan is longer than the profile, so that the profile has a smaller
-    /// rms height. `rms_heights` are the rms heights in m of the surface and of the profile.
+    /// rms height than the surface. `scan` and `length` are the lengths of the scan and of the
+    /// profile in m. `rms_heights` are the rms heights in m of the surface and of the profile.
     pub fn of_scan(scan: f64, length: f64, rms_heights: [f64; 2]) -> Option<Warning> {
         // A profile as long as the scan has the same waves as the scan.
         let is_longer = scan > length * (1.0 + 1e-9);
@@ -192,8 +198,8 @@ impl Warning {
     }
 
     /// Returns a warning if a profile is longer than the scan of its surface, and if the missing
-    /// long waves matter. `share` is the share of waves longer than a quarter of the scan in the
-    /// mean squared height.
+    /// long waves matter. `scan` and `length` are the lengths of the scan and of the profile in m.
+    /// `share` is the share of waves longer than a quarter of the scan in the mean squared height.
     pub fn of_short_scan(scan: f64, length: f64, share: f64) -> Option<Warning> {
         let is_shorter = length > Self::LONGEST_PROFILE_OF_SCAN * scan;
         let lacks_waves = is_shorter && share > Self::MANY_LONG_WAVES;
@@ -213,7 +219,8 @@ impl Warning {
     }
 
     /// Returns a warning if the rms heights of two surfaces differ too much for samples of the same
-    /// roughness.
+    /// roughness. The two surfaces are the one with the smallest and the one with the largest rms
+    /// height.
     pub fn of_rms_heights(flattest: NamedHeight, roughest: NamedHeight) -> Option<Warning> {
         let ratio = roughest.rms_height / flattest.rms_height;
         (ratio > Self::LARGEST_RATIO_OF_HEIGHTS)
@@ -238,7 +245,7 @@ impl Warning {
     }
 
     /// Returns a warning if opposite ends of a surface that counts as periodic do not meet. `ratio`
-    /// is the ratio of the step between them to the largest step inside.
+    /// is the height of the step between the ends, divided by the largest step inside the surface.
     pub fn of_ends(ratio: f64) -> Option<Warning> {
         (ratio > Self::LARGEST_STEP_OF_ENDS).then_some(Warning::EndsDoNotMeet { ratio })
     }
@@ -255,7 +262,8 @@ impl Warning {
         (ratio > Self::LARGEST_RATIO_OF_SURFACES).then_some(Warning::SurfacesDiffer { ratio })
     }
 
-    /// Returns a warning if the heights of a surface are far from normally distributed.
+    /// Returns a warning if the heights of a surface are far from normally distributed. `skewness`
+    /// and `kurtosis` are those of the heights; for normally distributed heights they are 0 and 3.
     pub fn of_distribution(skewness: f64, kurtosis: f64) -> Option<Warning> {
         let [least, most] = Self::KURTOSIS;
         let is_normal =
@@ -289,7 +297,7 @@ impl Warning {
     }
 
     /// Returns a warning if the number of measured profiles is too small for an accurate rms
-    /// height, gradient and curvature.
+    /// height, gradient and curvature. `profiles` is this number.
     pub fn of_measured_profiles(profiles: u64) -> Option<Warning> {
         (profiles < Self::MANY_PROFILES).then_some(Warning::FewMeasuredProfiles { profiles })
     }

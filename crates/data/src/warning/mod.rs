@@ -47,9 +47,9 @@ pub enum Warning {
         springs: u64,
     },
     /// The steps of the stepwise solver are too coarse for the loading. Either a stage that should
-    /// end at a force passes this force by more than [`Warning::LARGEST_EXCESS_OF_FORCE`]. Or the
-    /// whole loading has fewer than [`Warning::LEAST_STEPS`] steps from its deepest to its highest
-    /// place.
+    /// end at a force passes this force by more than [`Warning::LARGEST_EXCESS_OF_FORCE`], or the
+    /// whole loading has fewer than [`Warning::LEAST_STEPS`] steps between its deepest and its
+    /// highest position.
     CoarseSteps {
         /// Length of a step in m.
         step: f64,
@@ -284,7 +284,7 @@ pub enum Trend {
 pub struct TrendOfScan {
     /// The trend.
     pub trend: Trend,
-    /// Share of the mean squared height of the points that removal of the trend takes off.
+    /// Share by which the removal of the trend would reduce the mean squared height of the points.
     pub share: f64,
 }
 
@@ -331,7 +331,7 @@ impl Warning {
     }
 
     /// Returns true if the warning means that the results belong to another body than the stated
-    /// one. The errors of the results are then unknown.
+    /// one. How large the errors of the results are is then unknown.
     pub fn leaves_errors_unknown(&self) -> bool {
         matches!(self, Warning::ContactAtEnds { .. })
     }
@@ -356,8 +356,8 @@ impl Warning {
         )
     }
 
-    /// Returns the text of the warning. `wording` puts the steps that help into the words of the
-    /// command line, of the explorer or of Python.
+    /// Returns the text of the warning. `wording` returns the words of one interface, such as the
+    /// command line, the explorer or Python, for the steps that help.
     pub fn in_words(&self, wording: Wording) -> String {
         let remedy = self.remedy_in_words(wording);
         match self {

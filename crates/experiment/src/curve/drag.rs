@@ -20,33 +20,34 @@ const RATIO: f64 = 1.3;
 const FARTHEST: f64 = 0.5;
 /// Largest number of points that are tried as the end of the part without contact.
 const ENDS: usize = 60;
-/// Largest root mean square residual, in units of the noise, with which a drag counts as a
-/// description of very many points. For fewer points [`BY_CHANCE`] is added.
+/// Largest root mean square residual, in units of the noise, up to which a drag describes a part of
+/// the curve. This value is for very many points; for fewer points, an allowance by [`BY_CHANCE`]
+/// is added.
 const DESCRIBED: f64 = 1.05;
-/// Allowance for the root mean square residual, in units of its standard error. The standard error
-/// is large if there are few points.
+/// Allowance that is added to the largest root mean square residual, in units of the standard error
+/// of this residual. The standard error is large if there are few points.
 const BY_CHANCE: f64 = 3.0;
-/// Largest mean of the last residuals, in standard errors of this mean, with which a drag counts as
-/// a description of a part without contact up to its end.
+/// Largest mean of the last residuals, in standard errors of this mean, up to which a drag
+/// describes a part without contact to its end.
 const DEVIATES: f64 = 3.5;
 /// Smallest coefficients of a significant drag, in standard errors: first on the approach, second
 /// on the retraction.
 const FOUND: [f64; 2] = [5.0, 3.0];
 /// Distance from first touch, in units of h₀, beyond which points are far from contact.
 const FAR: f64 = 1.0;
-/// The points far from contact count as showing the same drag as all points if the ratio of the two
-/// coefficients of drag, or its inverse, is at most this: first on the approach, second on the
-/// retraction.
+/// Largest ratio of two coefficients of the drag, or of its inverse: from the points far from
+/// contact, and from all points. Up to this ratio, both show the same drag. The first element is
+/// for the approach, the second for the retraction.
 const ALIKE: [f64; 2] = [2.0, 3.0];
-/// Smallest significant coefficient of the approach, in standard errors, if it is computed from
-/// points far from contact alone.
+/// Smallest coefficient of the drag on the approach, in standard errors, that is significant if it
+/// is computed only from points far from contact.
 const FOUND_FAR: f64 = 2.5;
-/// Largest ratio between the drags on approach and retraction. The drag is proportional to the
-/// speed, so this is the largest ratio of the speeds.
+/// Largest ratio of the drag on the approach to the drag on the retraction, or the reverse. The
+/// drag is proportional to the speed, so this is also the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
 
-/// Forces of the drag of a fluid on a body in contact. The program has subtracted the drag from the
-/// curve.
+/// Forces of the drag of a fluid on a body in contact. Reading a curve subtracts the drag from its
+/// forces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DragForce {
@@ -59,7 +60,7 @@ pub struct DragForce {
     pub reach: Option<f64>,
 }
 
-/// Drag of a fluid that was found in the points before and after contact.
+/// Drag of a fluid, found from the points before and after contact.
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
@@ -71,8 +72,8 @@ pub(crate) struct Drag {
     /// retraction.
     pressed: f64,
     pulled: f64,
-    /// Number of points before contact that the drag describes. The field `after` is the number of
-    /// points after contact that the drag describes.
+    /// Number of points before contact from which the drag was found. The field `after` is the
+    /// number of such points after contact.
     pub before: usize,
     pub after: usize,
 }

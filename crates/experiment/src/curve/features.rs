@@ -23,7 +23,8 @@ const AROUND: usize = 4;
 const SHARP: f64 = 3.0;
 /// Number of displacements at which the forces of loading and unloading are compared.
 const COMPARED: usize = 200;
-/// Smallest force at the turning point, in units of the noise, for which a hysteresis is computed.
+/// Smallest force at the turning point, in units of the noise, for which the hysteresis is
+/// computed.
 const PRESSED: f64 = 10.0;
 /// Largest distance of a point of a pause from the median displacement of the pause, as a share of
 /// the range of displacements. Points farther away are not used.
@@ -35,16 +36,16 @@ const END: usize = 20;
 /// Jump of the force of a measured curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ForceJump {
-    /// Index, from 0, of the segment in which the force jumps.
+    /// Index, from 0, of the segment (a single loading or unloading) in which the force jumps.
     pub segment: usize,
     /// Displacement in m at the last point before the jump.
     pub displacement: f64,
-    /// Means of a few forces before and after the jump, N.
+    /// Mean force in N of a few points before the jump, and of a few points after the jump.
     pub forces: [f64; 2],
 }
 
 impl ForceJump {
-    /// Returns the magnitude of the jump, N.
+    /// Returns the magnitude of the jump in N.
     pub fn size(self) -> f64 {
         (self.forces[1] - self.forces[0]).abs()
     }
@@ -55,8 +56,8 @@ impl ForceJump {
 #[non_exhaustive]
 pub struct CurveFeatures {
     /// Number of jumps of the force. A jump is a drop of the force while the body is pressed, or a
-    /// rise of the force while the body is pulled. It occurs within three points, and is larger
-    /// than 6 times the noise and than 1 % of the range of the force.
+    /// rise of the force while the body is pulled, within three points. It must be larger than 6
+    /// times the noise, and larger than 1 % of the range of the force.
     pub jumps: usize,
     /// Largest number of jumps in one segment (a single loading or unloading). A sphere has at most
     /// one.

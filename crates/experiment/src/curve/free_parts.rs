@@ -33,27 +33,30 @@ const PARTS: [usize; 3] = [5, 10, 20];
 /// share, and the force changes there by more than [`NOTABLE`], the segment is in contact from its
 /// first point on.
 const STEEP: f64 = 0.5;
-/// Smallest change of the force that matters for [`STEEP`], as a share of the range of the force.
+/// Smallest change of the force for which the bound [`STEEP`] is applied, as a share of the range
+/// of the force.
 const NOTABLE: f64 = 0.05;
 
 /// Share of the largest tension above which the end of a retraction may still be in contact.
 const HELD: f64 = 0.5;
-/// Tension at the end of a retraction, in units of the noise, below which it is noise.
+/// Tension at the end of a retraction, in units of the noise, up to which it counts as noise.
 const BEYOND_NOISE: f64 = 5.0;
-/// Way of a part without contact whose force is such a tension, divided by the way over which the
-/// tension came about. A body that is held passes the largest tension on a shorter way.
+/// Bound of the ratio of two distances, below which the last points of a nearly straight tension
+/// are still in contact. The first distance is the length of this part of the curve. The second is
+/// the distance over which the tension came about.
 const LONG: f64 = 1.0;
 
-/// Least gain by a parabola over a straight line at the end of a retraction.
+/// Smallest gain of a parabola over a straight line, with which the last points of a retraction
+/// count as a parabola.
 const GAIN_BY_PARABOLA: f64 = 20.0;
-/// Noise of the points at the end about a parabola, divided by the noise between neighbours, up to
-/// which they are a parabola.
+/// Largest ratio of the noise of the last points about a parabola to the noise of neighbouring
+/// points, with which the last points count as a parabola.
 const LIKE_NEIGHBOURS: f64 = 1.5;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoFreePart {
-    /// The segment has too few points.
+    /// The segment has too few points to find where the contact begins.
     Few,
     /// The segment is a straight line, so that no contact is found. `range` is the change of the
     /// force along the line and `noise` the noise of the force, both in N.
@@ -222,13 +225,16 @@ pub(crate) struct FreeParts {
     /// True if the curve ends in contact although its last points look straight: a tension still
     /// holds the body at the end of the last retraction.
     pub ends_in_contact: bool,
-    /// Time and displacement of each point. Both are given as shares of the whole curve.
+    /// Time and displacement of each point, both divided by their range over the whole curve.
     pub shares: [Vec<f64>; 2],
 }
 
 impl FreeParts {
     /// Finds the parts of a curve without contact. Each of the `points` is the mean of `averaged`
     /// points of the file. `least_noise` is the smallest assumed noise in N.
+    ///
+    /// # Errors
+    /// Returns an error if the part without contact has too few points, or if no contact is found.
     pub fn of(
         points: &Points,
         options: &CurveOptions,
@@ -296,10 +302,10 @@ impl FreeParts {
         }
     }
 
-    /// Returns an estimate of the displacement in m at which the contact begins. It is the end of
-    /// the part before contact. For a retraction without an approach, it is the displacement at
-    /// which the compression ends. If such a retraction begins in tension, it is the displacement
-    /// at the middle one of its points in contact.
+    /// Returns an estimate of the displacement in m at which the contact begins. For a curve with
+    /// an approach, this is the end of the part before contact. For a retraction without an
+    /// approach, it is the displacement at which the compression ends. If such a retraction begins
+    /// in tension, it is the displacement of the middle one of the points in contact.
     pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];

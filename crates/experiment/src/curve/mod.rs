@@ -58,8 +58,8 @@ pub struct MeasuredCurve {
     pub drag: Option<DragForce>,
     /// True if the body is out of contact at the end of the last retraction.
     pub detaches: bool,
-    /// Number of points of the file that are used. It is larger than the number of values of
-    /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
+    /// Number of points of the file that are used. In a long curve, neighbouring points are
+    /// averaged, so that there are fewer values in [`Self::force`].
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
@@ -95,12 +95,13 @@ pub struct MeasuredCurve {
 pub(crate) struct SubtractedLines {
     /// True if the zero offset of the force was estimated, and not stated by the options.
     pub has_zero: bool,
-    /// Values of each line, except the constant zero offset, at the points of the curve. A line is
-    /// a contribution that was subtracted from the force, such as a drift.
+    /// Contributions that were subtracted from the force, such as a drift, except the constant zero
+    /// offset. Each element has the values of one contribution at all points of the curve.
     pub columns: Vec<Vec<f64>>,
-    /// Sums of the products of each pair of lines over the points without contact in segments that
-    /// the options leave out. The curve has no points of these segments. The first row and column
-    /// belong to the zero offset, a constant column of ones.
+    /// Sums of products of the subtracted contributions, one sum for each pair of contributions.
+    /// The sums are over the points without contact in segments that the options leave out and of
+    /// which the curve has no points. The first row and column belong to the zero offset, whose
+    /// value is 1 at each point.
     pub elsewhere: Vec<Vec<f64>>,
 }
 

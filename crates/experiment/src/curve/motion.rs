@@ -19,11 +19,11 @@ pub(crate) struct Passage {
 /// Largest difference between the times of the points and those of the pieces, as a share of the
 /// duration of the motion.
 const EVEN: f64 = 0.01;
-/// Factor of this difference as long as a motion has too many pieces.
+/// Factor by which this largest difference is increased as long as a motion has too many pieces.
 const COARSER: f64 = 2.0;
 /// Largest number of pieces of a motion.
 const MOST_PIECES: usize = 12;
-/// Smallest way of a piece, as a share of the way of the motion.
+/// Smallest length of a piece, as a share of the length of the motion.
 const SHORTEST: f64 = 1e-6;
 
 /// Divides a motion in one direction into pieces, so that the times of the points follow from the

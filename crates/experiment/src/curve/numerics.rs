@@ -9,10 +9,11 @@ pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
 /// Smallest number of independent parts that a curve is assumed to have. It limits the number of
 /// points over which correlations of the residuals are added up.
 const RANGES: usize = 20;
-/// Largest number of residuals that are few, and smallest number that show a correlation.
+/// Largest number of residuals that count as few. `LEAST_CORRELATED` is the smallest number of
+/// residuals for which a correlation of neighbours is computed.
 const FEW: usize = 200;
 const LEAST_CORRELATED: usize = 12;
-/// Largest correlation of neighbours that few residuals are taken to have.
+/// Largest correlation of neighbours that is assumed for few residuals.
 const MOST_CORRELATED: f64 = 0.95;
 
 /// Least-squares straight line through evenly spaced values.
@@ -21,7 +22,7 @@ pub(crate) struct Baseline {
     count: f64,
     mean: f64,
     pub slope: f64,
-    /// Standard deviation of the values about the line.
+    /// Standard deviation of the values from the line, in the unit of the values.
     pub noise: f64,
 }
 

@@ -18,18 +18,25 @@ pub(crate) struct Ordered {
     pub points: Points,
     /// Number of neighbouring points of the file whose mean is one of the points.
     pub averaged: usize,
-    /// Name of the column of the displacement if this displacement excludes the deflection of the
-    /// instrument, otherwise `None`.
+    /// Name of the column of displacements if these are displacements of the body, without the
+    /// deflection of the instrument; otherwise `None`.
     pub of_body: Option<String>,
-    /// Phrases of the first sentence of the report on the curve, such as the choice of columns.
+    /// Phrases of the first sentence of the report on the curve, which states for example the
+    /// choice of columns.
     pub assumed: Vec<String>,
-    /// Further sentences of this report.
+    /// Further sentences of the report on the curve.
     pub statements: Vec<Note>,
 }
 
 impl Ordered {
-    /// Takes the statements and the name of the column of the body out of `columns`. `least_noise`
-    /// is the smallest standard deviation in N that the noise of the force can have.
+    /// Puts the points of the file in the order of time, with displacement and force positive where
+    /// the body is pressed. The statements and the name of the column of the body are moved out of
+    /// `columns`. `least_noise` is the smallest standard deviation in N that the noise of the force
+    /// can have.
+    ///
+    /// # Errors
+    /// Returns an error if the curve has only one segment where it needs two, or if the body does
+    /// not approach first.
     pub fn of(
         columns: &mut Columns,
         options: &CurveOptions,

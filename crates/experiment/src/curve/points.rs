@@ -18,7 +18,7 @@ pub(crate) struct Points {
     pub is_still: Vec<bool>,
     /// Time of each point in s; empty if it is not known.
     pub seconds: Vec<f64>,
-    /// Number of points of the file of which each point is the mean.
+    /// For each point, the number of points of the file whose mean it is.
     pub counts: Vec<usize>,
 }
 
@@ -79,6 +79,9 @@ impl Points {
     /// `asked` is given, the signs of the quantities in `asked` are reversed. Otherwise the first
     /// segment shows which signs have to be reversed. Returns the quantities whose signs were
     /// reversed.
+    ///
+    /// # Errors
+    /// Returns an error if the body does not approach first when the signs in `asked` are reversed.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.range_of(self.segment[0]);
         let moved = self.displacement[first.end - 1] - self.displacement[0];

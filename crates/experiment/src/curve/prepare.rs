@@ -101,7 +101,8 @@ impl MeasuredCurve {
     }
 
     /// Creates a curve as [`MeasuredCurve::from_columns`] does, with the time of each point in s. A
-    /// fit with relaxation takes the speed and the rest of the instrument from the times.
+    /// fit with relaxation derives the speed of the instrument, and the time for which it rests,
+    /// from these times.
     ///
     /// # Errors
     /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse

@@ -30,7 +30,8 @@ impl MeasuredCurve {
         Some(curve)
     }
 
-    /// Returns the values of the points of motions, of values of all points of a curve with a rest.
+    /// Returns those of the `values` that belong to points of motions. `values` has a value for
+    /// each point of a curve with a rest.
     pub(crate) fn without_rest<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let mut moving = Vec::with_capacity(values.len());
         for (index, value) in values.iter().enumerate() {

@@ -8,10 +8,11 @@ use asperity_data::quantile;
 /// Smallest distance that the displacement goes back after a turning point, as a share of its
 /// range.
 const TURN: f64 = 0.05;
-/// Share of the range by which the displacement comes back after the turning point of two steady
-/// motions, of which the retraction may be much longer than the approach.
+/// Smallest distance by which the displacement goes back after the turning point between two steady
+/// motions, as a share of its range. The retraction may be much longer than the approach.
 const STEADY_TURN: f64 = 0.01;
-/// Way from point to point of a steady motion, divided by the way from its begin to its end.
+/// Largest length of the path from point to point of a steady motion, divided by the distance from
+/// its beginning to its end.
 const STEADY: f64 = 1.05;
 /// Smallest number of points of a steady motion.
 const FEWEST_STEADY: usize = 20;
@@ -20,7 +21,8 @@ const SMOOTHING: f64 = 1e-3;
 /// Largest change of the displacement during a pause at a turning point, as a share of the range of
 /// displacements.
 const STILL: f64 = 0.01;
-/// This change for a pause of few points, which is found if they stay at nearly one displacement.
+/// Largest change of the displacement during a pause of few points, as a share of the range of
+/// displacements. Such a pause is found if its points stay at nearly one displacement.
 const SHORT_STILL: f64 = 0.001;
 /// Smallest change of the displacement, as a share of its range, with which a part of the file with
 /// the same label counts as a motion. The part must also be about as fast as other parts.
@@ -30,10 +32,12 @@ const FEWEST: usize = 10;
 /// Smallest ratio of the number of points of a pause to the number of points of a motion over the
 /// same distance.
 const MORE: f64 = 8.0;
-/// Distance between the quartiles of the displacements near a turn, as a share of the distance up
-/// to which they count as near, above which they may be those of a motion. An even motion has 0.5.
+/// Smallest distance between the quartiles of the displacements near a turning point, with which
+/// the points may belong to a motion. It is given as a share of the distance up to which points
+/// count as near. For points of an even motion this share is 0.5.
 const SPREAD: f64 = 0.2;
-/// Share of the steps near a turn that a steady motion has in its direction.
+/// Smallest share of the steps from point to point near a turning point that go in the direction of
+/// the motion, if the motion is steady.
 const STEADILY: f64 = 0.85;
 /// Mean distance between consecutive displacements, as a share of their range, above which the rows
 /// of the file are not in the order of time.

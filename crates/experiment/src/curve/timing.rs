@@ -7,13 +7,14 @@ use crate::curve::points::Points;
 use asperity_data::median;
 use std::ops::Range;
 
-/// Largest distance of the displacement during a rest from its median, as a share of the range of
-/// displacements.
+/// Largest distance of a displacement during a rest from the median displacement of the rest, as a
+/// share of the range of displacements.
 const STILL: f64 = 0.002;
-/// Distance from the turn, as a share of the range of displacements, up to which points do not
-/// enter a speed.
+/// Distance from the turning point, as a share of the range of displacements, up to which points
+/// are left out when a speed is computed.
 const NEAR: f64 = 0.01;
-/// Smallest share of the points of a pause that have to stay so close to the median.
+/// Smallest share of the points of a pause that stay within the distance [`STILL`] of the median
+/// displacement, if the pause is a rest.
 const MOST_STAY: f64 = 0.5;
 /// Largest number of points of a rest that a fit uses.
 const MOST_POINTS: usize = 200;
@@ -23,16 +24,17 @@ const FEWEST: usize = 5;
 /// Times of a curve of one approach and one retraction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Timing {
-    /// Speeds of the instrument in m/s, by the times of the points; `None` without times.
+    /// Speeds of the instrument in m/s on approach and retraction, computed from the times of the
+    /// points; `None` without times.
     pub speeds: Option<Speeds>,
-    /// The approach and the retraction in pieces of one speed; empty without times.
+    /// Approach and retraction, each divided into pieces of constant speed; empty without times.
     pub motions: [Vec<Piece>; 2],
-    /// Time in s for which the instrument rests between approach and retraction, by the times of
-    /// the points; `None` without times.
+    /// Time in s for which the instrument rests between approach and retraction, computed from the
+    /// times of the points; `None` without times.
     pub rest: Option<f64>,
     /// Points of this rest, in the order of time.
     pub points: Vec<RestingPoint>,
-    /// True if the instrument rests in contact elsewhere too.
+    /// True if the instrument also rests in contact at another time.
     pub has_other_rests: bool,
 }
 
@@ -41,7 +43,7 @@ pub(crate) struct Timing {
 pub(crate) struct InContact {
     /// Displacement in m at first touch.
     pub touch: f64,
-    /// Index of the first point after the contact.
+    /// Index of the first point after the end of the contact.
     pub end: usize,
 }
 
@@ -59,13 +61,14 @@ pub(crate) struct RestingPoint {
     pub force: f64,
     /// Time in s since the beginning of the rest; `None` without times.
     pub seconds: Option<f64>,
-    /// Values of the subtracted lines at the point.
+    /// Contributions in N that were subtracted from the force at this point, such as a drift.
     pub lines: Vec<f64>,
 }
 
 impl Timing {
-    /// Determines the times. `kept` has the indices of the points of the curve among all `points`,
-    /// `lines` are the subtracted lines at all points, and `contact` is where the body is in contact.
+    /// Determines speeds and rests from the times of the points. `kept` has the indices of the
+    /// points of the curve among all `points`. `lines` are the contributions that were subtracted
+    /// from the force, at all points. `contact` states where the body is in contact.
     pub fn of(points: &Points, kept: &[usize], lines: &[Vec<f64>], contact: InContact) -> Self {
         let touch = contact.touch;
         let is_loop = points.begins_with_approach() && points.last_segment() == 1;

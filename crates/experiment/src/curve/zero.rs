@@ -12,8 +12,8 @@ use asperity_data::{Note, Remedy, format_quantity, mean};
 /// Smallest drift or tilt, in standard errors, that is reported as a change left in the curve.
 const REMAINS: f64 = 5.0;
 /// Largest root mean square deviation of the parts without contact from the fit of drift, tilt and
-/// step, in units of the noise from differences of neighbouring points. With a larger deviation
-/// these parts are not straight.
+/// step, with which these parts count as straight. The unit is the noise computed from the
+/// differences of neighbouring points.
 const CURVED: f64 = 1.5;
 /// Smallest change of the force by a drift or tilt, in units of the deviation from the fit, that is
 /// significant if the parts without contact are not straight.
@@ -137,14 +137,14 @@ impl Residual {
 
 /// Result of the subtraction of zero offset, drift and tilt from the force of a curve.
 pub(crate) struct Subtracted {
-    /// Terms in N that were found but not subtracted: drift, tilt and step. A term that was not
-    /// found is 0.
+    /// Drift, tilt and step of the force in N that were found but not subtracted, in this order.
+    /// The value is 0 if none was found.
     pub remaining: [f64; 3],
     /// Step of the force in N, caused by drag, that was subtracted from the retractions; 0 if there
     /// is none.
     pub step_of_retraction: f64,
-    /// Contributions to the force that were subtracted as lines: for each drift, tilt or step, the
-    /// values at all points. The zero offset is not included.
+    /// Contributions that were subtracted from the force: for each drift, tilt or step, its values
+    /// at all points. The zero offset is not included.
     pub columns: Vec<Vec<f64>>,
     /// Sentences on zero offset, drift, tilt and step, for the report.
     pub statement: Note,
@@ -155,7 +155,12 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Subtracts zero offset, drift and tilt from the force as the options request.
+    /// Subtracts zero offset, drift and tilt from the force, as far as the options request. `noise`
+    /// is the standard deviation of the noise of the force in N.
+    ///
+    /// # Errors
+    /// Returns an error if drift and tilt cannot be distinguished from each other in the part
+    /// without contact.
     pub fn subtract_lines(
         &self,
         points: &mut Points,

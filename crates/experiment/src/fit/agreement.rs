@@ -7,28 +7,32 @@ use asperity_data::format_rounded;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Largest residual in contact, in units of the noise, with which a model describes the curve.
+/// Largest robust root mean square of the residuals in contact, in units of the noise, with which a
+/// model describes the curve.
 pub(crate) const MISFIT: f64 = 1.5;
 /// Share of the largest force above which a residual is counted in
 /// [`Agreement::beyond_one_percent`].
 const NOTABLE: f64 = 0.01;
-/// Largest residual, as a share of the largest force, with which a model describes a curve well.
+/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// describes a curve well.
 const WELL: f64 = 0.01;
-/// Largest residual, as a share of the largest force, with which a model describes a curve roughly.
+/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// describes a curve roughly.
 const ROUGHLY: f64 = 0.03;
 /// Largest share of the points in contact that may lie at jumps. If there are more, they are
 /// treated like all other points.
 const MOST_AT_JUMPS: f64 = 0.1;
 
-/// Agreement of a model with a measured curve, at the points that are in contact in the measurement
-/// or in the model. Points at jumps are counted separately. At such a point the measured force has
-/// already jumped and the force of the model has not, or the reverse.
+/// Agreement of a model with a measured curve. All points count that are in contact in the
+/// measurement or in the model. Points at jumps are counted separately: at such a point the
+/// measured force has already jumped and the force of the model has not, or the reverse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Agreement {
     /// Number of points in contact.
     pub points: usize,
-    /// Root mean square of the residuals in contact without the points at jumps, in N.
+    /// Root mean square in N of the residuals of the points in contact, without points at jumps. A
+    /// residual is the measured force minus the force of the model.
     pub residual: f64,
     /// [`Self::residual`] divided by the largest magnitude of the force of the curve.
     pub residual_over_largest_force: f64,
@@ -93,8 +97,8 @@ pub(crate) struct Comparison {
 }
 
 impl Compared<'_> {
-    /// Computes the agreement at the points in contact. Points at jumps are left out, unless there
-    /// are too many of them.
+    /// Computes the agreement at the points in contact. Points at jumps count separately, unless
+    /// there are too many of them.
     pub fn comparison(&self) -> Comparison {
         let points = self.in_contact.iter().filter(|touches| **touches).count();
         let mut at_jumps = 0;

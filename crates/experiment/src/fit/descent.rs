@@ -1,12 +1,13 @@
 //! Descent to the lowest cost near a place, without derivatives (Nelder and Mead, Comput. J. 7,
 //! 308, 1965).
 
-/// Share of the cost by which the worst corner may exceed the best one at the end, and distance of
-/// both as a share of the first step.
+/// Bounds at which the search ends. `FLAT` is the difference of the costs at the worst and the best
+/// corner, divided by the cost at the best one. `CLOSE` is the largest difference of a coordinate
+/// of the two corners, divided by the first step.
 const FLAT: f64 = 1e-6;
 const CLOSE: f64 = 1e-4;
 
-/// Corner of a simplex.
+/// Corner of a simplex, the figure that a descent moves through the space of coordinates.
 struct Corner {
     place: Vec<f64>,
     cost: f64,
@@ -93,7 +94,8 @@ fn middle_of(corners: &[Corner]) -> Vec<f64> {
     middle
 }
 
-/// Returns the corner at `share` of the way from a place to another one.
+/// Computes the cost at the corner that lies at the share `share` of the way from the place `from`
+/// to the place `to`.
 fn corner<E>(
     from: &[f64],
     to: &[f64],

@@ -7,19 +7,21 @@ use std::ops::Range;
 
 /// Curve that a search compares beside that of its space.
 pub(crate) struct FurtherCurve<'a> {
-    /// Coordinates of this curve alone.
+    /// Coordinates of the parameters of this curve alone. A coordinate is a free parameter on the
+    /// scale of the search.
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
     pub part: PartOfSearch,
 }
 
 impl FurtherCurve<'_> {
-    /// Returns the coordinates of this curve at a place of the search.
+    /// Returns the coordinates of this curve from all coordinates `place` of the search.
     pub fn place(&self, place: &[f64]) -> Vec<f64> {
         self.part.place(place)
     }
 
-    /// Returns the member of this curve at a place of the search, before a comparison.
+    /// Returns this curve's member at the coordinates `place` of the search, before the curve is
+    /// computed.
     pub fn member(&self, place: &[f64]) -> Member {
         Member {
             place: self.place(place),
@@ -32,19 +34,20 @@ impl FurtherCurve<'_> {
 /// Part of a search that belongs to one curve.
 #[derive(Clone, Debug)]
 pub(crate) struct PartOfSearch {
-    /// Index among the coordinates of the search of each coordinate of the curve.
+    /// For each coordinate of the curve, its index among the coordinates of the search.
     pub coordinates: Vec<usize>,
-    /// Index range of the points of the curve among all points.
+    /// Indices of the points of the curve among the points of all curves.
     pub points: Range<usize>,
 }
 
 impl PartOfSearch {
-    /// Returns the coordinates of the curve at a place of the search.
+    /// Returns the coordinates of the curve from all coordinates `place` of the search.
     pub fn place(&self, place: &[f64]) -> Vec<f64> {
         self.coordinates.iter().map(|index| place[*index]).collect()
     }
 
-    /// Returns the coordinates of the curve at several places of the search.
+    /// Returns the coordinates of the curve for several `places`, each of which has all coordinates
+    /// of the search.
     pub fn places(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
         places.iter().map(|place| self.place(place)).collect()
     }

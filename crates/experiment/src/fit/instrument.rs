@@ -99,7 +99,8 @@ impl FittedStiffness<'_> {
         is_free.then_some(self.values[Parameter::Stiffness as usize])
     }
 
-    /// Returns the reason that the fitted stiffness is far from the stated one.
+    /// Returns the reason to doubt a fitted stiffness: it is far from the stated stiffness. Returns
+    /// `None` otherwise.
     pub fn far_from_stated(&self) -> Option<Reason> {
         let found = self.found()?;
         let stated = self.stated?;
@@ -108,8 +109,13 @@ impl FittedStiffness<'_> {
         is_far.then_some(Reason::StiffnessFarFromStated { found, stated })
     }
 
-    /// Returns sentences on a stiffness that was fitted with a known modulus: what it means for the
-    /// sensitivity on a hard specimen, or that the specimen is not hard enough to find it.
+    /// Returns sentences on a stiffness of the instrument that was fitted while the modulus was
+    /// known. If the specimen is hard, the sentences state what the stiffness means for the
+    /// sensitivity of the instrument. Otherwise they state that the specimen is not hard enough to
+    /// find the stiffness.
+    ///
+    /// # Errors
+    /// Returns an error if the elastic contact of the specimen cannot be computed.
     pub fn sentences(&self, contact: &Contact) -> Result<Vec<Note>, ExperimentError> {
         let Some(found) = self.found() else {
             return Ok(Vec::new());

@@ -29,8 +29,9 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Prepares the fit of the lines of a curve. `has_zero` is true if the zero of the force is a
-    /// free parameter of the fit; the zero is then not one of the lines.
+    /// Prepares the fit of contributions to the measured force, such as zero and drift. `has_zero`
+    /// is true if the zero of the force is a free parameter of the fit; it is then not one of the
+    /// contributions.
     pub fn new(curve: &MeasuredCurve, has_zero: bool) -> Self {
         let in_contact = curve.in_contact();
         let first = usize::from(has_zero || !curve.subtracted.has_zero);
@@ -74,16 +75,16 @@ impl Lines {
         }
     }
 
-    /// Adds the lines of a further curve, whose points follow those of the curves before.
+    /// Adds the contributions to the forces of a further curve, whose points follow those of the
+    /// earlier curves.
     pub fn push(&mut self, lines: Lines) {
         self.further.push(lines);
     }
 
-    /// Fits the lines, which are contributions to the measured force such as the zero and the
-    /// drift, to the residuals, and returns what remains of the residuals. All numbers are in units
-    /// of the noise without contact. The fit assumes the standard deviation `noise` for a residual
-    /// in contact, and 1 for any other residual. A residual above 5 of its own standard deviations
-    /// enters the fit as 5 of them.
+    /// Fits contributions to the measured force, such as zero and drift, to the residuals, and
+    /// returns what remains of the residuals. All numbers are in units of the noise without
+    /// contact. The fit assumes the standard deviation `noise` for a residual in contact, and 1 for
+    /// any other residual. A residual above 5 standard deviations counts as 5 standard deviations.
     pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
         let (own, mut others) = residuals.split_at(self.in_contact.len());
         let mut refined = self.refined_of_curve(own, noise);

@@ -48,8 +48,7 @@ pub(crate) struct Model<'a> {
     scene: CheckedScene,
     simulation: &'a mut Simulation,
     contact: Option<ContactOfForm>,
-    /// Accuracy of the computed forces. It is given as a noise, in units of the noise of the curve,
-    /// and is at least 1.
+    /// Error of the computed forces, in units of the noise of the curve; at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
@@ -66,7 +65,7 @@ struct ContactOfForm {
 pub(crate) struct Sampling {
     pub stiffness: f64,
     pub points: usize,
-    /// Size in N of the smallest jump of the force at whose both ends the curve gets points.
+    /// Size in N above which a jump of the force gets a point at each of its ends.
     pub least_jump: f64,
 }
 
@@ -163,6 +162,10 @@ impl<'a> Model<'a> {
 
     /// Computes the forces in N at all points of the measured curve, for the given values of the
     /// parameters.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
@@ -176,10 +179,14 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns for each point of the curve at which the force of the model jumps, how far the force
-    /// reaches below and above its value at the point, in N. A jump counts if it lies between the
-    /// previous and the next point and is at least `least` N. The element is `None` for a point
-    /// without such a jump.
+    /// Returns for each point of the curve the range of forces over which the model jumps near the
+    /// point, or `None` if it does not jump there. A jump counts if it lies between the previous
+    /// and the next point and is at least `least` N. The range is given relative to the force of
+    /// the model at the point, in N.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -222,6 +229,10 @@ impl<'a> Model<'a> {
     /// `least` N. Second, its measured force lies inside the jump, or nearer to the force of the
     /// model beyond the jump than to the force of the model at the point. All points between such a
     /// point and the jump have to lie on the wrong side too.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow the values, or if its force curve cannot be
+    /// computed.
     pub fn distances_from_jumps(
         &mut self,
         values: &Values,
@@ -552,6 +563,9 @@ impl Sampling {
     }
 
     /// Returns the force curve of an unloading from the indentation `from` in m to separation.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn pull(self, stage: &Stage, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = stage.end().min(from);
         let separated = CurvePoint {
@@ -563,10 +577,13 @@ impl Sampling {
         self.over(stage, [end, from], 2, Some(separated))
     }
 
-    /// Returns the force over the displacement of a stage, which is one motion of the body, between
-    /// two indentations in m. A larger `power` makes the points denser near the lower indentation.
-    /// The points include both ends of all jumps of at least [`Self::least_jump`], and the point
-    /// `free` without contact.
+    /// Returns the force of a stage as a function of the displacement, between the two indentations
+    /// `range` in m. A stage is one motion of the body. A larger `power` makes the points denser
+    /// near the lower indentation. The points include both ends of each jump of at least
+    /// [`Self::least_jump`], and the point `free` without contact.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn over(
         self,
         stage: &Stage,

@@ -32,9 +32,11 @@ pub enum Parameter {
     /// Distance b in m between the apexes of the first two spheres on one probe, in the direction of
     /// motion. The apex of the second sphere is behind the apex of the first sphere.
     Behind,
-    /// Share s of the modulus that relaxes. The effective modulus is then the modulus at once.
+    /// Share s of the modulus that relaxes, from 0 to 1. The parameter `Modulus` is then the
+    /// instantaneous modulus, before any relaxation.
     RelaxationShare,
-    /// Relaxation time τ in s.
+    /// Relaxation time τ in s: the time in which the part of the modulus that still has to relax
+    /// falls by the factor e.
     RelaxationTime,
 }
 
@@ -130,7 +132,7 @@ impl Parameter {
         matches!(self, Parameter::SecondRadius | Parameter::Behind)
     }
 
-    /// Returns true for a parameter that only a body on a half-space that relaxes has.
+    /// Returns true for a parameter of the relaxation of the half-space.
     pub fn is_of_relaxation(self) -> bool {
         matches!(self, Parameter::RelaxationShare | Parameter::RelaxationTime)
     }
@@ -242,8 +244,8 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed
-/// from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
+/// Parameter that a fit searches, with the range of the search if one is given. The parameter can
+/// be parsed from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
@@ -364,13 +366,16 @@ pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit of the coordinate in the SI unit of the parameter. It is used for a parameter that may
-    /// be positive or negative, for the work of adhesion and for the share that relaxes.
+    /// Scale of the coordinate, as a value of the parameter in its SI unit. For much smaller values
+    /// of the parameter, the coordinate is the value divided by this scale. The scale is used for a
+    /// parameter that may be positive or negative, for the work of adhesion, and for the share that
+    /// relaxes.
     pub unit: f64,
 }
 
 impl Coordinate {
-    /// Returns the coordinate of a value of the parameter. `values` contains the other parameters.
+    /// Returns the coordinate of a value of the parameter: the value on the scale of the search.
+    /// `values` has the other parameters.
     pub fn of(&self, value: f64, values: &Values) -> f64 {
         match self.parameter {
             Parameter::Work | Parameter::RelaxationShare => (value / self.unit).asinh(),
@@ -387,7 +392,8 @@ impl Coordinate {
         }
     }
 
-    /// Returns the value of the parameter at a coordinate. `values` contains the other parameters.
+    /// Returns the value of the parameter at a coordinate, its value on the scale of the search.
+    /// `values` has the other parameters.
     pub fn value(&self, coordinate: f64, values: &Values) -> f64 {
         match self.parameter {
             Parameter::Work | Parameter::RelaxationShare => coordinate.sinh() * self.unit,
@@ -406,7 +412,7 @@ impl Coordinate {
         (self.range.0.min(work), self.range.1.min(work))
     }
 
-    /// Returns the coordinates of both ends of the range.
+    /// Returns the coordinates of the lower and the upper end of the range.
     pub fn ends(&self) -> (f64, f64) {
         if self.parameter == Parameter::ClosingWork {
             return (0.0, 1.0);

@@ -16,7 +16,8 @@ pub(crate) const WRONG_SIDE: f64 = 5.0;
 pub(crate) struct Member {
     pub place: Vec<f64>,
     pub residuals: Vec<f64>,
-    /// True for each point of the curve that is in contact in the measurement or in the model.
+    /// For each point of the curve, true if the point is in contact in the measurement or in the
+    /// model.
     pub in_contact: Vec<bool>,
 }
 
@@ -35,9 +36,9 @@ impl Member {
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
-    /// Noise for which the costs are computed, in units of the noise of the curve.
+    /// Standard deviation of the noise that the costs assume, in units of the noise of the curve.
     pub noise: f64,
-    /// Best member so far.
+    /// Best member so far. A member is a set of values of the parameters.
     pub best: Member,
     /// Cost of the best member.
     pub cost: f64,
@@ -52,7 +53,8 @@ impl Population {
         }
     }
 
-    /// Returns the number of different members.
+    /// Returns the number of members that differ from each other. A member is a set of values of
+    /// the parameters.
     pub fn distinct(&self) -> usize {
         let mut count = 0;
         for (index, member) in self.members.iter().enumerate() {
@@ -64,8 +66,8 @@ impl Population {
         count
     }
 
-    /// Returns the extent of the population in each coordinate: the logarithm of the standard
-    /// deviation of the members.
+    /// Returns the extent of the population in each coordinate: the natural logarithm of the
+    /// standard deviation of the members.
     pub fn log_extents(&self) -> Vec<f64> {
         let count = self.members.first().map_or(0, |member| member.place.len());
         let mut extents = Vec::with_capacity(count);
@@ -77,14 +79,14 @@ impl Population {
         extents
     }
 
-    /// Returns true if most members differ from each other, so that the next step of the search can
-    /// be taken.
+    /// Returns true if the members have moved enough for the next step of the search: most of them
+    /// differ from each other.
     pub fn has_moved(&self) -> bool {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
 
-    /// Returns true if the extent of the population is meaningful. Returns false if most members
-    /// are copies of others.
+    /// Returns true if the extent of the population is meaningful. It is not if most members are
+    /// copies of others.
     pub fn has_spread(&self) -> bool {
         self.distinct() as f64 >= DISTINCT * self.members.len() as f64
     }

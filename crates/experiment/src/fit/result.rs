@@ -15,22 +15,23 @@ pub struct FittedParameter {
     /// Parameter of the scene or of the curve that was fitted.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value with which the scene describes the curve best.
+    /// Value, in the SI unit of the parameter, with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval of the value. If [`FitResult::has_other_profile`]
-    /// is true, the value is not known, and the interval is the whole [`Self::range`]. The offset
-    /// and the zero are exceptions.
+    /// Lower and upper end of the 95 % interval of the value, in the SI unit of the parameter. If
+    /// [`FitResult::has_other_profile`] is true, the value is not known, and the interval is the
+    /// whole [`Self::range`]. The parameters `Offset` and `Zero` are exceptions.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error of the value due to the noise of the force. If the model does not describe
-    /// the curve, the standard error is at least the scatter of the value between parts of the
-    /// curve (jackknife).
+    /// Standard error of the value due to the noise of the force, in the SI unit of the parameter.
+    /// If the model does not describe the curve, the standard error is at least the scatter of the
+    /// value between parts of the curve (jackknife).
     pub noise_error: f64,
-    /// Value with which the fit begins. It is an estimate from the curve. For the force F₀ it is 0,
-    /// and for the radius it is the value in the scene. If this value is outside [`Self::range`],
-    /// the fit begins at the nearer end of the range.
+    /// Value with which the fit begins, in the SI unit of the parameter. It is an estimate from the
+    /// curve. For the force F₀ it is 0, and for the radius it is the value in the scene. If this
+    /// value is outside [`Self::range`], the fit begins at the nearer end of the range.
     pub start: f64,
-    /// Lower and upper end of the range in which the value was searched.
+    /// Lower and upper end of the range in which the value was searched, in the SI unit of the
+    /// parameter.
     pub range: (f64, f64),
     /// End of the range at which the best value lies. The value is then only a bound, and
     /// [`Self::interval`] is the whole range. `None` for a value inside the range.
@@ -91,9 +92,9 @@ impl FittedParameter {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RelaxedModulus {
-    /// Value with the parameters that describe the curve best.
+    /// Value in Pa for the parameters with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval.
+    /// Lower and upper end of the 95 % interval in Pa.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
 }

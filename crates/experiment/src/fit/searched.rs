@@ -33,7 +33,7 @@ pub(crate) struct Searched {
 }
 
 impl Searched {
-    /// Returns the residuals in the form in which they are compared with the force of the curve.
+    /// Returns the residuals together with the force of the curve, with which they are compared.
     pub fn compared<'a>(&'a self, curve: &'a MeasuredCurve) -> Compared<'a> {
         Compared {
             curve,

@@ -46,17 +46,19 @@ const AT_END: f64 = 0.01;
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
-    /// Number of coordinates of the curve. Coordinates after these belong to further curves.
+    /// Number of coordinates of the first curve. The coordinates after these belong to further
+    /// curves.
     pub own: usize,
     /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
-    /// Sets of parameter values at which further descents of the fit begin.
+    /// Further sets of parameter values at which descents of the fit begin.
     pub other_starts: Vec<Values>,
-    /// Sets of parameter values with other relaxations, at which further descents begin.
+    /// Further sets of parameter values, which differ in the relaxation, at which descents begin.
     pub relaxations: Vec<Values>,
-    /// Time in s of the motion in contact and of the rest, if the half-space relaxes. The coordinate
-    /// of the share is that of the part of the modulus that relaxes in this time, because a curve
-    /// that is short against the relaxation time determines this part alone.
+    /// Time in s that the body spends in contact, including the rest of the instrument; `None` if
+    /// the half-space does not relax. In a time that is short compared with the relaxation time, a
+    /// curve determines only which part of the modulus relaxes within this time. The coordinate of
+    /// the parameter `RelaxationShare` is therefore that of this part.
     pub seconds_in_contact: Option<f64>,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
@@ -296,6 +298,11 @@ impl Ranges<'_> {
 impl<'a> Space<'a> {
     /// Checks the free parameters and the scene. Returns the document, in which works of adhesion
     /// replace κ, and the coordinates of the fit.
+    ///
+    /// # Errors
+    /// Returns an error if no parameter is free, if a parameter is given twice, if the scene lacks
+    /// a free parameter or does not suit a fit, if the curve turns before contact, or if the
+    /// contact cannot be computed.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,
@@ -377,8 +384,8 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns the values of all parameters at a place, which has one coordinate for each free
-    /// parameter. The coordinates of further curves do not count.
+    /// Returns the values of all parameters. `place` has one coordinate for each free parameter:
+    /// its value on the scale of the search. The coordinates of further curves are ignored.
     pub fn values(&self, place: &[f64]) -> Values {
         let mut values = self.base;
         let coordinates = self.coordinates.iter().zip(place);
@@ -419,7 +426,9 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Returns the coordinates of samples in which that of the share is that of the share itself.
+    /// Returns the same samples with another coordinate of the parameter `RelaxationShare`: the
+    /// coordinate of the whole share that relaxes, instead of the part that relaxes within
+    /// [`Self::seconds_in_contact`].
     pub fn with_whole_shares(&self, places: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut whole = places.to_vec();
         if let Some(index) = self.share_of_coordinate() {
@@ -432,7 +441,7 @@ impl<'a> Space<'a> {
         whole
     }
 
-    /// Returns the nearest place that lies within the ranges of all coordinates.
+    /// Returns the coordinates that are nearest to `place` and lie within their ranges.
     pub fn inside(&self, place: &[f64]) -> Vec<f64> {
         let coordinates = self.coordinates.iter().zip(place);
         let inside = coordinates.map(|(coordinate, position)| {
@@ -449,7 +458,7 @@ impl<'a> Space<'a> {
         inside
     }
 
-    /// Returns true if each coordinate of a place lies within its range.
+    /// Returns true if each coordinate of `place` lies within its range.
     pub fn contains(&self, place: &[f64]) -> bool {
         let are_inside = self
             .coordinates
@@ -473,8 +482,8 @@ impl<'a> Space<'a> {
     }
 
     /// Returns the free parameters with larger ranges, if a coordinate of `place` lies at an end of
-    /// its range and the user did not give this range. Otherwise, or if scenes allow no larger
-    /// range, returns `None`. `given` are the free parameters as the user gave them, and `free` are
+    /// its range and the user did not give this range. Returns `None` otherwise, and if scenes
+    /// allow no larger range. `given` are the free parameters as the user gave them, and `free` are
     /// those of the search.
     ///
     /// Larger ranges may be needed for two reasons. The pull-off force of a rough body may be a
@@ -510,10 +519,9 @@ impl<'a> Space<'a> {
         is_wider.then_some(wider)
     }
 
-    /// Returns the end of the range at which coordinate number `index` of a place lies. Returns
-    /// `None` if this coordinate lies inside its range. Some ends are possible values, and give
-    /// `None` too: a work of adhesion of 0, and a work of adhesion on closing equal to that on
-    /// opening.
+    /// Returns the end of its range at which the coordinate with the index `index` in `place` lies.
+    /// Returns `None` if it lies inside its range. Also returns `None` if the end is a possible
+    /// value: a work of adhesion of 0, or a work of adhesion on closing equal to that on opening.
     pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
@@ -550,9 +558,9 @@ impl<'a> Space<'a> {
         coordinate.of(value, values)
     }
 
-    /// Returns the coordinates that belong to these values of the parameters. Further curves have
-    /// the coordinates of their starts. A coordinate outside its range is replaced by the nearer end
-    /// of the range.
+    /// Returns the coordinates of these values of the parameters. Further curves get the
+    /// coordinates of their initial values. A coordinate outside its range is replaced by the
+    /// nearer end of the range.
     pub fn place(&self, values: &Values) -> Vec<f64> {
         let mut place = Vec::with_capacity(self.coordinates.len());
         for (index, coordinate) in self.coordinates.iter().enumerate() {
@@ -566,8 +574,9 @@ impl<'a> Space<'a> {
         self.inside(&place)
     }
 
-    /// Divides the points in contact of each segment into consecutive parts, and returns the
-    /// indices of the points in each part. Parts depend on each other less than single points do.
+    /// Divides the points in contact of each segment into consecutive blocks, and returns the
+    /// indices of the points in each block. The residuals of different blocks depend on each other
+    /// less than those of single points do.
     pub fn blocks(&self, in_contact: &[bool]) -> Vec<Vec<usize>> {
         let mut blocks = Vec::new();
         let mut start = 0;
@@ -584,8 +593,8 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Returns the lines of the curve: contributions to the force, such as its zero, that are
-    /// fitted again for each computed model.
+    /// Returns the contributions to the force of the curve, such as its zero, that are fitted again
+    /// for each computed model.
     pub fn lines(&self) -> Lines {
         let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
         Lines::new(self.curve, self.coordinates.iter().any(is_zero))

@@ -46,8 +46,7 @@ pub(crate) struct Known {
 /// Initial values of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Starts {
-    /// Work of adhesion in J/m² with which a smooth body would have the pull-off force of the
-    /// curve.
+    /// Work of adhesion in J/m² with which a smooth body would have the measured pull-off force.
     pub work: f64,
     /// Work of adhesion in J/m² below which the pull-off force of a smooth body would be hidden by
     /// the noise.
@@ -59,7 +58,7 @@ pub(crate) struct Starts {
     pub stiffness: f64,
     /// Displacement in m at first touch.
     pub touch: f64,
-    /// Distance in m that the instrument moves from first touch to the largest force.
+    /// Distance in m by which the instrument moves from first touch to the largest force.
     pub way: f64,
 }
 
@@ -68,6 +67,9 @@ impl Starts {
     /// work of adhesion follows from the pull-off force, as if the body were smooth. The contact
     /// point is the one that was found when the curve was read, unless the extrapolated loading
     /// gives a very different one.
+    ///
+    /// # Errors
+    /// Returns an error if the contact without adhesion cannot be computed.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,

@@ -88,7 +88,7 @@ pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
     pub standard_deviation: f64,
-    /// Quantiles of the values at 2.5 % and 97.5 %, which are the ends of the 95 % interval.
+    /// Ends of the 95 % interval: the quantiles of the values at 2.5 % and 97.5 %.
     pub interval: (f64, f64),
 }
 

@@ -40,8 +40,9 @@ struct Specimen<'a> {
 
 impl Fit<'_> {
     /// Fits the free parameters to several curves of one specimen together, on one thread. The
-    /// curves share all parameters but the offset and the zero, of which each curve has its own.
-    /// With relaxation each curve has the speed of its own times, or else that of the scene.
+    /// curves have the same values of all parameters except the offset and the zero, of which each
+    /// curve has its own. With relaxation, the speed of each curve follows from the times of its
+    /// points, or from the scene if the curve has no times.
     ///
     /// Returns a result for each curve, in which the shared parameters have the same values and
     /// intervals. The result of a single curve is that of [`Fit::run`].

@@ -36,8 +36,8 @@ pub(crate) struct TwoContacts {
 }
 
 impl TwoContacts {
-    /// Estimates these properties from the jumps of a curve. `stiffness` is the stiffness of the
-    /// instrument in N/m, infinite for a rigid instrument.
+    /// Estimates the properties of the two spheres from the jumps of a curve. `stiffness` is the
+    /// stiffness of the instrument in N/m, infinite for a rigid instrument.
     pub fn of(curve: &MeasuredCurve, stiffness: f64) -> Self {
         let compliance = 1.0 / stiffness;
         let of_body = |jump: &ForceJump| jump.displacement - compliance * jump.forces[0];
@@ -54,10 +54,10 @@ impl TwoContacts {
         }
     }
 
-    /// Returns the values of all parameters at which further descents of the fit begin. These are
-    /// the values `start` with other radii and other distances of the apexes, if these parameters
-    /// are free. Several starts are needed because a single detachment may be that of both spheres.
-    /// `way` is the distance in m that the instrument moves in contact.
+    /// Returns further sets of parameter values at which descents of the fit begin. They are the
+    /// values `start` with other radii and other distances of the apexes, as far as these
+    /// parameters are free. Several sets are needed because a single detachment may be that of both
+    /// spheres. `way` is the distance in m that the instrument moves in contact.
     pub fn other_starts(
         &self,
         start: &Values,

@@ -37,7 +37,7 @@ pub(crate) struct Pair {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TimeColumn {
     pub place: usize,
-    /// SI value of one unit, such as 1e-3 for ms.
+    /// Size of the unit in SI units, such as 1e-3 for ms.
     pub unit: f64,
 }
 
@@ -54,8 +54,8 @@ pub(crate) struct Choice {
     /// Travel of the piezo in m, if the file has forces without displacements. The forces are then
     /// evenly spaced over this travel.
     pub ramp: Option<f64>,
-    /// Name of the column of the displacement if this displacement excludes the deflection of the
-    /// instrument, otherwise `None`.
+    /// Name of the column of displacements if these are displacements of the body, without the
+    /// deflection of the instrument; otherwise `None`.
     pub of_body: Option<String>,
     /// Text for the report that describes the chosen columns and their units.
     pub assumed: String,
@@ -73,6 +73,10 @@ pub(crate) struct Stated<'a> {
 
 impl Choice {
     /// Chooses the columns of displacement, force and segment by their names and units.
+    ///
+    /// # Errors
+    /// Returns an error if the names and units do not determine the columns of displacement and
+    /// force.
     pub fn new(
         columns: &[TextColumn],
         stated: Stated<'_>,

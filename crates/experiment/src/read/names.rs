@@ -8,8 +8,8 @@ pub(crate) struct Quantity {
     pub term: &'static str,
     pub si_unit: &'static str,
     pub unit_example: &'static str,
-    /// Known names of columns of this quantity, separated by spaces. Each name has only letters and
-    /// digits in lower case, as [`letters`] returns them. Preferred names come first.
+    /// Known names of columns of this quantity, separated by blanks. The preferred names come
+    /// first. Names have only letters and digits in lower case, as [`letters`] returns them.
     pub names: &'static str,
 }
 

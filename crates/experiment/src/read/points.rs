@@ -19,7 +19,8 @@ const WILD: f64 = 10.0;
 /// Label that a file gives to the points of one part of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Number of the part. It increases where the name of the segment changes in the file.
+    /// Index of the part of the file to which the point belongs. A new part begins where the name
+    /// of the segment changes in the file.
     pub part: usize,
     /// True if the instrument pauses in this part, according to the name of the part.
     pub is_pause: bool,
@@ -50,8 +51,8 @@ pub(crate) struct Columns {
     pub missing: usize,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if this displacement excludes the deflection of the
-    /// instrument, otherwise `None`.
+    /// Name of the column of displacements if these are displacements of the body, without the
+    /// deflection of the instrument; otherwise `None`.
     pub of_body: Option<String>,
     /// Text for the report that describes the chosen columns and their units.
     pub assumed: String,
@@ -69,6 +70,10 @@ impl Columns {
     /// Creates columns from displacements in m and forces in N. A point with a value that is not
     /// finite is left out.
     /// `seconds` are the times of the points in s, or nothing.
+    ///
+    /// # Errors
+    /// Returns an error if the slices differ in length, if a value is larger than an instrument
+    /// could measure, or if a few displacements are far from all others.
     pub fn of_arrays(
         displacement: &[f64],
         force: &[f64],
@@ -301,6 +306,10 @@ impl Rows {
 
     /// Adds the points of a row. `value` returns the number in a column, or NaN if the number is
     /// missing. `text` returns the text of a cell.
+    ///
+    /// # Errors
+    /// Returns an error if a number of the row cannot be read, or is larger than an instrument
+    /// could measure.
     pub fn take<'a>(
         &mut self,
         place: &Place,

@@ -200,7 +200,7 @@ impl SeveralCurves {
         self.curves.get(index)?.stated.position()
     }
 
-    /// Returns the text of one curve: the lines above all curves, and its own lines.
+    /// Returns the text of one curve: its own lines, after the lines above all curves.
     pub fn text(&self, index: usize) -> String {
         let Some(rows) = self.curves.get(index) else {
             return String::new();
@@ -217,9 +217,9 @@ impl SeveralCurves {
         text
     }
 
-    /// Returns the text of one curve after empty lines, which give each of its own lines the number
-    /// that it has in the whole text. An error in this text names the right line. It takes longer
-    /// to read than [`SeveralCurves::text`].
+    /// Returns the text of one curve after empty lines. Their number is such that each line of the
+    /// curve has the number that it has in the whole text, so that an error names the right line.
+    /// This text takes longer to read than [`SeveralCurves::text`].
     pub fn text_with_line_numbers(&self, index: usize) -> String {
         let begin = self.curves.get(index).map_or(0, |rows| rows.begin);
         "\n".repeat(begin.saturating_sub(self.head)) + &self.text(index)

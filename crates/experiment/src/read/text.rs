@@ -60,7 +60,8 @@ impl Shape {
         matches!(cell, TextCell::Number(_))
     }
 
-    /// Returns true for a cell that is neither a number nor a missing value.
+    /// Returns true for a cell with a text that is neither a number nor the mark of a missing
+    /// value.
     pub fn is_word(&self, cell: &str) -> bool {
         let cell = Decimal::default().read(cell, self.separator);
         matches!(cell, TextCell::NoNumber)
@@ -187,7 +188,7 @@ impl Above {
     }
 
     /// Returns true if the first row of numbers is in the same line as the names of the columns.
-    /// This row cannot be read.
+    /// Such a table cannot be read.
     pub fn has_merged(&self) -> bool {
         self.merged.is_some()
     }

@@ -229,8 +229,9 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     (first < contour.level) != (second < contour.level)
 }
 
-/// Returns a character, with its style, that shows the middle of one of the five steps of the
-/// values of a map. Step 0 has the lowest values.
+/// Returns a character with its style, as it shows a value of a heat map in a terminal. The range
+/// of the values is divided into five steps, and the value is the middle of step number `step`.
+/// Step 0 has the lowest values.
 pub fn shade_sample(map: &HeatMap, step: usize, palette: Palette) -> (&'static str, Style) {
     if palette.has_shades() {
         let colour = map.shades.at((step as f64 + 0.5) / SHADES.len() as f64);

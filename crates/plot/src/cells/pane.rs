@@ -36,7 +36,8 @@ const WITH_CONTACT: u16 = 5;
 pub struct PaneChart {
     /// Main chart, which has the largest part of the pane.
     pub chart: Chart,
-    /// Further texts beside points of the main chart, in addition to the names of the curves.
+    /// Further texts to be written beside points of the main chart, in addition to the names of the
+    /// curves.
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
@@ -57,8 +58,9 @@ pub struct ContactRow {
     /// the spring is pressed; `None` for a spring without contact. If the list is empty, the row is
     /// not drawn.
     pub springs: Vec<Option<f64>>,
-    /// Part of the horizontal axis that is enclosed in brackets, as the positions of its two ends
-    /// from 0 (left end of the axis) to 1 (right end); `None` for no brackets.
+    /// Part of the horizontal axis that is enclosed in brackets, given by its left and its right
+    /// end. An end is a position from 0 (left end of the axis) to 1 (right end). `None` for no
+    /// brackets.
     pub marked: Option<(f64, f64)>,
 }
 

@@ -114,9 +114,10 @@ impl CellPlot {
         }
     }
 
-    /// Returns the point (x, y) on the axes of the chart that a cell of the screen shows. The cell
-    /// is given as (column, row). If the chart has a heat map, x and y are the axis values of the
-    /// map cell that is drawn at this place. A cell outside the heat map gives `None`.
+    /// Returns the point (x, y) on the axes of the chart that a cell of the screen shows. `cell` is
+    /// the (column, row) of this cell. If the chart has a heat map, x and y are the axis values of
+    /// the cell of the map that is drawn there, and a cell of the screen outside the map gives
+    /// `None`.
     pub fn data_at(&self, chart: &Chart, cell: (u16, u16)) -> Option<(f64, f64)> {
         let (column, row) = cell;
         let plot = self.plot;
@@ -136,8 +137,8 @@ impl CellPlot {
     }
 
     /// Returns the cell of the screen, as (column, row), that contains the point (x, y) on the axes
-    /// of the chart. A point outside the chart gives `None`. If the chart has a heat map, a point
-    /// outside gives the nearest cell at the edge instead.
+    /// of the chart. Returns `None` for a point outside the chart. If the chart has a heat map,
+    /// returns the nearest cell of the screen at the edge of the map for such a point.
     pub fn cell(&self, chart: &Chart, point: (f64, f64)) -> Option<(u16, u16)> {
         let (x, y) = point;
         let plot = self.plot;
@@ -201,8 +202,9 @@ impl CellPlot {
         self.draw_signs(buffer, chart, palette);
     }
 
-    /// Shades the area inside the loop of a chart and the area of the rigid body. They are drawn
-    /// after all texts, because texts are written in blank cells.
+    /// Shades two areas of the chart: inside its loop, and below the profile of the rigid body.
+    /// This function is called after all texts have been written, because texts are written only in
+    /// blank cells.
     pub fn draw_grounds(&self, buffer: &mut Buffer, chart: &Chart, palette: Palette) {
         if self.plot.is_empty() {
             return;

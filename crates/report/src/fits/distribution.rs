@@ -82,8 +82,8 @@ type Bar = ((f64, f64), (f64, f64));
 /// Histogram of the first parameter over the curves.
 pub(super) struct Histogram {
     pub described: Vec<Bar>,
-    /// Bars of the curves that the model does not describe. They are stacked on the bars of the
-    /// described curves.
+    /// Bars of the curves that the model does not describe. They are drawn on top of the bars of
+    /// the described curves.
     pub others: Vec<Bar>,
     /// Largest number of curves in a bar, at least 1.
     pub most: f64,

@@ -80,10 +80,10 @@ impl RowWarning {
     }
 }
 
-/// Names of the columns after the parameters. `pull_off_work` is the work of adhesion of a smooth
-/// sphere with the pull-off force of the curve. The residuals are those in contact. The next three
-/// numbers follow from the curve without the scene. The last two are the coordinates of the place
-/// on the specimen.
+/// Names of the columns after the parameters. `pull_off_work` is the work of adhesion with which a
+/// smooth sphere would have the pull-off force of the curve. The residuals are those of the points
+/// in contact. `jumps`, `hysteresis` and `fall_in_pause` follow from the curve alone, without the
+/// scene. The last two columns are the coordinates of the place on the specimen.
 pub const FACTS: [&str; 11] = [
     "pull_off_force",
     "pull_off_work",

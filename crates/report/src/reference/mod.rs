@@ -25,11 +25,11 @@ use chart::figure_of_loading;
 use json::ReferenceJson;
 use words::{percent_or_unknown, ratio};
 
-/// Report on the comparison of two computations of a rough contact: with profiles, as in all other
-/// reports, and in three dimensions.
+/// Report on the comparison of two computations of a rough contact. One computation uses profiles,
+/// as in all other reports; the other one uses bodies in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
-    /// First line of the report.
+    /// Title of the report, which is its first line.
     pub title: &'a str,
     /// Scene that is computed in both ways.
     pub scene: &'a Scene,

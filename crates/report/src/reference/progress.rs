@@ -107,7 +107,8 @@ impl ReferenceProgress {
         format!("{done} of {squares}, {share}, {left} left")
     }
 
-    /// Returns in words how many finished squares are lost if the user stops the comparison now.
+    /// Returns in words how many finished squares would be lost if the user stopped the comparison
+    /// now.
     pub fn lost(&self) -> String {
         if self.surfaces == 0 {
             return "stopped before the first square".to_owned();

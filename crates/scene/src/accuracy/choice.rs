@@ -21,8 +21,11 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// this number, the limit is four times the needed number.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or
-/// `0.1 %`. Returns an error message unless the tolerance is above 0 and below 1.
+/// Parses a tolerance: the largest relative error that a result may have, such as `1e-3` or `0.1
+/// %`.
+///
+/// # Errors
+/// Returns an error message unless the tolerance is above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;

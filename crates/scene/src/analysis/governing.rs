@@ -70,8 +70,8 @@ impl Governing {
         .with_adhesion(scene.adhesion)
     }
 
-    /// Returns the governing parameters of a contact with the same profile and modulus but another
-    /// adhesion.
+    /// Returns the governing parameters of a contact with the same profile and modulus, but with
+    /// the adhesion `adhesion`.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let Some(adhesion) = adhesion else {
             return Governing {

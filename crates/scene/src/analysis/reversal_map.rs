@@ -9,8 +9,8 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
     /// Equally spaced indentations in m, in ascending order, at which forces are known (grid
-    /// points). The grid points from the index `below` on are also turning points, at which a
-    /// loading ends.
+    /// points). The first `below` of them are below all turning points. Each of the others is also
+    /// a turning point, at which a loading ends.
     pub points: Vec<f64>,
     /// Number of grid points, the indentations in `points`, that are below the first turning point.
     pub below: usize,

@@ -12,7 +12,7 @@ use asperity_data::format_quantity;
 use asperity_surface::Sphere;
 use std::fmt;
 
-/// A field with different values in two scenes.
+/// Difference between two scenes: a field whose values differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
     /// Symbol of the field that differs, or its name in words if it has no symbol.

@@ -29,11 +29,12 @@ pub struct Field {
     pub range: Range,
     /// How one press of a key in the explorer changes the value of the field.
     pub step: Step,
-    /// Value of the field if the scene omits it, in RON; empty if the field is required.
+    /// Value of the field if the scene omits it, as RON text; empty if the field is required.
     pub default: &'static str,
     /// Meaning of the field in one line.
     pub meaning: &'static str,
-    /// Other words of tribology and everyday words for the field, by which a search finds it.
+    /// Further words for the field, from tribology and from everyday language, by which a search
+    /// finds it.
     pub words: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,

@@ -91,14 +91,15 @@ pub struct Material {
     pub relaxation: Option<MaterialRelaxation>,
 }
 
-/// Relaxation of a half-space as a scene states it. The modulus of the material is the modulus at
-/// once, and falls with time.
+/// Relaxation of a half-space as a scene states it. The modulus of the material is the
+/// instantaneous modulus, from which the modulus falls with time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialRelaxation {
-    /// Share of the modulus that relaxes.
+    /// Share of the instantaneous modulus that relaxes in the course of time, from 0 to 0.99.
     pub share: f64,
-    /// Relaxation time τ in s.
+    /// Relaxation time τ in s: the time in which the part of the modulus that still has to relax
+    /// falls by the factor e.
     pub time: f64,
 }
 

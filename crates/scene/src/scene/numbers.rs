@@ -22,8 +22,8 @@ impl Scene {
             .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
     }
 
-    /// Returns the paths of all numerical values of lists, whose elements have no fields in
-    /// [`FIELDS`]: `form.1.radius` of a sphere and `loading.0.0` of a stage.
+    /// Returns the paths of all numerical values in lists, such as `form.1.radius` of a sphere or
+    /// `loading.0.0` of a stage. The elements of these lists have no fields in [`FIELDS`].
     pub fn paths_in_lists(&self) -> Vec<String> {
         let spheres = self.form.as_ref().map_or(0, |form| form.spheres().len());
         let mut paths = Vec::new();

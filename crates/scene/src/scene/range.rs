@@ -61,8 +61,8 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if `value` is between the bounds of this range of real numbers or wavelengths.
-    /// Returns false for any other kind of range, and for NaN and infinity.
+    /// Returns true if this is a range of real numbers or of wavelengths, and `value` is between
+    /// its bounds. Returns false for any other kind of range, and for NaN and infinity.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -71,8 +71,8 @@ impl Range {
         }
     }
 
-    /// Returns true if `value` is between the bounds of this range of integers or of pairs of
-    /// integers. Returns false for any other kind of range.
+    /// Returns true if this is a range of integers, or of pairs of integers, and `value` is between
+    /// its bounds. Returns false for any other kind of range.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }

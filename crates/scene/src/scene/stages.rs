@@ -24,7 +24,7 @@ pub struct StageKind {
 }
 
 impl StageKind {
-    /// All kinds of loading stages, in the order in which a key of the explorer selects them.
+    /// All kinds of loading stages. A key of the explorer selects them in this order.
     pub const ALL: [StageKind; 7] = [
         StageKind {
             example: "ToForce(1.0e-5)",

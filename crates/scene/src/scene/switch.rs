@@ -191,9 +191,9 @@ impl Document {
         }
     }
 
-    /// Returns this document with a choice. If the field had this choice before, its former values
-    /// come back, provided they are still allowed. Otherwise the choice gets values that suit the
-    /// scene, or its usual values.
+    /// Returns this document with the choice `choice` for the field at `path`. If the field had
+    /// this choice before, its former values come back, provided they are still allowed. Otherwise
+    /// the choice gets values that suit the scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let left = self
             .left

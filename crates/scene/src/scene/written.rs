@@ -129,8 +129,9 @@ pub(super) fn differing(
     differing
 }
 
-/// Adds a field to the list of differing fields if it differs. For a group that is compared field
-/// by field, adds the fields inside it.
+/// Adds the field `field` to the list of differing fields, if its values in the two scenes differ.
+/// If the field is a group that is compared field by field, the fields inside the group are added
+/// instead.
 fn add_differing(
     field: &'static Field,
     first: &Scene,

@@ -23,10 +23,10 @@ pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError
 
 impl Simulation {
     /// Computes unloadings to separation from several turning points, the indentations at which a
-    /// loading ends. Each stage in `ends` loads the separated bodies up to one turning point. The
-    /// stages must be in ascending order of the indentation. `see` receives the index in `ends` of
-    /// each stage, and the unloading after this stage. The forces of an unloading are computed at
-    /// the indentations `points` in m, which must be ascending.
+    /// loading ends. Each stage in `ends` is a loading from separation to one turning point. These
+    /// stages must be in ascending order of the indentation at the turning point. `see` receives
+    /// the index in `ends` of each stage, and the unloading after this stage. The forces of an
+    /// unloading are computed at the indentations `points` in m, which must be ascending.
     ///
     /// # Errors
     /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if

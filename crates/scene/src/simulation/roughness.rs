@@ -44,11 +44,12 @@ enum Source {
 /// Heights of a roughness before they are scaled, with facts about the roughness.
 pub(super) struct Rough {
     pub key: RoughnessKey,
-    /// Heights of the roughness. The list is empty if its memory has been reused for the gaps of
-    /// the profile.
+    /// Heights of the roughness: in units of the rms height if the roughness is self-affine, and in
+    /// m if it is measured. The list is empty if its memory has been reused for the gaps of the
+    /// profile.
     pub heights: Vec<f64>,
-    /// Rms height, gradient and curvature of the self-affine profile, scaled to an rms height of 1
-    /// m on a length of 1 m; `None` for any other roughness.
+    /// Rms height, gradient and curvature of the self-affine profile, after it is scaled to an rms
+    /// height of 1 m and a length of 1 m; `None` for any other roughness.
     pub unit: Option<Amplitude>,
     /// Rms height, gradient and curvature of a measured surface; `None` for any other roughness.
     pub measured: Option<Amplitude>,
@@ -114,6 +115,10 @@ impl RoughnessMaker {
 
     /// Makes the heights of the roughness with this key. Random heights are written into the memory
     /// `memory`.
+    ///
+    /// # Errors
+    /// Returns an error if a measured file cannot be read or analysed, or if the memory does not
+    /// suffice.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match &key.source {
             Source::SelfAffine(spectrum) => {
@@ -266,8 +271,8 @@ fn cut_profile(
 }
 
 /// Returns the recommended number of springs for a profile of the length `length` in m with the
-/// measured spectrum `line`. It is the smallest power of two with at least twice
-/// [`SPRINGS_PER_WAVE`] springs on the shortest wave. The number is at least 2^10 and at most 2^28.
+/// measured spectrum `line`. It is the smallest power of two for which the shortest wave has at
+/// least twice [`SPRINGS_PER_WAVE`] springs. The number is at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)

@@ -105,8 +105,8 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation with a setting for a single scene. The simulation then needs less
-    /// memory, but computes each further profile more slowly.
+    /// Returns this simulation, set up for a single scene. The simulation then needs less memory,
+    /// but computes each further profile more slowly.
     pub fn for_one_scene(self) -> Self {
         Simulation {
             single: true,

@@ -126,21 +126,21 @@ impl WorkPart {
     }
 }
 
-/// Part of the computation of a scene in a [`Workload`], with its costs.
+/// Part of the computation of a scene, as a [`Workload`] plans it, with its costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedPart {
     /// The part of the computation, such as the contact tree.
     pub part: WorkPart,
     /// True if the scene needs this part of the computation.
     pub runs: bool,
-    /// Name of the field that requires this part of the computation, or the reason in words why the
-    /// part is skipped.
+    /// Reason why this part of the computation is done or skipped: the name of the field that
+    /// requires it, or words that state why it is skipped.
     pub because: &'static str,
     /// Number of times that this part of the computation passes over the profile or over the
     /// contact tree. `None` if this number depends on the loading stages.
     pub passes: Option<u64>,
     /// Upper bound of the number of springs that this part of the computation visits in all its
-    /// passes. `None` if the number of passes is unknown.
+    /// passes. A spring counts again in each pass. `None` if the number of passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part of the computation adds.
     pub bytes: u64,

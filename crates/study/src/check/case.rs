@@ -31,10 +31,10 @@ pub struct Case {
     /// hold for every body, or `hard-cases` for extreme input, such as nearly equal gaps or very
     /// large loads.
     pub family: &'static str,
-    /// Statement that must be true for the result of the case, as a sentence.
+    /// Statement about the result of the case that must be true, as a sentence.
     pub holds: &'static str,
-    /// Way in which the correct result of the case is known: `closed form`, `independent
-    /// computation` or `self-consistency`.
+    /// Source of the correct result of the case: `closed form`, `independent computation` or
+    /// `self-consistency`.
     pub evidence: &'static str,
     /// Name of the quantity whose error is measured, such as the pull-off force. The error must not
     /// exceed the bound of a [`Check`](crate::checks::Check).

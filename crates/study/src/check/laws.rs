@@ -130,10 +130,10 @@ fn energy(body: &Body) -> Measured {
     Ok((released(cycle.stages()) - done).abs() / scale)
 }
 
-/// Measures whether a body and its scaled copies have the same loading, apart from the scale.
-/// Lengths along the profile, heights and stresses of a copy are multiplied by powers of two, whose
-/// exponents are the three numbers in an element of `powers`. The results must then change by
-/// powers of two only, so that no bit of a mantissa changes.
+/// Measures whether a body and its scaled copies have the same loading, apart from the scale. In a
+/// copy, lengths along the profile, heights and stresses are multiplied by powers of two. Each
+/// element of `powers` has the three exponents of one copy. All results must then change by powers
+/// of two only, so that no bit of a mantissa changes.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;

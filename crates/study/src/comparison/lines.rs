@@ -20,7 +20,7 @@ pub(super) struct OwnLoading {
     pub turn: Turn,
     /// Preload in N.
     pub preload: f64,
-    /// Distance in m between the indentations at the preload and at pull-off.
+    /// Distance in m between the indentation at the preload and the indentation at pull-off.
     pub depth: f64,
     /// True if the contact at the turning point extends over the whole profile.
     pub is_full: bool,
@@ -30,7 +30,7 @@ pub(super) struct OwnLoading {
 pub(super) struct LineLoop {
     /// Preload in N.
     pub preload: f64,
-    /// Distance in m between the indentations at the preload and at pull-off.
+    /// Distance in m between the indentation at the preload and the indentation at pull-off.
     pub depth: f64,
     pub pull_off_force: Option<f64>,
     pub first_touch_pull_off_force: Option<f64>,
@@ -49,11 +49,11 @@ pub(super) struct PressedLine {
 pub(super) struct Lines {
     /// Loop of each profile; empty if the comparison needs no loops.
     pub loops: Vec<LineLoop>,
-    /// For each profile, its states at the forces of the comparison without adhesion.
+    /// For each profile, its states without adhesion at the forces of the comparison.
     pub pressed: Vec<Vec<PressedLine>>,
     /// Loading of the square surfaces that follows from the profiles.
     pub loading: SquareLoading,
-    /// Preload in N, a mean over the profiles unless the scene states it.
+    /// Preload in N. It is the mean over the profiles, unless the scene states the preload.
     pub preload: f64,
 }
 
@@ -72,6 +72,10 @@ impl LineLoop {
 impl Comparison<'_> {
     /// Computes the loading of the scene on the profile with the seed of the scene, and finds the
     /// last loop of this loading.
+    ///
+    /// # Errors
+    /// Returns an error if the scene cannot be computed, or if its loading has no preload above
+    /// zero.
     pub fn own_loading(&self) -> Result<OwnLoading, StudyError> {
         let line = &self.resolved.line;
         let outcome = run(line, &mut self.resolved.simulation(), self.stop)?;
@@ -113,6 +117,10 @@ impl Comparison<'_> {
     /// Computes the profiles. Their loops with adhesion come first, because the loading of the
     /// square surfaces depends on the preload and the depth of these loops, as means over the
     /// profiles. The depth is the distance between the indentations at the preload and at pull-off.
+    ///
+    /// # Errors
+    /// Returns an error if a profile or its contact cannot be computed, if the mean preload of the
+    /// profiles is not above zero, or if `control` stops the computation.
     pub fn lines(
         &self,
         own: &OwnLoading,
@@ -211,8 +219,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the pull-off force of each profile in N or, for a scene without adhesion, the
-    /// indentation of each profile at the preload in m.
+    /// Returns one number for each profile: the pull-off force in N or, for a scene without
+    /// adhesion, the indentation in m at the preload.
     pub fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
             lines

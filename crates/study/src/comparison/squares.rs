@@ -48,6 +48,9 @@ impl Comparison<'_> {
 
     /// Returns the largest number of threads whose square surfaces fit into the memory at the same
     /// time.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice for a single square surface.
     pub fn threads_for_squares(&self) -> Result<usize, StudyError> {
         let bytes = self.bytes_of_square();
         let surfaces = usize::try_from(self.options.surfaces).unwrap_or(usize::MAX);
@@ -80,8 +83,12 @@ impl Comparison<'_> {
         Ok(time)
     }
 
-    /// Computes all square surfaces. `time` is the estimated time of one of them, from which the
-    /// reported progress follows.
+    /// Computes all square surfaces. `time` is the estimated computing time of a square surface,
+    /// with which the progress is computed that `control` receives.
+    ///
+    /// # Errors
+    /// Returns an error if a square surface cannot be computed, or if `control` stops the
+    /// computation.
     pub fn squares(
         &self,
         loading: &SquareLoading,

@@ -83,9 +83,10 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&amplitude, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns a line whose spectrum is changed at random, as much as the errors of the fit allow.
-    /// For each face, an error of the spectrum is drawn from the distribution of the errors of the
-    /// fit and multiplied by `share`. `number` is the seed: equal numbers give equal errors.
+    /// Returns an equivalent line whose spectrum is changed at random by about its errors. For each
+    /// face, an error of the spectrum is drawn from the distribution of the errors of the fit, and
+    /// multiplied by `share`. `number` is the seed of the random numbers: equal seeds give equal
+    /// errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let mut faces = Vec::new();
         for (index, spectrum) in (0_u64..).zip(&self.faces) {
@@ -108,9 +109,10 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of this equivalent line in rad/m. The first is
-    /// the smallest wave number at which all faces, the surfaces that touch each other, have a
-    /// spectrum. The last is the largest wave number of any face.
+    /// Returns the first and the last wave number of this equivalent line in rad/m. Each face, one
+    /// of the two surfaces that touch each other, has a spectrum over its own range of wave
+    /// numbers. The first wave number is the smallest one that all these ranges contain. The last
+    /// one is the largest wave number of any face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
         let mut last = 0.0_f64;

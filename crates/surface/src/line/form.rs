@@ -97,12 +97,13 @@ impl Sphere {
 }
 
 impl Form {
-    /// Beginning of the name of a file that is no name but the content, as in the addresses of
-    /// RFC 2397. Each row has the radius and the depth in m, and `;` separates the rows.
+    /// Prefix of the field `file` of a [`Form::Table`] that contains the rows of the table itself,
+    /// in place of the name of a file. The notation is that of addresses of RFC 2397. Each row has
+    /// the radius and the depth in m, and `;` separates the rows.
     pub const ROWS_IN_PLACE: &str = "data:,";
 
-    /// Returns the name of the file of a [`Form::Table`], relative to the folder of the scene file;
-    /// `None` for other forms, and for a table whose rows stand in place of the name.
+    /// Returns the name of the file of a [`Form::Table`], relative to the folder of the scene file.
+    /// Returns `None` for other forms, and for a table whose rows are given in place of the name.
     pub fn table_file(&self) -> Option<&str> {
         match self {
             Form::Table { file, .. } if !file.starts_with(Form::ROWS_IN_PLACE) => Some(file),

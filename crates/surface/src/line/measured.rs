@@ -119,6 +119,9 @@ impl MeasuredProfile {
 
     /// Computes the rms height, the rms gradient, the rms curvature and the mean wave number of the
     /// profile.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice, or if the Fourier transform fails.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let moments = self.polyline_moments();
         let points = self.positions.len();
@@ -314,6 +317,9 @@ pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the measured files of several faces into memory. `faces` has the paths of the files of
 /// each [`Face`], which is one of the two surfaces that touch each other.
+///
+/// # Errors
+/// Returns an error if a file cannot be read or is larger than 1 GiB.
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     faces.iter().map(|face| read_face(face)).collect()
 }

@@ -65,6 +65,9 @@ impl Line {
     /// Creates the same profile as [`Line::new`], but in the memory of the vector `gaps`. At first
     /// this vector has the heights of the roughness in units of `scale` (m), one for each spring.
     /// Afterwards it has the gaps of the profile.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Line::new`].
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,

@@ -50,6 +50,9 @@ impl Synthesizer {
     /// `shift` spring spacings. The height at spring i is the height that the profile without
     /// displacement has at x = (i + ½ − `shift`)L/N, for the length L and N = `points` springs. The
     /// result reuses the memory of `memory`.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -80,6 +83,9 @@ impl Synthesizer {
     /// L for each k in `modes`. The amplitude of a wave is `amplitude`(k) in m, and `seed`
     /// determines its phase. The last mode must be at most N/2, where N is `points`. The height at
     /// spring i is that at x = (i + ½ − `shift`)L/N.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,

@@ -256,6 +256,9 @@ impl FormTable {
 
     /// Returns `count` depths in m of the equivalent profile below its apex, at the distances 0,
     /// `spacing`, 2 `spacing`, … (m) from the axis.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.cubics.len() {

@@ -41,10 +41,10 @@ pub struct Analysis {
     /// Rms height, gradient and other moments of the [equivalent line](crate::EquivalentLine) of
     /// the surfaces.
     pub line: LineMoments,
-    /// Shortest wavelength in m that a tip of the radius R resolves reliably: the smallest length
-    /// over which no measured curvature is below −1/(2R). If there is no such length, the value is
-    /// half the length of a row. `None` if no tip radius is given, or if the tip resolves all
-    /// waves.
+    /// Reliability cut-off: the shortest wavelength in m that a tip of the radius R measures
+    /// reliably. It is the smallest length over which no measured curvature is below −1/(2R), or
+    /// half the length of a row if there is no such length. `None` if no tip radius is given, or if
+    /// the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -61,10 +61,11 @@ pub struct Analysis {
     /// True if the analysis leaves out short waves parallel to one axis of a map, because whole
     /// rows or columns are offset against each other.
     pub offsets: bool,
-    /// Largest difference, over all maps, between two squared gradients: that of the waves parallel
-    /// to an axis, and that which the waves in neighbouring directions lead to expect. The
-    /// difference is given as a share of the squared gradient of the map. It is 0 if it is
-    /// negligible, or if chance or offsets of whole rows or columns explain it.
+    /// Difference between the waves parallel to an axis of a map and the waves in neighbouring
+    /// directions. It is the difference between the squared gradient of the waves parallel to the
+    /// axis and the squared gradient that the neighbouring directions lead to expect, as a share of
+    /// the squared gradient of the map. The largest difference of all maps is given. It is 0 if it
+    /// is negligible, or if chance or offsets of whole rows or columns explain it.
     pub apart: f64,
     /// Distance in m by which the odd rows of a map are displaced against the even rows, in the
     /// direction of the rows. Such a displacement occurs in a file that alternates between trace

@@ -40,8 +40,8 @@ const LARGEST_OFFSETS: f64 = 0.25;
 /// Place of a wave in the plane of its two wave numbers, relative to one axis of this plane.
 #[derive(Clone, Copy)]
 pub(super) struct AxisPlace {
-    /// Number of periods of the wave over the map, perpendicular to the axis. This number is the
-    /// distance of the wave from the axis in the plane of wave numbers.
+    /// Distance of the wave from the axis in the plane of wave numbers: the number of periods of
+    /// the wave over the map in the direction perpendicular to the axis.
     pub across: f64,
     /// Number of periods of the wave over the map, parallel to the axis, divided by the number of
     /// points in this direction.
@@ -128,9 +128,10 @@ pub(super) struct TrueWaves {
     /// True if short waves parallel to an axis are left out, because whole rows or columns are
     /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
-    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
-    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
+    /// Difference between the remaining waves parallel to an axis and the waves in neighbouring
+    /// directions. It is the difference between the squared gradient of the waves parallel to the
+    /// axis and the squared gradient that the neighbouring directions lead to expect, as a share of
+    /// the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 

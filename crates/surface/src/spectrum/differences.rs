@@ -54,9 +54,10 @@ impl Differences {
         }
     }
 
-    /// Returns the errors and the ratios that follow from the parts and the surfaces added so far.
-    /// Surfaces with equal numbers and distances of points form a group, and every error is the
-    /// largest one among these groups.
+    /// Returns the errors of the spectrum, and the ratios of rms values, that follow from all
+    /// surfaces added so far. Only surfaces with equal numbers and distances of points are compared
+    /// with each other. If there are several such groups of surfaces, each error and each ratio is
+    /// the largest one of all groups.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],

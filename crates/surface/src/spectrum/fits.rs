@@ -77,6 +77,9 @@ impl SpectrumFits {
 
     /// Fits an isotropic spectrum C2D to the observed powers. The fitted spectrum is given by its
     /// values at several wave numbers, the nodes.
+    ///
+    /// # Errors
+    /// Returns an error if the fit does not succeed.
     pub fn isotropic(
         &self,
         observations: &[Observation],
@@ -102,6 +105,9 @@ impl SpectrumFits {
     /// Repeats the fits with other heights at the interpolated points, or with other heights of a
     /// resampled profile. Returns the largest changes of the results. These changes show how
     /// uncertain the results are because of the interpolation.
+    ///
+    /// # Errors
+    /// Returns an error if the changed heights cannot be analysed.
     pub fn changes_between_readings(
         &self,
         surfaces: &[Topography],

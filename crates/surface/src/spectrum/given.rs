@@ -46,8 +46,9 @@ impl PowerLaw {
 }
 
 impl IsotropicSpectrum {
-    /// Returns the rms height in m and the rms gradient of the waves from the first to the last node
-    /// and on to the end of the spectrum.
+    /// Returns the rms height in m and the rms gradient of all waves from the first node to the end
+    /// of the spectrum, which may lie beyond the last node. A node is a wave number at which the
+    /// spectrum is given.
     pub fn rms_of_height_and_gradient(&self) -> [f64; 2] {
         let [first, _] = self.range();
         [1, 3].map(|power| (self.integral(power, first).value / TAU).sqrt())

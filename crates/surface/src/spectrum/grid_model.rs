@@ -14,7 +14,7 @@ pub(super) struct GridModel<'a> {
     pub nodes: Nodes,
     /// ln q at the wave numbers q of the grid, with q in rad/m. The first one is the first node.
     pub ln_q: Vec<f64>,
-    /// For each observation, the sum over the grid that is the expected value of its power.
+    /// For each observation, the terms that add up to the expected value of its power.
     pub sums: Vec<GridSum>,
 }
 
@@ -25,9 +25,10 @@ pub(super) struct GridSum {
 }
 
 impl<'a> GridModel<'a> {
-    /// Returns a model with nearly the same expected values of the powers as `model`. The weight of
-    /// each term is divided between the two nearest wave numbers of the grid. For a power law
-    /// q^(−4), the expected values change by less than 0.1 %.
+    /// Returns a model on the wave numbers of a grid, with nearly the same expected values of the
+    /// powers as `model`. The weight of each term of `model` is divided between the two nearest
+    /// wave numbers of the grid. For a spectrum q^(−4), the expected values change by less than 0.1
+    /// %.
     pub fn new(model: &Model<'a>) -> Self {
         let first = model.nodes.first;
         let sums: Vec<GridSum> = model
@@ -83,7 +84,8 @@ impl GridSum {
         self.first + self.weights.len()
     }
 
-    /// Returns the sum of the weights times the values at the wave numbers of the grid.
+    /// Returns the sum of the weights times `values`. There is one value for each wave number of
+    /// the grid.
     pub fn of(&self, values: &[f64]) -> f64 {
         scalar_product(&self.weights, &values[self.first..self.end()])
     }

@@ -27,15 +27,19 @@ pub(super) struct MapPower {
     /// True if short waves parallel to one axis are left out, because whole rows or columns are
     /// offset against each other.
     pub offsets: bool,
-    /// Largest difference between two squared gradients: that of the remaining waves parallel to an
-    /// axis, and that which the waves in neighbouring directions lead to expect. The difference is
-    /// a share of the squared gradient of the map. It is 0 if it is negligible or may be chance.
+    /// Difference between the remaining waves parallel to an axis and the waves in neighbouring
+    /// directions. It is the difference between the squared gradient of the waves parallel to the
+    /// axis and the squared gradient that the neighbouring directions lead to expect, as a share of
+    /// the squared gradient of the map. It is 0 if it is negligible or may be chance.
     pub apart: f64,
 }
 
 impl MapPower {
     /// Computes the power spectrum of a map. If each row was levelled, the waves perpendicular to
     /// the rows are left out, because levelling changes these waves.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);

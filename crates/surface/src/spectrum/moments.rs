@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 /// An estimated quantity: its value and its standard error, both in the unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ValueWithError {
-    /// Estimated value of the quantity.
+    /// Estimated value, in the unit of the quantity.
     pub value: f64,
-    /// Standard error of the value.
+    /// Standard error of the value, in the unit of the quantity.
     pub error: f64,
 }
 
@@ -18,14 +18,15 @@ pub struct ValueWithError {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Moment {
-    /// Value of the moment.
+    /// Value in the unit of the moment, such as m for the rms height.
     pub value: f64,
-    /// Standard error of the value: the root of the sum of the squares of `statistical` and
-    /// `method`.
+    /// Standard error of the value in its unit: the root of the sum of the squares of `statistical`
+    /// and `method`.
     pub error: f64,
-    /// Standard error of the value that results from the finite number of measured waves.
+    /// Standard error of the value, in its unit, that results from the finite number of measured
+    /// waves.
     pub statistical: f64,
-    /// Standard error of the value that results from the method of estimation.
+    /// Standard error of the value, in its unit, that results from the method of estimation.
     pub method: f64,
     /// Largest change of the value if the surface has shorter waves than the points resolve. These
     /// shorter waves are assumed to follow a power law down to a quarter of the shortest resolved

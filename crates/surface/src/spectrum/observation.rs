@@ -234,10 +234,10 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this band to three moments of the equivalent line, under the
-    /// assumption that all waves of the band have the power `power`. The moments are ∫ q^(p+1) C2D
-    /// dq/2π for p = 0, 1, 2, where C2D is the spectral density at the wave number q. The moments
-    /// of a cut are 1, 2/π and 1/2 times the moments of the line.
+    /// Computes the contribution of this band to three moments of the equivalent line, if all waves
+    /// of the band had the power `power`. The moments are ∫ q^(p+1) C2D dq/2π for p = 0, 1, 2,
+    /// where C2D is the spectral density at the wave number q. For a cut, the moments of the line
+    /// are divided by 1, π/2 and 2.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         self.of_weighted_powers([1.0, q, q * q].map(|factor| factor * power))
@@ -260,9 +260,9 @@ impl Observation {
     }
 
     /// Returns the terms whose sum is the mean power of this band that a spectrum predicts. Each
-    /// term is a weight times the spectrum at one wave number, interpolated between the wave
-    /// numbers `nodes`. The terms include aliases. These are waves that look like the waves of this
-    /// band, because the points do not resolve them.
+    /// term is a weight times the spectrum at one wave number. The spectrum is interpolated between
+    /// the wave numbers `nodes`. The terms include aliases: shorter waves that look like the waves
+    /// of this band, because the points do not resolve them.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         match self.kind {
             Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),

@@ -92,8 +92,8 @@ struct MomentSpread {
 }
 
 impl Spread {
-    /// Returns the value for a surface that has only one part, or whose parts have moments (such as
-    /// the mean square height) that differ by no more than chance explains.
+    /// Returns the value for a surface whose parts differ by no more than chance explains, and for
+    /// a surface that has only one part.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,
@@ -105,6 +105,9 @@ impl Spread {
 
 impl Blocks {
     /// Divides a surface into blocks and computes their powers.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn new(surface: &LevelledSurface) -> Result<Self, SurfaceError> {
         let is_profile = surface.rows == 1;
         let most = if is_profile {
@@ -241,9 +244,9 @@ impl Blocks {
         most / least
     }
 
-    /// Returns factors for the powers of the whole surface. With these factors, all blocks count
-    /// equally in spite of the window function. The factors are 1 if chance explains the
-    /// differences `spread` between the blocks.
+    /// Returns factors for the powers of the whole surface. A window function gives the middle of
+    /// the surface a larger weight; with these factors, all blocks count equally. The factors are 1
+    /// if chance explains the differences `spread` between the blocks.
     pub fn weights(&self, spread: &Spread) -> EqualWeights {
         if spread.is_chance {
             EqualWeights::none()

@@ -97,6 +97,9 @@ impl ProfilePower {
 
     /// Adds the power spectra of the rows of one surface. Each power is first multiplied by its
     /// factor from `weights`.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,

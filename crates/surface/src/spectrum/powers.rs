@@ -40,6 +40,9 @@ impl Powers {
     /// Computes the power spectra of surfaces. `quarters` is 0 for the heights as they are. With 1,
     /// 2 or 3, the heights are first changed in one of three ways, by about as much as
     /// interpolation may have changed them ([`Topography::copied_heights`]).
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -54,9 +57,12 @@ impl Powers {
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface. Before that, a power is multiplied by its factor from
-    /// `weights`, unless the surface is periodic: without a window function, all parts of the
-    /// surface count equally anyway.
+    /// Adds the power spectra of a surface. Each power is first multiplied by its factor from
+    /// `weights`. A periodic surface needs no factors: without a window function, all its parts
+    /// count equally.
+    ///
+    /// # Errors
+    /// Returns an error if a Fourier transform fails, or if the memory does not suffice.
     pub fn add(
         &mut self,
         surface: &LevelledSurface,
@@ -137,7 +143,7 @@ impl Powers {
         WaveRange { first, last }
     }
 
-    /// Returns the number of scans whose waves are observed one by one. A scan is a map, or all
+    /// Returns the number of scans with known powers of all single waves. A scan is a map, or all
     /// profiles together, because the powers of profiles are averaged. Returns `None` if not all
     /// waves of the surfaces are known: if a surface is not periodic, if waves were left out
     /// because of offsets, or if the surfaces have different waves.
@@ -156,10 +162,10 @@ impl Powers {
         }
     }
 
-    /// Returns the largest difference, over all maps, between two squared gradients: that of the
-    /// waves parallel to an axis, and that which the waves in neighbouring directions lead to
-    /// expect. The difference is a share of the squared gradient of the map. It is 0 if it is
-    /// negligible or may be chance ([`MapPower::apart`]).
+    /// Returns the largest difference, over all maps, between the waves parallel to an axis and the
+    /// waves in neighbouring directions ([`MapPower::apart`]). It is a difference of squared
+    /// gradients, as a share of the squared gradient of the map. It is 0 if it is negligible or may
+    /// be chance.
     pub fn apart(&self) -> f64 {
         self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
     }

@@ -106,9 +106,9 @@ impl PowerLaw {
         self.parameters.hurst
     }
 
-    /// Returns a factor of at least 1 for the standard errors, which takes into account that the
+    /// Returns a factor of at least 1, by which the standard errors are multiplied because the
     /// surface may not be self-affine. The factor follows from the comparison of two fits to the
-    /// same observations: this spectrum and `isotropic`, which may have any smooth shape.
+    /// same observations: this spectrum, and `isotropic`, which may have any smooth shape.
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
         // For a self-affine surface, twice the difference of the misfits equals in the mean the
         // number of additional parameters of the isotropic spectrum.

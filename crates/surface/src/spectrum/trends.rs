@@ -23,6 +23,9 @@ pub(super) struct TrendSums {
 
 impl TrendSums {
     /// Adds the points of a surface.
+    ///
+    /// # Errors
+    /// Returns an error if the memory does not suffice.
     pub fn add(&mut self, surface: &LevelledSurface) -> Result<(), SurfaceError> {
         if surface.removed == Detrend::Curvature {
             let squares = sum_of_squares(&surface.heights);

@@ -68,6 +68,9 @@ impl<'a> Archive<'a> {
     /// `names` are the names that an index file may have. If several files have such a name, the
     /// file in the fewest folders is the index file. In later calls, names of files are relative to
     /// the folder of the index file.
+    ///
+    /// # Errors
+    /// Returns an error if two index files are in equally many folders.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();

@@ -135,6 +135,9 @@ impl<'a> Bytes<'a> {
     }
 
     /// Returns a reader of the bytes of a file, beginning at an offset.
+    ///
+    /// # Errors
+    /// Returns an error if the file has fewer bytes than `offset`.
     pub fn from(bytes: &'a [u8], order: Order, offset: usize) -> Result<Self, SurfaceError> {
         let mut file = Bytes::new(bytes, order);
         file.take(offset)?;
@@ -163,6 +166,9 @@ impl<'a> Bytes<'a> {
 
     /// Returns a reader of the next `count` bytes, and skips these bytes in this reader. The places
     /// of bytes in the new reader are also counted from the beginning of the file.
+    ///
+    /// # Errors
+    /// Returns an error if fewer than `count` bytes are left.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let offset = self.offset;
         self.take(count)?;
@@ -188,6 +194,9 @@ impl<'a> Bytes<'a> {
 
     /// Reads the next number, which is a size, an offset or a code. Returns 0 if the number is
     /// negative.
+    ///
+    /// # Errors
+    /// Returns an error if too few bytes are left.
     pub fn size(&mut self, kind: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(kind)? as usize)
     }
@@ -201,6 +210,9 @@ impl<'a> Bytes<'a> {
     }
 
     /// Returns the bytes before the next zero byte, and skips the zero byte.
+    ///
+    /// # Errors
+    /// Returns an error if no zero byte is left.
     pub fn text(&mut self) -> Result<&'a [u8], SurfaceError> {
         let left = &self.bytes[self.offset..];
         let Some(end) = left.iter().position(|byte| *byte == 0) else {

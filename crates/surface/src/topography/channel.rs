@@ -28,9 +28,11 @@ pub(super) enum Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns which channel the options request. It is the channel with a number, the channel with
-    /// a name or, if the options state neither, the only channel of heights. Returns an error if
-    /// the options state both a number and a name.
+    /// Returns which channel the options request: the channel with a number, the channel with a
+    /// name or, if the options state neither, the only channel of heights.
+    ///
+    /// # Errors
+    /// Returns an error if the options state both a number and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),

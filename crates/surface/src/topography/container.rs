@@ -157,6 +157,9 @@ fn chosen(
 impl Measurement {
     /// Returns the name of the data file of the measurement in the archive. It is the NetCDF file
     /// with the scaled heights or, if there is none, the original file.
+    ///
+    /// # Errors
+    /// Returns an error if the index file names no data file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {
@@ -198,6 +201,9 @@ impl Measurement {
 
     /// Returns the options for reading the file of the measurement: the options of the user,
     /// completed by what the index file states.
+    ///
+    /// # Errors
+    /// Returns an error if the index file states a unit that is not a unit of length.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, self.place())?;

@@ -179,6 +179,11 @@ pub(super) struct PointList<'a, P> {
 impl<P: Fn(usize) -> Place> PointList<'_, P> {
     /// Creates a map from the list of points. Points of the map that are not in the list are
     /// missing points.
+    ///
+    /// # Errors
+    /// Returns an error if there are fewer than two points, if they do not form an even grid, if they
+    /// fill less than half of the grid, if two points have the same place, or if the memory does not
+    /// suffice.
     pub fn map(&self) -> Result<Map, SurfaceError> {
         let points = self.heights.len();
         if points < 2 {

@@ -55,6 +55,9 @@ fn even(heights: Vec<f64>, columns: usize) -> Reading {
 /// Parses a NumPy array with at least two columns, and returns the names and the numbers of the
 /// columns. The columns of a structured array are its fields. In an array with two axes, the
 /// columns lie along the shorter axis.
+///
+/// # Errors
+/// Returns an error if the bytes are no such array.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;

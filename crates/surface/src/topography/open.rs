@@ -104,6 +104,9 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Surfa
 }
 
 /// Reads a regular file of at most 1 GiB, and returns its bytes without change.
+///
+/// # Errors
+/// Returns an error if the file cannot be read or is larger than 1 GiB.
 pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
@@ -132,6 +135,9 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
 
 /// Parses the content of a file and returns its surface. If the file is an archive with several
 /// measurements of one surface, all measurements are returned.
+///
+/// # Errors
+/// Returns [`SurfaceError`] if the file holds no surface, or if the options do not fit the file.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     if bytes.starts_with(ZIP) {
         return parse_archive(bytes, options);
@@ -237,6 +243,9 @@ fn check_unnamed(options: &ReadOptions) -> Result<(), SurfaceError> {
 }
 
 /// Returns the bytes of a file. If the file is compressed by gzip, the bytes are decompressed.
+///
+/// # Errors
+/// Returns an error if the compressed bytes are damaged or expand to too many bytes.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -43,8 +43,8 @@ impl Digits {
         }
     }
 
-    /// Takes account of one more printed number, which may have more digits than the earlier
-    /// numbers.
+    /// Updates the numbers of digits by one more printed number `cell`, which may have more digits
+    /// than the earlier numbers.
     pub fn take(&mut self, cell: &str) {
         let mut decimals = 0;
         let mut significant = 0;
@@ -74,7 +74,7 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Returns the largest error of the number `value` that results from its printing with these
+    /// Returns the largest error of the number `value` that results from its rounding to these
     /// digits. The error is half a unit of the last digit, plus some rounding errors of
     /// floating-point numbers.
     pub fn half(self, value: f64) -> f64 {

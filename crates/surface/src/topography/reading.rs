@@ -9,7 +9,8 @@ use asperity_data::Note;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub format: &'static str,
-    /// Heights row by row. The height of a missing point is NaN or infinite.
+    /// Heights row by row, in the unit that the file uses. The height of a missing point is NaN or
+    /// infinite.
     pub heights: Vec<f64>,
     /// Number of points in a row. All points of a profile are one row.
     pub columns: usize,

@@ -19,6 +19,10 @@ pub(super) const MOST_POINTS: usize = 1 << 28;
 impl Reading {
     /// Converts heights and positions to m, and returns the surface. If the options choose a row or
     /// a column, only this row or column is returned, as a profile.
+    ///
+    /// # Errors
+    /// Returns an error if a unit, a distance or a height is missing and the options do not state
+    /// it, if a value is out of its range, or if an option does not suit the surface.
     pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let mut surface = self.resolve(options)?;
         if let Some(cut) = options.cut {
@@ -33,6 +37,10 @@ impl Reading {
 
     /// Converts heights and positions to m, corrects the heights as the options request, and
     /// returns the whole surface.
+    ///
+    /// # Errors
+    /// Returns an error if a unit, a distance or a height is missing and the options do not state
+    /// it, if a value is out of its range, or if an option does not suit the surface.
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         check_points(self.heights.len())?;
         let units = Units::new(self.units, self.positions.is_some(), options);

@@ -49,8 +49,8 @@ pub(super) struct Units<'a> {
 }
 
 impl<'a> Units<'a> {
-    /// Decides for which quantities the units in the options are meant. `has_positions` is true for
-    /// a profile in which each point has a position.
+    /// Decides to which quantities the units in the options apply. `has_positions` is true for a
+    /// profile in which each point has a position.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
         let mut option_of_heights = options.height_unit.or(options.unit);
@@ -91,6 +91,9 @@ impl<'a> Units<'a> {
 
     /// Returns the unit of the distances between points: along the rows if `axis` is 0,
     /// perpendicular to the rows if `axis` is 1.
+    ///
+    /// # Errors
+    /// Returns an error if neither the file nor the options state the unit.
     pub fn distances(&self, axis: usize) -> Result<Unit, SurfaceError> {
         let stated = [self.stated.along, self.stated.between];
         self.lateral("distances", stated[axis])

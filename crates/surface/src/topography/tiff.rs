@@ -122,6 +122,9 @@ impl<'a> Directory<'a> {
     }
 
     /// Returns the first number in the value of a tag; `None` if the directory has no such tag.
+    ///
+    /// # Errors
+    /// Returns an error if the value lies beyond the end of the file.
     pub fn number(&self, tag: u16) -> Result<Option<f64>, SurfaceError> {
         let Some(mut value) = self.value(tag)? else {
             return Ok(None);
@@ -133,6 +136,9 @@ impl<'a> Directory<'a> {
     }
 
     /// Returns the value of a tag as a text; `None` if the directory has no such tag.
+    ///
+    /// # Errors
+    /// Returns an error if the value lies beyond the end of the file.
     pub fn text(&self, tag: u16) -> Result<Option<Cow<'a, str>>, SurfaceError> {
         let Some(value) = self.value(tag)? else {
             return Ok(None);
@@ -144,6 +150,9 @@ impl<'a> Directory<'a> {
     }
 
     /// Returns the value of a tag as bytes; `None` if the directory has no such tag.
+    ///
+    /// # Errors
+    /// Returns an error if the value lies beyond the end of the file.
     pub fn content(&self, tag: u16) -> Result<Option<Bytes<'a>>, SurfaceError> {
         Ok(self.value(tag)?.map(|value| value.content))
     }
@@ -159,7 +168,10 @@ impl<'a> Directory<'a> {
         refused(self.place(), found, allowed)
     }
 
-    /// Returns the number of points in a row of the image.
+    /// Returns the number of points in a row of the image; 0 if the directory does not state it.
+    ///
+    /// # Errors
+    /// Returns an error if the value lies beyond the end of the file.
     pub fn columns(&self) -> Result<usize, SurfaceError> {
         self.code(tag::WIDTH, 0)
     }
@@ -184,6 +196,9 @@ impl<'a> Directory<'a> {
     }
 
     /// Returns the numbers of the image, row by row in the order of the file.
+    ///
+    /// # Errors
+    /// Returns an error if the image has a form that cannot be read, or if bytes are missing.
     pub fn image(&self) -> Result<Vec<f64>, SurfaceError> {
         for (tag, name) in [
             (tag::COMPRESSION, "compression"),

@@ -74,3 +74,93 @@ fn forces_between_the_points_of_a_record_are_accurate_beside_jumps_too() {
     assert!(jumps > 20, "{jumps}");
     assert!(worst < 2e-3, "{worst}");
 }
+
+fn smallest_force(record: &StageRecord) -> f64 {
+    let forces = record.curve.iter().map(|point| point.force);
+    forces.fold(f64::INFINITY, f64::min)
+}
+
+/// Force at an indentation of an unloading by interpolation between the points of its record. At a
+/// jump there are several forces, of which the last one is returned.
+fn force_at_indentation(record: &StageRecord, indentation: f64) -> f64 {
+    let below = record
+        .curve
+        .iter()
+        .rposition(|point| point.indentation >= indentation)
+        .unwrap_or(0);
+    let points = &record.curve[below..(below + 2).min(record.curve.len())];
+    let [from, to] = [points[0], points[points.len() - 1]];
+    let way = to.indentation - from.indentation;
+    if way == 0.0 {
+        return to.force;
+    }
+    from.force + (indentation - from.indentation) / way * (to.force - from.force)
+}
+
+/// A stage may end anywhere, also at a jump, just before and just after it: the loading goes on as
+/// if the stage had not ended there. A target that the force jumps over is reached at the jump.
+#[test]
+fn a_stage_that_ends_at_a_jump_changes_nothing() {
+    let mut ends = 0;
+    let mut worst = 0.0_f64;
+    for number in 0..20 {
+        let (body, _, motion) = case(number);
+        let contact = relaxing(&body, &motion);
+        let [pressed, rested, pulled] = records(number, 1e-3);
+        let forces = [&pressed, &rested, &pulled].map(|record| &record.curve);
+        let forces = forces.into_iter().flatten().map(|point| point.force);
+        let scale = forces.fold(0.0_f64, |most, force| most.max(force.abs()));
+        let whole = smallest_force(&pulled);
+        let way = pulled.curve[0].indentation - pulled.curve[pulled.curve.len() - 1].indentation;
+        let mut targets = Vec::new();
+        for (index, pair) in pulled.curve.windows(2).enumerate() {
+            let is_jump = pulled.seconds[index] == pulled.seconds[index + 1];
+            if is_jump && (pair[1].force - pair[0].force).abs() > 0.05 * scale {
+                for side in [-1e-2, -1e-9, 0.0, 1e-9, 1e-2] {
+                    targets.push(Move::ToIndentation(pair[1].indentation + side * way));
+                }
+                let between = 0.5 * (pair[0].force + pair[1].force);
+                // A larger force than at the beginning would be reached by pressing further.
+                if between < pulled.curve[0].force {
+                    targets.push(Move::ToForce(between));
+                }
+            }
+        }
+        for target in targets {
+            let mut solver = RelaxingBody::new(&contact).unwrap();
+            let stages = [
+                Move::ToIndentation(motion.deepest),
+                Move::Hold(motion.dwell),
+                target,
+            ];
+            let mut end = None;
+            for stage in stages {
+                // The force may reach the target earlier, or the body may already be separated.
+                match solver.advance(stage) {
+                    Ok(record) => end = Some(record),
+                    Err(_) => end = None,
+                }
+            }
+            let Some(part) = end else { continue };
+            let mut smallest = smallest_force(&part);
+            // A body that is already farther away than its separation is not moved back.
+            if let Ok(rest) = solver.advance(Move::ToSeparation) {
+                smallest = smallest.min(smallest_force(&rest));
+            }
+            assert!(
+                (smallest - whole).abs() < 2e-3 * scale,
+                "{number} {target:?}: {smallest} {whole}"
+            );
+            let last = part.curve[part.curve.len() - 1];
+            let near = [-3e-4, 0.0, 3e-4]
+                .map(|side| force_at_indentation(&pulled, last.indentation + side * way));
+            let low = near.into_iter().fold(f64::INFINITY, f64::min);
+            let high = near.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            worst = worst.max((low - last.force).max(last.force - high) / scale);
+            ends += 1;
+        }
+    }
+    println!("{ends} ends, largest deviation {worst:.1e}");
+    assert!(ends > 50, "{ends}");
+    assert!(worst < 2e-3, "{worst}");
+}

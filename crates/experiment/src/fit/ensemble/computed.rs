@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of points of a computed approach or retraction, without the points at jumps.
 const SAMPLES: usize = 128;
-/// Smallest jump of the force, in units of the noise, at both ends of which a point of the curve is
-/// computed.
+/// Smallest jump of the force, in units of the noise, for which the curve gets a point at each end
+/// of the jump.
 const NOTABLE: f64 = 1.0;
 /// Largest number of points that are added to a computed retraction until contact is lost, divided
 /// by the number of points of the measured retraction.
@@ -29,28 +29,34 @@ const SEEDS_OF_SCENE: u64 = 1 << 32;
 /// noise.
 const LEAST_TURN: f64 = 0.5;
 
-/// Scene, instrument and preloads of the computed curves, and the request to stop.
+/// Scene, instrument and preloads of the computed curves, and the function that stops their
+/// computation.
 #[derive(Clone, Copy)]
 pub(crate) struct Specimen<'a> {
     pub scene: &'a CheckedScene,
     /// Stiffness of the instrument in N/m.
     pub stiffness: f64,
-    /// Work of adhesion on closing divided by the work of adhesion on opening.
+    /// Work of adhesion on closing, divided by the work of adhesion on opening.
     pub closing: f64,
-    /// Preload, displacements and noise of each measured curve. The computed curves take them in
-    /// turn.
+    /// Preload, displacements and noise of each measured curve. The computed curves use the
+    /// protocols in turn: the first curve the first protocol, and so on.
     pub protocols: &'a [Protocol],
     /// Function that returns true if the computation has to stop.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Specimen<'_> {
-    /// Returns the summaries of the curves of one random profile. There is a curve for each pair of
-    /// a value ln(γ/E*) in `ranges` and a value ln E* in `moduli`; all moduli of the first range
-    /// come first. `moduli` has to ascend.
+    /// Returns the summaries of the curves of one random profile. A summary is a number computed
+    /// from a curve, such as its pull-off force. There is a curve for each pair of a value ln(γ/E*)
+    /// in `ranges` and a value ln E* in `moduli`, with γ and E* in SI units. All moduli of the
+    /// first range come first. `moduli` has to ascend.
     ///
     /// Apart from the turning point and the instrument, the curve of the force divided by E* over
-    /// the indentation depends only on γ/E*. So one approach is computed for all moduli of a range.
+    /// the indentation depends only on γ/E*. Therefore one approach is computed for all moduli of a
+    /// range.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -272,8 +278,12 @@ pub(crate) struct Workers<'a> {
 }
 
 impl Workers<'_> {
-    /// Returns the summaries of the curves of each random profile at all nodes. All moduli of the
-    /// first range come first.
+    /// Returns the summaries of the curves of each random profile at all nodes. A summary is a
+    /// number computed from a curve. A node is a pair of a value ln(γ/E*) in `ranges` and a value
+    /// ln E* in `moduli`. All moduli of the first range come first.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn curves(
         &self,
         profiles: u64,

@@ -14,7 +14,7 @@ use rand::{RngExt, SeedableRng};
 
 /// Number of ensembles of profiles that are drawn from the random profiles of the table.
 const DRAWS: usize = 1000;
-/// Share of the drawn ensembles that the test accepts as described.
+/// Share of the drawn ensembles that the test accepts as described by the random profiles.
 const DESCRIBED: f64 = 0.99;
 /// Step of ln(γ/E*) and ln E* in the numerical derivatives of the means.
 const STEP: f64 = 0.05;
@@ -89,7 +89,7 @@ impl Response {
         }
     }
 
-    /// Returns the changes of ln γ and ln E* that explain a change of the predicted values.
+    /// Returns the changes of ln γ and ln E* by which the predicted values change by `change`.
     pub fn explain(&self, change: [f64; 2]) -> [f64; 2] {
         let work = self.slopes.by_work;
         let modulus = self.slopes.by_modulus;
@@ -116,7 +116,8 @@ impl Response {
 struct Expected {
     mean: f64,
     standard_deviation: f64,
-    /// Variance of the difference between a curve and the mean that its points cause.
+    /// Variance that the distances between the points of a curve cause in the difference between
+    /// the curve and the mean.
     of_steps: f64,
     slopes: Slopes,
 }
@@ -266,18 +267,18 @@ fn mean_prediction(profiles: &[&Profile], index: usize) -> f64 {
     values.sum::<f64>() / profiles.len() as f64
 }
 
-/// Derivatives of ln γ and ln E* with respect to ln h and to H, the rms height and Hurst exponent
-/// of the scene. They show how far a wrong roughness shifts the result.
+/// Effect of a wrong roughness on the result: the derivatives of ln γ and ln E* with respect to ln
+/// h and to H. h is the rms height and H the Hurst exponent of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RoughnessShifts {
-    /// Derivative of ln γ with respect to ln h.
+    /// Derivative of ln γ with respect to ln h, a number without a unit.
     pub work_by_height: f64,
-    /// Derivative of ln γ with respect to H.
+    /// Derivative of ln γ with respect to the Hurst exponent H, a number without a unit.
     pub work_by_hurst: f64,
-    /// Derivative of ln E* with respect to ln h.
+    /// Derivative of ln E* with respect to ln h, a number without a unit.
     pub modulus_by_height: f64,
-    /// Derivative of ln E* with respect to H.
+    /// Derivative of ln E* with respect to the Hurst exponent H, a number without a unit.
     pub modulus_by_hurst: f64,
 }
 
@@ -292,8 +293,11 @@ pub(crate) struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    /// Returns the derivatives of the result at a place; `None` if the scene has no self-affine
-    /// roughness.
+    /// Returns the effect of a wrong roughness, if `place` is the result of the fit: a pair of ln γ
+    /// and ln E*. Returns `None` if the scene has no self-affine roughness.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn at(&self, place: Place) -> Result<Option<RoughnessShifts>, ExperimentError> {
         let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
         else {

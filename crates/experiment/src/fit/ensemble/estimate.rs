@@ -4,11 +4,12 @@
 /// interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct IntervalEstimate {
-    /// Estimated value: the median of the probability distribution of the parameter.
+    /// Estimated value, in J/m² for a work of adhesion and in Pa for a modulus: the median of the
+    /// probability distribution of the parameter.
     pub value: f64,
-    /// Lower end of the 95 % interval.
+    /// Lower end of the 95 % interval, in the unit of the value.
     pub low: f64,
-    /// Upper end of the 95 % interval.
+    /// Upper end of the 95 % interval, in the unit of the value.
     pub high: f64,
 }
 

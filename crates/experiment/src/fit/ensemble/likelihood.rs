@@ -27,7 +27,8 @@ struct Observed {
 }
 
 impl Likelihood {
-    /// Prepares the comparison with a table. If ln E* is known, only pairs with this value are
+    /// Prepares the comparison of measured curves with a table of computed curves. `known` is ln E*
+    /// if the effective modulus E* is given; only pairs of parameters with this value are then
     /// compared.
     pub fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
         let moduli = match known {
@@ -47,13 +48,15 @@ impl Likelihood {
         }
     }
 
-    /// Returns the probability of the parameters if the mean prediction over `curves` curves is
-    /// `prediction`. The prior is flat over ln γ and ln E*. The error of the mean comes from the
-    /// number of curves, from the number of random profiles, and from the steps of the summaries.
+    /// Returns the probability of each pair of ln γ and ln E*, if the mean of the values predicted
+    /// from `curves` measured curves is `prediction`. The prior is flat over ln γ and ln E*. The
+    /// error of the mean has three sources: the number of curves, the number of random profiles,
+    /// and the steps in which the summaries of a curve change.
     ///
-    /// The first grid covers the whole table. The next grids are narrowed to the values with more
-    /// than negligible probability, or widened where the probability does not end within the grid,
-    /// until no value of a parameter has more than a small part of the probability.
+    /// The probabilities are computed on a grid. The first grid covers the whole table. The next
+    /// grids are narrowed to the values with more than negligible probability, or widened where the
+    /// probability does not end within the grid, until no value of a parameter has more than a
+    /// small part of the probability.
     pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
         let observed = Observed {
             prediction,

@@ -15,7 +15,7 @@ pub(crate) struct Noise {
     values: Vec<f64>,
     /// Mean in N of the noise at the points before contact.
     zero: f64,
-    /// Error in N of the measured preload.
+    /// Error of the measured preload by noise in N.
     pub of_preload: f64,
 }
 

@@ -14,10 +14,10 @@ const RIDGE: f64 = 1e-5;
 
 /// Computed curve of a random profile with known parameters.
 pub(crate) struct Example {
-    /// Number of the random profile.
+    /// Index of the random profile.
     pub profile: u64,
     pub description: Description,
-    /// ln γ and ln E*.
+    /// Values ln γ and ln E* for which the curve was computed, with γ and E* in SI units.
     pub parameters: [f64; 2],
 }
 
@@ -120,14 +120,15 @@ impl Polynomials {
         })
     }
 
-    /// Predicts ln γ and ln E* of a computed curve by the polynomial of the half that does not
-    /// contain its random profile, so that the prediction has no bias from learning.
+    /// Predicts ln γ and ln E* of a computed curve by a polynomial. Each of the two polynomials was
+    /// learned from one half of the random profiles. The polynomial of the half without the profile
+    /// of this curve is used, so that the prediction has no bias from learning.
     pub fn of_profile(&self, profile: u64, description: &Description) -> [f64; 2] {
         self.by_half(&self.terms(description), 1 - (profile % 2) as usize)
     }
 
-    /// Predicts ln γ and ln E* of a curve that belongs to no profile of the table, by the mean of
-    /// the predictions of both polynomials.
+    /// Predicts ln γ and ln E* of a curve that belongs to no random profile of the table. The
+    /// prediction is the mean of those of the two polynomials.
     pub fn of_curve(&self, description: &Description) -> [f64; 2] {
         let terms = self.terms(description);
         let even = self.by_half(&terms, 0);

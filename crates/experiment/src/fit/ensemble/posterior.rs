@@ -34,14 +34,14 @@ const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 /// Ranges of the parameters for which a table has computed curves.
 #[derive(Clone, Copy)]
 pub(crate) struct Limits {
-    /// Smallest and largest ln(γ/E*).
+    /// Smallest and largest ln(γ/E*), with γ/E* in m.
     pub ranges: Extent,
-    /// Smallest and largest ln E*. Both are equal if E* is given.
+    /// Smallest and largest ln E*, with E* in Pa. Both are equal if E* is given.
     pub moduli: Extent,
 }
 
 impl Limits {
-    /// Returns the ranges of ln γ and ln E* that contain all values in the table.
+    /// Returns the ranges of ln γ and of ln E* that contain all values in the table.
     pub fn extents(self) -> [Extent; 2] {
         let works = Extent {
             low: self.ranges.low + self.moduli.low,
@@ -71,7 +71,7 @@ pub(crate) struct Extent {
 
 /// Probability of the parameters on a grid over ln γ and ln E*.
 pub(crate) struct Posterior {
-    /// Evenly spaced values of ln γ and of ln E*.
+    /// Evenly spaced values of ln γ and of ln E*, with γ in J/m² and E* in Pa.
     pub axes: [Vec<f64>; 2],
     /// Probability of each pair of values. All pairs with the first value of ln γ come first, in
     /// the order of ln E*.
@@ -91,8 +91,8 @@ impl Extent {
         self.high - self.low
     }
 
-    /// Returns the values of an axis of a grid over this interval, evenly spaced; a single value if
-    /// the width is 0.
+    /// Returns evenly spaced values over this interval, as the axis of a grid. Returns a single
+    /// value if the width of the interval is 0.
     pub fn values(self) -> Vec<f64> {
         if self.width() == 0.0 {
             return vec![self.low];
@@ -130,8 +130,8 @@ impl Posterior {
         sums
     }
 
-    /// Returns the range of an axis for the next grid, within the range `whole` of the table. The
-    /// range is unchanged if this grid is fine and wide enough.
+    /// Returns the range of an axis for the next grid. The range lies within the range `whole` of
+    /// the table. It is unchanged if this grid is already fine and wide enough.
     pub fn next_extent(&self, axis: usize, whole: Extent) -> Extent {
         let values = &self.axes[axis];
         let last = values.len() - 1;
@@ -168,7 +168,7 @@ impl Posterior {
         }
     }
 
-    /// Returns the most probable pair of parameters.
+    /// Returns the most probable pair of ln γ and ln E*.
     pub fn best(&self) -> Place {
         let weights = self.weights.iter().enumerate();
         let best = weights.max_by(|(_, weight), (_, next)| weight.total_cmp(next));
@@ -191,8 +191,8 @@ impl Posterior {
         IntervalEstimate { value, low, high }
     }
 
-    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %. The probability
-    /// density of this γ is exp(−1.96²/2) times the largest density.
+    /// Returns the largest γ in J/m² that the curves do not exclude at a significance level of 5 %.
+    /// The probability density at this γ is exp(−1.96²/2) times the largest density.
     pub fn most_work(&self) -> f64 {
         let densities = self.along(WORK);
         let largest = densities.iter().copied().fold(0.0, f64::max);
@@ -230,8 +230,8 @@ impl Posterior {
         }
     }
 
-    /// Returns the ends of the table near which the probability is so large that the parameters may
-    /// lie beyond the table.
+    /// Returns those ends of the table beyond which the parameters may lie, because the probability
+    /// near them is large.
     pub fn beyond(&self) -> Vec<End> {
         let mut ends = vec![
             End::LowRange,

@@ -10,17 +10,17 @@ const PROSPECTS: [u64; 3] = [16, 64, 256];
 
 /// Precision of the work of adhesion.
 pub(super) struct Precision {
-    /// Half the width of the 95 % interval of ln γ for a roughness without error.
+    /// Half the width of the 95 % interval of ln γ, without the errors of the roughness.
     pub half_width: f64,
-    /// Half the width of the 95 % interval of ln γ that results from the stated errors of the
-    /// roughness alone.
+    /// Half the width of the part of the 95 % interval of ln γ that results from the stated errors
+    /// of the roughness.
     pub of_roughness: f64,
     /// Number of measured curves.
     pub curves: f64,
     /// Number of random profiles.
     pub profiles: f64,
-    /// Variance of the error that the distances between points cause, in units of the variance over
-    /// the random profiles.
+    /// Variance of the error that the distances between the points of a curve cause, divided by the
+    /// variance over the random profiles.
     pub of_steps: f64,
 }
 
@@ -31,8 +31,8 @@ impl Precision {
         1.0 / curves + 1.0 / self.profiles + self.of_steps
     }
 
-    /// Returns the sources of the uncertainty of the work of adhesion. The interval of `work`
-    /// includes all errors.
+    /// Returns how much each source contributes to the uncertainty of the work of adhesion. `work`
+    /// is the estimate whose interval includes all errors.
     pub fn shares(&self, work: IntervalEstimate) -> Shares {
         let square = self.half_width.powi(2);
         let variance = self.variance(self.curves);

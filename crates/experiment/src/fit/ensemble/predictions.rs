@@ -41,12 +41,12 @@ pub struct CurveOfEnsemble {
     pub stiffness: f64,
     /// Work of adhesion in J/m² that is found from this single curve.
     pub work: IntervalEstimate,
-    /// True if the interval of [`Self::work`] ends where the values end for which curves were
-    /// computed. The true interval is then wider.
+    /// True if the interval of [`Self::work`] reaches an end of the range of values for which
+    /// curves were computed. The true interval is then wider.
     pub at_end_of_table: bool,
-    /// True if this curve hardly belongs to the same specimen: its values of γ and E* are farther
-    /// from the mean of the random profiles than the values of 999 of 1000 random profiles
-    /// (Mahalanobis distance).
+    /// True if this curve hardly belongs to the same specimen as the others. The distance of its ln
+    /// γ and ln E* from the mean of the random profiles (Mahalanobis distance) is then larger than
+    /// for 999 of 1000 random profiles.
     pub foreign: bool,
 }
 
@@ -56,7 +56,8 @@ pub(crate) struct Predictions {
     polynomials: Polynomials,
     /// True if the table has a single E*, because E* is given.
     has_one_modulus: bool,
-    /// Predicted ln γ and ln E* of each random profile at each node.
+    /// Predicted ln γ and ln E*, for each random profile and each node. A node is a pair of values
+    /// for which curves were computed.
     pub of_profiles: Vec<Vec<[f64; 2]>>,
     /// Scatter of the predictions over the random profiles.
     pub scatter: Scatter,
@@ -141,7 +142,7 @@ impl Predictions {
         Some((sum / (count as f64 - 1.0) / values).sqrt())
     }
 
-    /// Returns the results of each curve as if it were the only measured curve.
+    /// Returns for each measured curve the results that this curve alone would give.
     pub fn rows(
         &self,
         curves: &[(String, MeasuredCurve)],

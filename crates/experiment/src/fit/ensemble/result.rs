@@ -24,10 +24,10 @@ pub struct EnsembleFit {
     pub closing_over_opening: f64,
     /// Correlation of the errors of ln γ and ln E*, from −1 to 1; 0 for a given E*.
     pub correlation: f64,
-    /// Sources of the uncertainty of the work of adhesion.
+    /// Shares of the sources of error in the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Precision that the work of adhesion would have with 16, 64 and 256 measured curves. Numbers
-    /// that do not exceed the present number of curves are left out.
+    /// Expected precision of the work of adhesion with 16, 64 and 256 measured curves. Numbers of
+    /// curves that do not exceed the present one are left out.
     pub prospects: Vec<Prospect>,
     /// Effect of a wrong roughness of the scene on γ and E*; `None` if the scene has a measured
     /// roughness, or if γ has an upper bound only.
@@ -61,8 +61,8 @@ pub struct EnsembleFit {
     /// Difference between the measured curves and the random profiles for each summary, a number
     /// computed from a curve such as its pull-off force.
     pub deviations: Vec<SummaryDeviation>,
-    /// True if the interval of γ or E* ends where the values end for which curves were computed.
-    /// The true interval is then wider.
+    /// True if the interval of γ or E* reaches an end of the range of values for which curves were
+    /// computed. The true interval is then wider.
     pub at_end_of_table: bool,
 }
 
@@ -72,17 +72,17 @@ impl EnsembleFit {
     pub const EXAMINED: u64 = 5;
 }
 
-/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of the
-/// interval of ln γ. Their sum is 1.
+/// Sources of the uncertainty of the work of adhesion. The share of a source is its part of the
+/// square of the half-width of the interval of ln γ. The shares add up to 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {
-    /// Share of the uncertainty that comes from the limited number of measured curves.
+    /// Share that comes from the limited number of measured curves.
     pub places: f64,
-    /// Share of the uncertainty that comes from the limited number of random profiles, and from the
-    /// distances between the points of the curves, between which nothing is known.
+    /// Share that comes from the limited number of random profiles, and from the distances between
+    /// the points of a curve. Nothing is known about the force between two points.
     pub profiles: f64,
-    /// Share of the uncertainty that comes from the stated errors of the roughness.
+    /// Share that comes from the stated errors of the roughness.
     pub roughness: f64,
 }
 

@@ -6,17 +6,21 @@ use super::table::{Place, Table};
 /// Signed binomial coefficients of a difference of sixth order. A smooth function has a small
 /// difference of this order.
 const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
-/// Sum of the squares of these coefficients: the variance of the difference of independent errors,
-/// in units of their variance.
+/// Sum of the squares of these coefficients. If the errors of the values are independent, the
+/// variance of the difference is this number times the variance of a value.
 const SQUARES: f64 = 924.0;
-/// Number of differences on each side of a node whose mean square counts for this node.
+/// Smallest mean square of the differences of the means, in units of the mean square that
+/// independent profiles cause, that shows differences which all profiles have in common.
+const LEAST_COMMON: f64 = 4.0;
+/// Number of differences on each side of a node from which the mean square of the node is computed.
 const NEAR: usize = 3;
 
 /// Mean and covariance of two values over the random profiles at a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
     pub mean: [f64; 2],
-    /// Variance of the first value, covariance, variance of the second value.
+    /// Covariance matrix of the two values: variance of the first value, covariance, and variance
+    /// of the second value.
     pub covariance: [f64; 3],
 }
 
@@ -45,7 +49,8 @@ impl Moments {
         }
     }
 
-    /// Returns the same mean with the covariance times `factor` plus `errors`.
+    /// Returns the same mean with another covariance matrix: the present one times `factor`, plus
+    /// `errors`.
     pub fn with_errors(&self, factor: f64, errors: [f64; 3]) -> Self {
         let mut covariance = errors;
         for (sum, own) in covariance.iter_mut().zip(self.covariance) {
@@ -57,8 +62,8 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance matrix. If the second value does not vary, as for a
-    /// given E*, the inverse ignores it.
+    /// Returns the inverse of the covariance matrix. The inverse ignores the second value if this
+    /// value does not vary, as ln E* for a given E*.
     pub fn inverse(&self) -> InverseCovariance {
         let [first, both, second] = self.covariance;
         if second == 0.0 {
@@ -81,7 +86,8 @@ impl Moments {
 }
 
 impl InverseCovariance {
-    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean).
+    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean), where x are the
+    /// `values` and Σ is the covariance matrix.
     pub fn squared_distance(&self, mean: [f64; 2], values: [f64; 2]) -> f64 {
         let [first, both, second] = self.elements;
         let x = values[0] - mean[0];
@@ -89,7 +95,7 @@ impl InverseCovariance {
         first * x * x + 2.0 * both * x * y + second * y * y
     }
 
-    /// Returns the product Σ⁻¹ x.
+    /// Returns the product Σ⁻¹ x, where x are the `values` and Σ is the covariance matrix.
     pub fn times(&self, values: [f64; 2]) -> [f64; 2] {
         let [first, both, second] = self.elements;
         let [x, y] = values;
@@ -103,7 +109,8 @@ pub(crate) struct Scatter {
     ranges: Vec<f64>,
     moduli: Vec<f64>,
     nodes: Vec<Moments>,
-    /// Covariance of the errors of the means that all profiles have in common, at each range.
+    /// Covariance, at each value of ln(γ/E*), of those errors of the means that all profiles have
+    /// in common.
     unevenness: Vec<[f64; 3]>,
 }
 
@@ -136,8 +143,9 @@ impl<const COUNT: usize> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Computes the moments of two values at each node. `value` returns these values from the index
-    /// of a random profile and the index of a node.
+    /// Computes the means and covariances of two values over the random profiles, at each node. A
+    /// node is a pair of values for which curves were computed. `value` returns the two values from
+    /// the index of a random profile and the index of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let count = table.ranges.len() * table.moduli.len();
         let mut values: Vec<Vec<[f64; 2]>> = Vec::with_capacity(count);
@@ -153,15 +161,16 @@ impl Scatter {
         }
     }
 
-    /// Computes the moments of one summary; the second value is 0.
+    /// Computes the mean and the variance of one summary over the random profiles, at each node.
+    /// `index` is the index of the summary. The second value is 0.
     pub fn of_summary(table: &Table, index: usize) -> Self {
         Scatter::of(table, |profile, node| {
             [table.profiles[profile][node][index], 0.0]
         })
     }
 
-    /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
-    /// polynomials, and the covariance linearly.
+    /// Returns the mean and the covariance at a place between the nodes, a pair of ln(γ/E*) and ln
+    /// E*. The mean is interpolated by cubic polynomials, and the covariance linearly.
     pub fn at(&self, place: Place) -> Moments {
         let mut moments = Moments {
             mean: [0.0; 2],
@@ -184,10 +193,11 @@ impl Scatter {
         moments
     }
 
-    /// Returns the covariance of the difference between the values of a curve and the interpolated
-    /// means at a place, as far as it does not come from the random profile. Between two points of
-    /// a curve nothing is known, so the summaries change in steps with the parameters if all
-    /// profiles have nearly the same curve. Both the curve and the means have such steps.
+    /// Returns the covariance that the distances between the points of a curve cause, in the
+    /// difference between the values of the curve and the interpolated means at a place. Nothing is
+    /// known between two points of a curve. If all profiles have nearly the same curve, the
+    /// summaries therefore change in steps with the parameters. Both the curve and the means have
+    /// such steps. The differences between random profiles are not included.
     pub fn error_of_steps(&self, place: Place) -> [f64; 3] {
         let inside = clamp_to(&self.ranges, place.range);
         let Weights { first, weights } = Weights::<2>::new(&self.ranges, inside);
@@ -225,61 +235,87 @@ impl Scatter {
 
 /// Returns the covariance at each range of those errors of the means that all profiles have in
 /// common. `values` has the values of all profiles at each node. The errors follow from differences
-/// of sixth order along the ranges, which the smooth part of the means hardly has. Differences that
-/// come from the random profiles are left out, because the covariance of the profiles contains
-/// them. An axis of fewer nodes than [`DIFFERENCE`] gives no errors.
+/// of sixth order along the ranges, which the smooth part of the means hardly has. An axis of fewer
+/// nodes than [`DIFFERENCE`] gives no errors.
 fn unevenness(values: &[Vec<[f64; 2]>], ranges: usize, moduli: usize) -> Vec<[f64; 3]> {
     let count = (ranges + 1).saturating_sub(DIFFERENCE.len());
     let mut errors = vec![[0.0; 3]; ranges];
     if count == 0 {
         return errors;
     }
-    let mut common = vec![[0.0; 3]; count];
-    for (first, squares) in common.iter_mut().enumerate() {
+    let mut of_windows = vec![Steps::default(); count];
+    for (first, steps) in of_windows.iter_mut().enumerate() {
         for modulus in 0..moduli {
             let nodes = (first..).map(|range| &values[range * moduli + modulus]);
-            let of_row = common_square(&nodes.take(DIFFERENCE.len()).collect::<Vec<_>>());
-            for (sum, square) in squares.iter_mut().zip(of_row) {
-                *sum += square / (SQUARES * moduli as f64);
-            }
+            let nodes: Vec<&Vec<[f64; 2]>> = nodes.take(DIFFERENCE.len()).collect();
+            steps.add(&Steps::of(&nodes));
         }
     }
     for (node, error) in errors.iter_mut().enumerate() {
         let centre = node.saturating_sub(DIFFERENCE.len() / 2).min(count - 1);
-        let near = &common[centre.saturating_sub(NEAR)..(centre + NEAR + 1).min(count)];
-        for squares in near {
-            for (sum, square) in error.iter_mut().zip(squares) {
-                *sum += square / near.len() as f64;
-            }
+        let near = &of_windows[centre.saturating_sub(NEAR)..(centre + NEAR + 1).min(count)];
+        let mut sum = Steps::default();
+        for steps in near {
+            sum.add(steps);
         }
-        *error = as_covariance(*error);
+        *error = sum.common(SQUARES * (near.len() * moduli) as f64);
     }
     errors
 }
 
-/// Returns an estimate of the squares and of the product of both differences that all profiles have
-/// in common. `nodes` has the values of all profiles at the nodes of the difference.
-fn common_square(nodes: &[&Vec<[f64; 2]>]) -> [f64; 3] {
-    let mut differences = vec![[0.0; 2]; nodes[0].len()];
-    for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
-        for (difference, value) in differences.iter_mut().zip(values.iter()) {
-            difference[0] += coefficient * value[0];
-            difference[1] += coefficient * value[1];
-        }
-    }
-    let Moments { mean, covariance } = Moments::of(&differences);
-    let profiles = differences.len() as f64;
-    let products = [mean[0] * mean[0], mean[0] * mean[1], mean[1] * mean[1]];
-    [0, 1, 2].map(|index| products[index] - covariance[index] / profiles)
+/// Squares and product of the differences of two values along the ranges, in the order of
+/// [`Moments::covariance`].
+#[derive(Clone, Default)]
+struct Steps {
+    /// Of the mean over the profiles.
+    of_mean: [f64; 3],
+    /// Those of the mean that are expected if each profile has differences of its own.
+    by_profiles: [f64; 3],
 }
 
-/// Returns the nearest covariance matrix to three estimated elements, whose variances may be
-/// negative by chance.
-fn as_covariance([first, both, second]: [f64; 3]) -> [f64; 3] {
-    let first = first.max(0.0);
-    let second = second.max(0.0);
-    let most = (first * second).sqrt();
-    [first, both.clamp(-most, most), second]
+impl Steps {
+    /// `nodes` has the values of all profiles at the nodes of the difference.
+    fn of(nodes: &[&Vec<[f64; 2]>]) -> Self {
+        let mut differences = vec![[0.0; 2]; nodes[0].len()];
+        for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
+            for (difference, value) in differences.iter_mut().zip(values.iter()) {
+                difference[0] += coefficient * value[0];
+                difference[1] += coefficient * value[1];
+            }
+        }
+        let Moments { mean, covariance } = Moments::of(&differences);
+        let profiles = differences.len() as f64;
+        Steps {
+            of_mean: [mean[0] * mean[0], mean[0] * mean[1], mean[1] * mean[1]],
+            by_profiles: covariance.map(|element| element / profiles),
+        }
+    }
+
+    fn add(&mut self, other: &Steps) {
+        for index in 0..3 {
+            self.of_mean[index] += other.of_mean[index];
+            self.by_profiles[index] += other.by_profiles[index];
+        }
+    }
+
+    /// Returns the covariance of the errors that all profiles have in common, if these sums are
+    /// `scale` times as large as the covariance of the errors. A value whose differences may come
+    /// from the random profiles has no errors, because the covariance of the profiles contains
+    /// them.
+    fn common(&self, scale: f64) -> [f64; 3] {
+        let mut errors = [0.0; 3];
+        for (index, error) in errors.iter_mut().enumerate() {
+            *error = (self.of_mean[index] - self.by_profiles[index]) / scale;
+        }
+        for index in [0, 2] {
+            if self.of_mean[index] <= LEAST_COMMON * self.by_profiles[index] {
+                errors[index] = 0.0;
+            }
+        }
+        let most = (errors[0] * errors[2]).sqrt();
+        errors[1] = errors[1].clamp(-most, most);
+        errors
+    }
 }
 
 fn clamp_to(axis: &[f64], place: f64) -> f64 {

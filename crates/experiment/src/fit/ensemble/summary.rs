@@ -40,8 +40,8 @@ pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 /// Index, in the summaries, of the distance from the turning point back to half of the preload.
 pub(crate) const WAY_TO_HALF: usize = 3;
-/// Smallest pull-off force in a summary, in units of the noise; smaller forces are replaced by it,
-/// because they are noise.
+/// Smallest pull-off force in a summary, in units of the noise. A smaller force is noise, and is
+/// replaced by this one.
 const FLOOR: f64 = 3.0;
 /// Tension, in units of the noise, that is subtracted before the work of the tension is computed,
 /// so that noise alone does no work.
@@ -51,17 +51,17 @@ const LOST: f64 = 5.0;
 /// Largest distance of two points that are the ends of a jump of the force, as a share of the mean
 /// distance between points.
 const AT_JUMP: f64 = 1e-3;
-/// Scatter of the preloads, divided by the scatter that results from noise, above which the
-/// preloads count as different.
+/// Ratio of the scatter of the preloads to the scatter that noise causes, above which the preloads
+/// count as different.
 const DIFFERENT: f64 = 2.0;
-/// Largest factor between the noise of a curve and the median noise of all curves for which all are
-/// replaced by the median.
+/// Largest factor between the noise of one curve and the median noise of all curves, up to which
+/// the median replaces the noise of each curve.
 const ONE_NOISE: f64 = 1.5;
 
 /// Point of an approach or a retraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
-    /// Displacement minus the displacement at the turning point, in m; at most about 0.
+    /// Displacement in m, relative to the displacement at the turning point. It is at most about 0.
     pub displacement: f64,
     /// Force in N.
     pub force: f64,
@@ -73,14 +73,14 @@ pub(crate) struct Branches {
     pub retraction: Vec<Point>,
     /// Standard deviation of the noise of the force in N.
     pub noise: f64,
-    /// Number of points at the beginning of the approach that give the zero and the noise of the
-    /// force.
+    /// Number of points at the beginning of the approach from which the zero and the noise of the
+    /// force are determined.
     pub free: usize,
 }
 
 impl Branches {
-    /// Returns the approach and the first retraction of a measured curve, with the zero of the
-    /// force and the noise from the first half of the part before contact.
+    /// Returns the approach and the first retraction of a measured curve. The zero and the noise of
+    /// the force are determined from the first half of the part before contact.
     ///
     /// # Errors
     /// Returns an error if the curve lacks an approach or a retraction, or ends before the contact
@@ -137,8 +137,8 @@ impl Branches {
         0.5 * (self.approach[self.approach.len() - 1].force + self.retraction[0].force)
     }
 
-    /// Returns the standard deviation in N of the preload by noise. It is smaller than the noise by
-    /// √2, because the preload is a mean of two forces.
+    /// Returns the standard deviation in N that noise causes in the preload. It is the noise
+    /// divided by √2, because the preload is the mean of two forces.
     pub fn preload_error(&self) -> f64 {
         self.noise * FRAC_1_SQRT_2
     }
@@ -305,10 +305,12 @@ pub(crate) struct Protocol {
     pub approach: Vec<f64>,
     /// Displacements of the retraction in m, relative to the turning point.
     pub retraction: Vec<f64>,
-    /// Number of points at the beginning of the approach that give the zero of the force.
+    /// Number of points at the beginning of the approach from which the zero of the force is
+    /// determined.
     pub free: usize,
-    /// True if the approach, and if the retraction, has points at both ends of its jumps, as a
-    /// computed curve has them. An instrument has points before and after a jump.
+    /// For approach and retraction: true if there are points at both ends of each jump, as in a
+    /// computed curve. In the curve of an instrument, the nearest points are somewhere before and
+    /// after a jump.
     pub has_jump_ends: [bool; 2],
 }
 
@@ -376,6 +378,10 @@ pub(crate) struct Measurement {
 impl Measurement {
     /// Computes the summaries of all measured curves. If the preloads differ only by noise, their
     /// mean is used for all curves.
+    ///
+    /// # Errors
+    /// Returns an error with the name of the curve if a curve lacks an approach or a retraction,
+    /// ends before the contact is lost, or has no positive preload.
     pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {
@@ -420,9 +426,9 @@ impl Measurement {
         }
     }
 
-    /// Returns the summaries of a curve, with its preload if the preloads differ. `curve` is the
-    /// index of a measured curve or of a random profile. If there are more profiles than measured
-    /// curves, the properties of the measured curves are repeated.
+    /// Returns the description of a curve: its `summaries`, and also its preload if the preloads of
+    /// the curves differ. `curve` is the index of a measured curve or of a random profile. If there
+    /// are more profiles than measured curves, the properties of the measured curves are repeated.
     pub fn describe(&self, summaries: Summaries, curve: usize) -> Description {
         let mut preload = None;
         if self.preload_scatter.is_some() {

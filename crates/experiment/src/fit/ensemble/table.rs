@@ -19,7 +19,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Returns ln γ and ln E*.
+    /// Returns ln γ and ln E*, with γ in J/m² and E* in Pa.
     pub fn parameters(self) -> [f64; 2] {
         [self.range + self.modulus, self.modulus]
     }
@@ -43,7 +43,7 @@ impl Axis {
         (self.nodes - 1) as f64 * self.step
     }
 
-    /// Returns the first node of an axis whose middle is at `centre`.
+    /// Returns the position of the first node of an axis whose middle node is at `centre`.
     pub fn first_around(&self, centre: f64) -> f64 {
         centre - 0.5 * self.width()
     }
@@ -59,11 +59,12 @@ impl Axis {
 
 /// Summaries of the curves of all random profiles at the nodes of a grid over ln(γ/E*) and ln E*.
 pub(crate) struct Table {
-    /// ln(γ/E*), ascending and evenly spaced.
+    /// Values of ln(γ/E*), ascending and evenly spaced, with γ/E* in m.
     pub ranges: Vec<f64>,
-    /// ln E*, ascending and evenly spaced.
+    /// Values of ln E*, ascending and evenly spaced, with E* in Pa.
     pub moduli: Vec<f64>,
-    /// Summaries of each random profile at all nodes. All moduli of the first range come first.
+    /// Summaries of the curves of each random profile at all nodes. A node is a pair of a value
+    /// ln(γ/E*) and a value ln E*. All moduli of the first range come first.
     pub profiles: Vec<Vec<Summaries>>,
 }
 
@@ -117,7 +118,11 @@ impl Table {
         })
     }
 
-    /// Adds `count` nodes beyond an end of the table, and computes their curves.
+    /// Adds `count` further values beyond one end of an axis of the table, and computes the curves
+    /// for them.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the computation is stopped.
     pub fn extend(
         &mut self,
         workers: &Workers<'_>,
@@ -171,7 +176,8 @@ impl Table {
         Ok(())
     }
 
-    /// Returns the nodes in the order in which [`Self::profiles`] has the summaries of a profile.
+    /// Returns the nodes, the pairs of values for which curves were computed, in the order of
+    /// [`Self::profiles`].
     pub fn places(&self) -> Vec<Place> {
         places(&self.ranges, &self.moduli)
     }

@@ -297,7 +297,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns the step of a coordinate over which its effect is computed.
+/// Returns the step of a coordinate with which the effect of the coordinate on the residuals is
+/// computed.
 fn step_of(coordinate: &Coordinate) -> f64 {
     match coordinate.parameter {
         Parameter::RelaxationShare | Parameter::RelaxationTime => STEP_OF_RELAXATION,

@@ -78,19 +78,19 @@ const PRIMES: [usize; 32] = [
 pub(crate) struct SearchResult {
     /// Member with the smallest residuals. A member is a set of values of the parameters.
     pub best: Member,
-    /// Residuals of the best member in contact, in units of the noise, after a fit of the zero, the
-    /// drift and the other lines.
+    /// Residuals of the best member at the points in contact, in units of the noise. Zero, drift
+    /// and other contributions to the force have been fitted to them.
     pub residuals: Vec<f64>,
-    /// Noise that is assumed in the probability distribution of the samples, divided by the noise
-    /// of the curve. It is above 1 if the residual of the best member exceeds the noise of the
-    /// curve.
+    /// Standard deviation of the noise that the probability distribution of the samples assumes,
+    /// divided by the noise of the curve. It is above 1 if the residual of the best member exceeds
+    /// the noise of the curve.
     pub noise: f64,
-    /// Coordinates of the samples, which follow the probability distribution of the parameters.
+    /// Samples from the probability distribution of the parameters, each given by its coordinates.
     pub samples: Vec<Vec<f64>>,
-    /// Coordinates of other sets of parameters that describe the curve nearly as well as the best
-    /// one. They may be far from the best one.
+    /// Other sets of parameters that describe the curve nearly as well as the best one, each given
+    /// by its coordinates. They may be far from the best one.
     pub alternatives: Vec<Vec<f64>>,
-    /// Cost of each sample in each block of the curve, which is a part of its points. The list is
+    /// Cost of each sample in each block. A block is a part of the points of the curve. The list is
     /// empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
     /// Difference of two costs: the smallest cost of a scene without adhesion minus the cost of the
@@ -108,9 +108,10 @@ struct Cooling {
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
-    /// Lines of all curves.
+    /// Contributions to the forces of all curves, such as zero and drift, that are fitted again for
+    /// each model.
     pub lines: Lines,
-    /// Further curves of the specimen, whose points follow those of the curve of the space.
+    /// Further curves of the specimen, which are fitted together with the first one.
     pub further: Vec<FurtherCurve<'a>>,
     /// Function that receives the number of curves computed so far.
     pub report: &'a mut dyn FnMut(usize),
@@ -159,7 +160,10 @@ impl Search<'_> {
         [self.space.curve].into_iter().chain(further)
     }
 
-    /// Computes the residuals for the coordinates `place`, with forces of full accuracy.
+    /// Computes the residuals at the coordinates `place`, with forces of full accuracy.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
         self.set_accuracy(1.0);
         self.member(place.to_vec())
@@ -169,6 +173,9 @@ impl Search<'_> {
     /// [`WRONG_SIDE`] and the model jumps at most one point away, the jump covers a range of
     /// forces. The corrected residual is the distance of the measured force from this range, so
     /// that a point inside the jump counts as described.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn beyond_jumps(
         &mut self,
         place: &[f64],
@@ -260,10 +267,13 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Minimises the cost, beginning at the start of the search, and returns the set of parameters
-    /// with the smallest cost. The assumed noise decreases together with the residuals, so that all
-    /// points count at first, and points at jumps count little in the end. The descent can follow a
-    /// narrow valley of the cost that random sets of parameters miss.
+    /// Minimises the cost, and returns the set of parameters with the smallest cost. The search
+    /// begins at the initial values. The assumed noise decreases together with the residuals, so
+    /// that all points count at first, and points at jumps count little in the end. The descent can
+    /// follow a narrow valley of the cost that random sets of parameters miss.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn descended(&mut self) -> Result<Member, ExperimentError> {
         self.descended_from(self.space.start())
     }
@@ -305,6 +315,9 @@ impl Search<'_> {
     /// The curves of a half-space that relaxes take long to compute. Descents from starts then
     /// replace the first population, unless they end at different places that do not describe the
     /// curve.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
         if self.space.relaxes() {
             let mut generator = ChaCha8Rng::seed_from_u64(SEED);
@@ -317,21 +330,28 @@ impl Search<'_> {
         self.find_from(population, generator)
     }
 
-    /// Returns the first population of a search, and the random generator with which it was drawn.
+    /// Draws the first population of a search, and returns it with the random generator after this
+    /// draw. A population is a number of sets of parameters.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         let population = self.anneal(0, None, 0.0, &mut generator)?;
         Ok((population, generator))
     }
 
-    /// Returns true if the residuals of a population are so large that the model does not describe
-    /// the curve.
+    /// Returns true if the residuals of a population are so large that noise does not explain them:
+    /// the model does not describe the curve.
     pub fn is_systematic(&self, population: &Population) -> bool {
         self.misfit(&population.best, population.noise) > SYSTEMATIC
     }
 
     /// Completes the search of [`Search::find`] if the first population is already known.
     /// `generator` is the random generator with which this population was drawn.
+    ///
+    /// # Errors
+    /// Returns an error if a force curve cannot be computed, or if the fit is stopped.
     pub fn find_from(
         &mut self,
         mut population: Population,

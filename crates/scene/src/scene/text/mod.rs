@@ -15,6 +15,9 @@ pub(crate) mod scan;
 
 /// Reads a value from RON text. An optional value may be written without `Some`. A variant that
 /// holds one struct may be written with only one pair of brackets.
+///
+/// # Errors
+/// Returns an error if the text is not RON or does not have the fields of the value.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
     ron::Options::default()

@@ -17,8 +17,8 @@ const MOST_LISTED: usize = 8;
 /// or height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
-    /// Column of the positions of a profile, or of the coordinate x of the points of a map; `None`
-    /// if the table has no such column.
+    /// Column of the positions of a profile, or of the coordinates x of a map; `None` if the table
+    /// has no such column.
     pub x: Option<usize>,
     pub y: Option<usize>,
     pub height: usize,

@@ -150,7 +150,7 @@ pub struct TextHeader {
     /// true.
     data_scale: Option<f64>,
     is_data_scale_needed: bool,
-    /// True if the points in a row of numbers follow each other along y.
+    /// True if neighbouring points in a row of numbers are neighbours along y.
     pub is_along_y: bool,
     /// True if the positions of points in the file are only the numbers of the columns and rows of
     /// the points, and not lengths.

@@ -134,6 +134,9 @@ impl Table {
     ///
     /// * It begins with a number and consists mostly of numbers.
     /// * It has positions after a word, as in `y\x 0 1 2`.
+    ///
+    /// # Errors
+    /// Returns an error if a cell of the line cannot be read.
     pub fn new(
         before: Option<NumberedLine<'_>>,
         first: NumberedLine<'_>,
@@ -185,7 +188,7 @@ impl Table {
         }
     }
 
-    /// Takes account of an empty line, so that the next row begins after a gap.
+    /// Notes an empty line in the text, so that there is a gap before the next row.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
@@ -211,6 +214,10 @@ impl Table {
 
     /// Reads one line of the table. The line has no white space at its ends. The first lines may
     /// state how many rows and columns follow.
+    ///
+    /// # Errors
+    /// Returns an error if a cell cannot be read, or if the number of cells differs from that of
+    /// the earlier lines.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if self.may_be_counts() {
             let table = Table::empty(line);

@@ -24,6 +24,9 @@ impl Table {
     /// Returns the surface in the given rows of the table. If several columns may be heights,
     /// `wanted` chooses one of these columns. `is_open` is true if the last line of the text has no
     /// line end.
+    ///
+    /// # Errors
+    /// Returns an error if the rows do not contain a surface.
     pub fn reading(
         mut self,
         header: &TextHeader,
