@@ -485,9 +485,10 @@ mod tests {
             ),
             // A narrow gap is written again.
             (plain(["A B c ⣿ d e", "f g h", "    xyz"]), "\x1b[1;1HA B"),
+            // The cursor after the last column that changes is unknown.
             (
                 plain(["a b c ⣿ D e", "f g H", "    xyz"]),
-                "\x1b[2;5HH\x1b[A\x1b[3CD",
+                "\x1b[1;9HD\x1b[2;5HH",
             ),
             // A line feed and backspaces.
             (
