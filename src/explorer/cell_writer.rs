@@ -94,10 +94,11 @@ impl<W: Write> CellWriter<W> {
 /// thousands of runs; a frame of a usual window has fewer.
 const MOST_COMPARED: usize = 400;
 
-/// Smallest number of bytes of a control sequence that moves the cursor within a row. A gap in a row
-/// with so many bytes is written again.
+/// Smallest number of bytes of a control sequence that moves the cursor within a row. A gap in a
+/// row with so many bytes is written again.
 const SHORTEST_MOVEMENT: usize = 3;
-/// Number of bytes of a gap between blanks that is written again, because it may be erased with them.
+/// Number of bytes of a gap between blanks that is written again, because it may be erased with
+/// them.
 const GAP_BETWEEN_BLANKS: usize = 6;
 
 /// Smallest number of blanks that a control sequence erases. It has at least four bytes.
@@ -202,14 +203,14 @@ impl Run {
         self.blanks = 0;
     }
 
-    /// Returns true if an erased cell looks like a blank of this run. Terminals differ in the ground
-    /// of erased cells, unless it is their own.
+    /// Returns true if an erased cell looks like a blank of this run. Terminals differ in the
+    /// ground of erased cells, unless it is their own.
     fn can_erase(&self) -> bool {
         self.pen.ground == Color::Reset && !self.pen.shows_blanks()
     }
 
-    /// Adds the blanks at the end to the text: blanks, or the control sequence that erases the cells
-    /// and leaves the cursor before them.
+    /// Adds the blanks at the end to the text: blanks, or the control sequence that erases the
+    /// cells and leaves the cursor before them.
     fn finish(&mut self) {
         if self.can_erase() && self.blanks >= FEWEST_ERASED {
             self.text.push_str(&format!("\x1b[{}X", self.blanks));
@@ -385,7 +386,8 @@ mod tests {
         all
     }
 
-    /// Cells of a terminal after these bytes: text, colours and modifiers as far as they are visible.
+    /// Cells of a terminal after these bytes: text, colours and modifiers as far as they are
+    /// visible.
     fn cells(bytes: &[u8]) -> Vec<String> {
         let rows = std::num::NonZeroU16::new(ROWS).unwrap();
         let columns = std::num::NonZeroU16::new(COLUMNS).unwrap();
@@ -417,9 +419,9 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// After all frames, the screen is the last frame drawn anew by the backend of ratatui. It is
-        /// also this frame in a terminal where a line feed loses the column, and the frames take no
-        /// more bytes than with the backend of ratatui.
+        /// After all frames, the screen is the last frame drawn anew by the backend of ratatui. It
+        /// is also this frame in a terminal where a line feed loses the column, and the frames take
+        /// no more bytes than with the backend of ratatui.
         #[test]
         fn the_screen_is_that_of_the_usual_backend(
             frames in prop::collection::vec(frame(), 1..5),

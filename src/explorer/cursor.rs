@@ -59,8 +59,8 @@ impl ShownCells {
         }
     }
 
-    /// Returns the number of bytes of the cells from column `first` to column `end` of a row, if all
-    /// of them are one column wide, have the style `pen` and take fewer than `most` bytes.
+    /// Returns the number of bytes of the cells from column `first` to column `end` of a row, if
+    /// all of them are one column wide, have the style `pen` and take fewer than `most` bytes.
     pub fn bytes(&self, first: u16, end: u16, row: u16, pen: Pen, most: usize) -> Option<usize> {
         let mut bytes = 0;
         for x in first..end {
@@ -83,8 +83,8 @@ pub fn is_narrow(symbol: &str) -> bool {
     }
 }
 
-/// ASCII, the letters and signs of units and quantities, and the characters of plots and frames: box
-/// drawing, blocks and braille.
+/// ASCII, the letters and signs of units and quantities, and the characters of plots and frames:
+/// box drawing, blocks and braille.
 fn is_narrow_character(character: char) -> bool {
     matches!(
         character,

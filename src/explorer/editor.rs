@@ -429,8 +429,8 @@ impl Editor {
         unsaved
     }
 
-    /// Returns the path of manual loading if the user has moved the body along it. It has no file of
-    /// its own, so it is unsaved until it becomes the loading of the scene.
+    /// Returns the path of manual loading if the user has moved the body along it. It has no file
+    /// of its own, so it is unsaved until it becomes the loading of the scene.
     pub fn unsaved_path(&self) -> Option<&Arc<ManualPath>> {
         self.path.as_ref().filter(|path| !path.moves.is_empty())
     }

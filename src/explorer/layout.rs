@@ -26,8 +26,8 @@ impl Layout {
         // In a small window, the lines around the panes are left out first, and panes only if this
         // is not enough.
         let has_footer = height >= 6;
-        // A second line of the title is for a notice that does not fit into the first one, also after
-        // the scene has changed and the notice is hidden.
+        // A second line of the title is for a notice that does not fit into the first one, also
+        // after the scene has changed and the notice is hidden.
         let has_second = height >= 32 && app.title().columns() > width.into();
         let top = if has_second {
             2

@@ -53,8 +53,8 @@ impl PathStart {
     }
 
     /// Returns the loading stages that lead from separation to this start. `loading` is the loading
-    /// of the scene, and `stages` are the records of its stages. The list is empty if the contact has
-    /// not begun.
+    /// of the scene, and `stages` are the records of its stages. The list is empty if the contact
+    /// has not begun.
     pub fn stages(self, loading: &[Move], records: &[StageRecord]) -> Vec<Move> {
         let Player { stage, at, .. } = self.player(records);
         let mut stages: Vec<Move> = loading.iter().take(stage).copied().collect();

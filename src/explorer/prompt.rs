@@ -66,8 +66,8 @@ pub enum Purpose {
         topics: Vec<Topic>,
         is_typed: bool,
     },
-    /// The question whether to overwrite a file that exists. `is_changed` is true if another program
-    /// has changed the file of the scene.
+    /// The question whether to overwrite a file that exists. `is_changed` is true if another
+    /// program has changed the file of the scene.
     Overwrite {
         file: OutputFile,
         is_changed: bool,

@@ -143,8 +143,8 @@ pub fn window() -> io::Result<Size> {
     checked(Size { width, height })
 }
 
-/// Returns what a line feed does to the column of the cursor. Raw mode belongs to the terminal of the
-/// input, and the output may go to another terminal, which is not in raw mode.
+/// Returns what a line feed does to the column of the cursor. Raw mode belongs to the terminal of
+/// the input, and the output may go to another terminal, which is not in raw mode.
 #[cfg(unix)]
 pub fn line_feeds() -> LineFeeds {
     use rustix::termios::{OutputModes, tcgetattr};

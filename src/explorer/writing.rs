@@ -41,8 +41,8 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     Action::Written(file, result)
 }
 
-/// Returns true if a file is the one of the scene, and its text is not the one that the explorer has
-/// last read from it or written to it.
+/// Returns true if a file is the one of the scene, and its text is not the one that the explorer
+/// has last read from it or written to it.
 fn is_changed(app: &App, folder: &Path, path: &Path) -> bool {
     let name = app.edit.document.name();
     let Some(saved) = app.edit.saved.get(name) else {

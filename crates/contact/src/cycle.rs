@@ -488,8 +488,8 @@ impl Cycle {
         self.points.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a [`StageRecord`] for each loading stage, with the force curve and the energies of the
-    /// stage.
+    /// Returns a [`StageRecord`] for each loading stage, with the force curve and the energies of
+    /// the stage.
     #[must_use]
     pub fn stages(&self) -> &[StageRecord] {
         &self.history.stages

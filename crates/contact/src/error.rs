@@ -100,8 +100,8 @@ pub enum ContactError {
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs a [`Stage`](crate::motion::Stage) of the exact solver, but the stage
-    /// belongs to the stepwise solver.
+    /// A motion or a search needs a [`Stage`](crate::motion::Stage) of the exact solver, but the
+    /// stage belongs to the stepwise solver.
     #[error(
         "a stage of the stepwise solver is known at its steps alone; allowed: a stage of the exact solver"
     )]

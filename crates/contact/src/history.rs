@@ -84,9 +84,9 @@ pub(super) struct Extremes {
 }
 
 impl StageRecord {
-    /// Largest number of points that [`StageRecord::curve`] has besides its regularly spaced points:
-    /// the point of the smallest force, the point at which an instrument loses the contact, and two
-    /// points of a jump at the beginning or the end of the motion.
+    /// Largest number of points that [`StageRecord::curve`] has besides its regularly spaced
+    /// points: the point of the smallest force, the point at which an instrument loses the contact,
+    /// and two points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
     /// Returns the times in s since first touch at which the motion begins and ends; `None` without

@@ -34,8 +34,8 @@ pub trait MovingBody {
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError>;
 
-    /// Returns the [`Stage`] of the present motion. The stage gives the contact at each indentation of
-    /// the motion.
+    /// Returns the [`Stage`] of the present motion. The stage gives the contact at each indentation
+    /// of the motion.
     fn stage(&self) -> Stage;
 
     /// Returns counts of the computing work for this body since it was created.

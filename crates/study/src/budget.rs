@@ -9,9 +9,9 @@ use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 
 /// Errors of the pull-off force of a scene, one for each source of errors. All are relative errors:
-/// `grid` and `steps` are divided by the pull-off force on the scene's own profile, and `sample` and `surface`
-/// are divided by the median pull-off force over random profiles. The true error exceeds the stated
-/// error in about 5 of 100 cases. `None` means that an error is unknown.
+/// `grid` and `steps` are divided by the pull-off force on the scene's own profile, and `sample`
+/// and `surface` are divided by the median pull-off force over random profiles. The true error
+/// exceeds the stated error in about 5 of 100 cases. `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
     /// Relative error due to the finite number of springs, for the profile with the seed of the

@@ -65,9 +65,9 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading that starts and ends in separation. The move `stage` presses
-    /// the bodies together up to the turning point, and `reversal` describes the turn and the
-    /// unloading.
+    /// Collects the outcome of a loading that starts and ends in separation. The move `stage`
+    /// presses the bodies together up to the turning point, and `reversal` describes the turn and
+    /// the unloading.
     pub fn of_reversal(stage: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(stage, reversal),

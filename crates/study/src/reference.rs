@@ -33,8 +33,8 @@ const PROFILES_PER_SURFACE: u64 = 16;
 
 impl ReferenceOptions {
     /// Returns the usual options for a scene: 64 grid cells along the side of a square surface, and
-    /// 16 random profiles for each square surface. `surfaces` is the number of square surfaces. `None`
-    /// means 12 square surfaces for a scene with adhesion, and 24 without adhesion.
+    /// 16 random profiles for each square surface. `surfaces` is the number of square surfaces.
+    /// `None` means 12 square surfaces for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, surfaces: Option<u64>) -> ReferenceOptions {
         let surfaces = surfaces.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions {

@@ -104,8 +104,8 @@ pub fn shows_measured(app: &App) -> bool {
     units(app).shows_force() && quantities(app) != LoopQuantities::ForceTime
 }
 
-/// Returns the points of the measured curve. Returns `None` without a measured curve, before a scene
-/// is computed, and if the chart cannot show the curve.
+/// Returns the points of the measured curve. Returns `None` without a measured curve, before a
+/// scene is computed, and if the chart cannot show the curve.
 fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     if !shows_measured(app) {
         return None;

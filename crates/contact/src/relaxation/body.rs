@@ -317,9 +317,9 @@ impl MovingBody for RelaxingBody<'_> {
     /// Moves the body to a target and returns the record of the stage.
     ///
     /// # Errors
-    /// Returns an error for a target that the contact cannot reach, and
-    /// [`ContactError::NotRecovered`] for a loading after springs have detached. The body then stays
-    /// in place.
+    /// Returns an error for a target that the contact cannot reach. Returns
+    /// [`ContactError::NotRecovered`] for a loading after springs have detached. After an error the
+    /// body stays in place.
     fn advance(&mut self, target: Move) -> Result<StageRecord, ContactError> {
         self.advance_or_stay(target)
     }

@@ -128,8 +128,8 @@ impl Drive {
         self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
     }
 
-    /// Adds a state. If the force has changed by more than `continuous` in m, it has jumped, and the
-    /// state before the jump is put at the same moment, so that the record has both sides.
+    /// Adds a state. If the force has changed by more than `continuous` in m, it has jumped, and
+    /// the state before the jump is put at the same moment, so that the record has both sides.
     fn push(&self, states: &mut Vec<State>, state: State, continuous: f64) {
         if let Some(before) = states.last()
             && (self.force(&state) - self.force(before)).abs() > continuous

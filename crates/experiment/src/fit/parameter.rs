@@ -29,8 +29,8 @@ pub enum Parameter {
     Radius,
     /// Radius R₂ of the second of several spheres on one probe, m.
     SecondRadius,
-    /// Distance b in m between the apexes of the first two spheres on one probe, in the direction of
-    /// motion. The apex of the second sphere is behind the apex of the first sphere.
+    /// Distance b in m between the apexes of the first two spheres on one probe, in the direction
+    /// of motion. The apex of the second sphere is behind the apex of the first sphere.
     Behind,
     /// Share s of the modulus that relaxes, from 0 to 1. The parameter `Modulus` is then the
     /// instantaneous modulus, before any relaxation.

@@ -22,10 +22,10 @@ pub(super) struct Prepared {
     pub warnings: Vec<Warning>,
 }
 
-/// Function that [`Simulation::run`](super::stages::Simulation::run) calls after each loading stage. Its arguments are the index of
-/// the stage, the record of the stage with its force curve ([`StageRecord`]), and the motion
-/// ([`Stage`]), which gives the contact at each indentation. If the function returns an error, the
-/// computation ends with this error.
+/// Function that [`Simulation::run`](super::stages::Simulation::run) calls after each loading
+/// stage. Its arguments are the index of the stage, the record of the stage with its force curve
+/// ([`StageRecord`]), and the motion ([`Stage`]), which gives the contact at each indentation. If
+/// the function returns an error, the computation ends with this error.
 pub type AfterStage<'a> = dyn FnMut(usize, &StageRecord, &Stage) -> Result<(), ContactError> + 'a;
 
 /// Result of the loading of a scene.

@@ -113,8 +113,8 @@ pub struct Timings {
     /// Time in s for computing the profile from the form and the roughness.
     pub profile: f64,
     /// Time in s for building the contact tree
-    /// ([`WorkPart::Tree`](crate::simulation::workload::WorkPart::Tree)) and for the histogram of the
-    /// heights.
+    /// ([`WorkPart::Tree`](crate::simulation::workload::WorkPart::Tree)) and for the histogram of
+    /// the heights.
     pub tree: f64,
     /// Time in s for finding the indentations at which contact patches form, merge, split and
     /// detach, or for the steps of the stepwise solver.

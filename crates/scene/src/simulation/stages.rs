@@ -246,8 +246,8 @@ impl Simulation {
             ..
         } = *key;
         self.histogram = None;
-        // If a caller has kept a stage, the last profile is still in use. Otherwise the memory of its
-        // contact tree can be used for the next tree.
+        // If a caller has kept a stage, the last profile is still in use. Otherwise the memory of
+        // its contact tree can be used for the next tree.
         if let Some(profile) = self.profile.take() {
             self.former_tree = profile.into_tree();
         }

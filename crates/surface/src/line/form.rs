@@ -57,8 +57,8 @@ pub enum Form {
         /// Radius a of the flat end in m.
         radius: f64,
     },
-    /// Spheres side by side on one probe, each above an equal part of the length of the profile. The
-    /// contacts of the spheres do not influence each other, and their forces add up.
+    /// Spheres side by side on one probe, each above an equal part of the length of the profile.
+    /// The contacts of the spheres do not influence each other, and their forces add up.
     Spheres(Vec<Sphere>),
     /// Body of revolution whose radii and depths are in a file.
     Table {
@@ -159,7 +159,8 @@ impl Form {
 
     /// Returns ⌊N/2⌋ for N = `points` springs, the index of the spring on the axis of a body of
     /// revolution. For two forms ⌊N/2⌋ is not the axis: the axis of a punch is in the middle of the
-    /// length, which may lie between two springs, and [`Form::Spheres`] has an axis for each sphere.
+    /// length, which may lie between two springs, and [`Form::Spheres`] has an axis for each
+    /// sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
         // If the axis were between two springs, no spring would be under the tip. The errors of the
         // contact would then be proportional to the spring spacing Δx.
@@ -259,8 +260,8 @@ impl Form {
     }
 
     /// Returns the curvature of the form at its summit in 1/m. For several spheres, returns the
-    /// largest curvature. Returns `None` for a cone and a power law. Also returns `None` for a table that
-    /// has not been read, or whose curvature at the tip is not finite.
+    /// largest curvature. Returns `None` for a cone and a power law. Also returns `None` for a
+    /// table that has not been read, or whose curvature at the tip is not finite.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
@@ -331,8 +332,8 @@ impl Form {
     /// the axis in m. The formula is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
     /// [`Form::depth`].
     ///
-    /// For a punch the depth is 0. For several spheres the result is the depth of the sphere that is
-    /// ahead, alone; [`Form::depth_of_spring`] takes all spheres into account.
+    /// For a punch the depth is 0. For several spheres the result is the depth of the sphere that
+    /// is ahead, alone; [`Form::depth_of_spring`] takes all spheres into account.
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.

@@ -181,9 +181,9 @@ impl<P: Fn(usize) -> Place> PointList<'_, P> {
     /// missing points.
     ///
     /// # Errors
-    /// Returns an error if there are fewer than two points, if they do not form an even grid, if they
-    /// fill less than half of the grid, if two points have the same place, or if the memory does not
-    /// suffice.
+    /// Returns an error if there are fewer than two points, if they do not form an even grid, if
+    /// they fill less than half of the grid, if two points have the same place, or if the memory
+    /// does not suffice.
     pub fn map(&self) -> Result<Map, SurfaceError> {
         let points = self.heights.len();
         if points < 2 {

@@ -376,8 +376,8 @@ mod tests {
         }
     }
 
-    /// Values that change in steps, as the place of a point between the points of a curve does, have
-    /// errors of this variance. Steps of single profiles belong to their scatter.
+    /// Values that change in steps, as the place of a point between the points of a curve does,
+    /// have errors of this variance. Steps of single profiles belong to their scatter.
     #[test]
     fn steps_that_all_profiles_have_are_errors_of_the_means() {
         let step = 0.013;

@@ -83,8 +83,8 @@ struct Descended {
 
 impl Search<'_> {
     /// Returns a population of `count` members around the best places that descents from the starts
-    /// of the space find. Returns `None` if the best place does not describe the curve, and no other
-    /// descent has ended as well, so that a better place may exist.
+    /// of the space find. Returns `None` if the best place does not describe the curve, and no
+    /// other descent has ended as well, so that a better place may exist.
     pub(super) fn near_starts(
         &mut self,
         count: usize,
@@ -269,8 +269,8 @@ impl Search<'_> {
         Ok(population)
     }
 
-    /// Draws a place from the normal distribution around a place. `factor` is the Cholesky factor of
-    /// the inverse covariance matrix.
+    /// Draws a place from the normal distribution around a place. `factor` is the Cholesky factor
+    /// of the inverse covariance matrix.
     fn drawn_inside(
         &self,
         centre: &[f64],
