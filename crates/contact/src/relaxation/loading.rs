@@ -10,6 +10,9 @@ const MOST_HALVINGS: u32 = 20;
 /// Change of the force on a step, as a share of the tolerance, up to which a step with a jump is
 /// not divided further.
 const LOCATED: f64 = 0.25;
+/// Growth of the force on a step, divided by the growth on the step before, above which the force
+/// has jumped.
+const FASTER: f64 = 4.0;
 /// Largest number of guesses of the moment at which a motion reaches its goal.
 const GUESSES: usize = 60;
 /// Allowed difference between the reached force and the force of a goal, as a share of the largest
@@ -128,15 +131,36 @@ impl Drive {
         self.divide(states, &middle, rest, whole, tolerance, halvings - 1)
     }
 
-    /// Adds a state. If the force has changed by more than `continuous` in m, it has jumped, and
-    /// the state before the jump is put at the same moment, so that the record has both sides.
+    /// Adds a state. If the force has jumped on the step to it, the state before the jump is put at
+    /// the same moment, so that the record has both sides. Changes of the force up to `continuous`
+    /// in m are no jumps.
     fn push(&self, states: &mut Vec<State>, state: State, continuous: f64) {
         if let Some(before) = states.last()
-            && (self.force(&state) - self.force(before)).abs() > continuous
+            && self.has_jumped(states, &state, continuous)
         {
             states.push(before.before_jump(&state, self.instrument.is_infinite()));
         }
         states.push(state);
+    }
+
+    /// Returns true if the force has jumped on the step from the last one of `states` to `state`. A
+    /// force that changes as fast as on the step before has not jumped, unless patches have.
+    fn has_jumped(&self, states: &[State], state: &State, continuous: f64) -> bool {
+        let Some(before) = states.last() else {
+            return false;
+        };
+        let change = (self.force(state) - self.force(before)).abs();
+        if change <= continuous {
+            return false;
+        }
+        let growth = match states {
+            [.., earlier, _] => self.growth(earlier, before),
+            _ => None,
+        };
+        let usual = growth.map_or(0.0, |growth| {
+            growth.abs() * (state.seconds - before.seconds)
+        });
+        state.jump > continuous || change > FASTER * usual
     }
 
     /// Returns the mean growth of the force in m/s from one state to another one.

@@ -216,11 +216,10 @@ fn a_few_rough_lines_agree_with_brute_force() {
     judge((0..40).step_by(16));
 }
 
-/// Twenty of the 200 lines; all of them with a `TEST_EFFORT` of at least 10.
+/// Twenty of the 200 lines, times `TEST_EFFORT`; all of them with 10.
 #[test]
 #[ignore = "slow: lines by brute force, a minute for all"]
 fn two_hundred_rough_lines_agree_with_brute_force() {
-    let effort = std::env::var("TEST_EFFORT").ok();
-    let effort: usize = effort.and_then(|text| text.parse().ok()).unwrap_or(1);
-    judge((0..200).step_by(10_usize.div_ceil(effort.max(1))));
+    let lines = crate::effort::cases(20).min(200) as usize;
+    judge((0..200).step_by(200 / lines));
 }
