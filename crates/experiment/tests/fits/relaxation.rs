@@ -330,11 +330,6 @@ fn curves_of_several_speeds_give_one_relaxation() {
         let speed = curves[number].0.clone();
         println!("{speed} {}", fit.assumptions[0]);
     }
-    // Without a free offset each curve has the displacement of its own first touch.
-    let free_without_offset = "work,modulus,relaxation_share,relaxation_time";
-    for fit in run_together(&curves, &start, free_without_offset).unwrap() {
-        assert!(fit.misfit < 4.0, "{}", fit.misfit);
-    }
     let alone = fit_from(&curves[2].1, &start, free);
     held(&alone, &truth);
     println!("{} {}", width_of_time(&together[0]), width_of_time(&alone));
