@@ -61,7 +61,7 @@ struct Receding<'a> {
     jumps: bool,
 }
 
-/// How the edges of a patch move until the patch can bear its tension.
+/// Motion of the edges of a patch, up to the place at which the patch holds under its tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Settling {
     /// Nothing detaches.

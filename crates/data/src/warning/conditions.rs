@@ -24,8 +24,8 @@ impl Warning {
     /// without a warning.
     pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
 
-    /// Largest relative difference between the rms heights of a profile and of a scan longer than
-    /// the profile, for which there is no warning.
+    /// Largest relative difference, without a warning, between the rms height of a profile and the
+    /// rms height of a longer scan.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
     /// Largest ratio of the length of a profile to the length of the scan for which there is no

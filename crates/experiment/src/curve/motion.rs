@@ -187,7 +187,7 @@ mod tests {
         }
     }
 
-    /// During a rest the displacement grows by its rounding only, which is no piece of its own.
+    /// If the displacement changes during a rest only by rounding, the rest does not become a piece.
     #[test]
     fn a_rest_is_no_piece_of_a_length_by_rounding() {
         let mut passages = passages([1e-7; 4], 20.0, 1.0);

@@ -38,7 +38,7 @@ pub(crate) struct Timing {
     pub has_other_rests: bool,
 }
 
-/// Where the body is in contact, without a model.
+/// Part of a measured curve in which the body is in contact, determined without a model.
 #[derive(Clone, Copy)]
 pub(crate) struct InContact {
     /// Displacement in m at first touch.

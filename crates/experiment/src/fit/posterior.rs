@@ -34,8 +34,8 @@ pub(crate) struct Posterior<'a> {
     /// Samples whose deviations from the mean are increased, because residuals that correlate along
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
-    /// The same samples. The coordinate of the share that relaxes is the whole share here, and not
-    /// the part that relaxes within the contact.
+    /// The samples as they are shown. Here the coordinate of the relaxation is the whole share of
+    /// the modulus that relaxes. In the other samples it is the part that relaxes during the contact.
     shown: Vec<Vec<f64>>,
     /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,

@@ -97,8 +97,8 @@ fn force_at_indentation(record: &StageRecord, indentation: f64) -> f64 {
     from.force + (indentation - from.indentation) / way * (to.force - from.force)
 }
 
-/// A stage may end anywhere, also at a jump, just before and just after it: the loading goes on as
-/// if the stage had not ended there. A target that the force jumps over is reached at the jump.
+/// Stages end at a jump, just before it and just after it. The next stage then continues the curve
+/// of a single stage. If the force jumps past the target of a stage, the stage ends at the jump.
 #[test]
 fn a_stage_that_ends_at_a_jump_changes_nothing() {
     let mut ends = 0;

@@ -1,5 +1,6 @@
-//! What published solutions of the viscoelastic contact of a sphere state, as far as they have the
-//! separation of the times of edge and bulk, and the pull-off over the speed by quadrature.
+//! Comparison with published solutions of the viscoelastic contact of a sphere. Their statements are
+//! tested where the edge relaxes much faster than the bulk, as this model assumes. In addition, the
+//! pull-off force at several speeds is compared with a quadrature.
 //!
 //! * Mandriota, Menga and Carbone, arXiv 2407.11524: after full relaxation, a retraction detaches
 //!   like a flat punch, at constant contact.
