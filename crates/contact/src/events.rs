@@ -187,15 +187,11 @@ impl JumpCollector {
             events.gained += jump.energy.max(0.0);
             events.released -= jump.energy.min(0.0);
         }
-        let least = self.least_energy(least_share, most);
+        let mut chosen = self.chosen_jumps(least_share, most).into_iter();
         let marks = Mark::all(records);
         let range = NEAR * range_of(records);
         for (stage, record) in records.iter().enumerate() {
-            let mut of_stage = self.listed_jumps(stage, least)?;
-            if of_stage.len() + events.listed_jumps > most {
-                // Several jumps have just the least energy.
-                of_stage.truncate(most - events.listed_jumps);
-            }
+            let mut of_stage = self.listed_jumps(stage, &chosen.next().unwrap_or_default())?;
             events.listed_jumps += of_stage.len();
             for marked in marks.iter().filter(|marked| marked.stage == stage) {
                 add_mark(&mut of_stage, marked, record, range);
@@ -212,21 +208,35 @@ impl JumpCollector {
         Ok(events)
     }
 
-    /// Returns the energy in J that a jump needs at least to be listed.
-    fn least_energy(&self, least_share: f64, most: usize) -> f64 {
-        let mut energies: Vec<f64> = self
-            .stages
-            .iter()
-            .flat_map(|stage| &stage.jumps)
-            .map(|jump| jump.energy.abs())
-            .collect();
-        let mut least = least_share * self.largest_energy();
-        if (1..energies.len()).contains(&most) {
-            let (_, at_most, _) =
-                energies.select_nth_unstable_by(most - 1, |energy, other| other.total_cmp(energy));
-            least = least.max(*at_most);
+    /// Returns the places of the listed jumps among the jumps of each stage, in ascending order. Of
+    /// jumps with the same energy the earlier ones are listed first.
+    fn chosen_jumps(&self, least_share: f64, most: usize) -> Vec<Vec<usize>> {
+        let least = least_share * self.largest_energy();
+        let mut candidates = Vec::new();
+        for (stage, of_stage) in self.stages.iter().enumerate() {
+            for (place, jump) in of_stage.jumps.iter().enumerate() {
+                let energy = jump.energy.abs();
+                if energy >= least {
+                    candidates.push(Candidate {
+                        energy,
+                        stage,
+                        place,
+                    });
+                }
+            }
         }
-        least
+        if most < candidates.len() {
+            candidates.select_nth_unstable_by(most, Candidate::before);
+            candidates.truncate(most);
+        }
+        let mut chosen = vec![Vec::new(); self.stages.len()];
+        for candidate in candidates {
+            chosen[candidate.stage].push(candidate.place);
+        }
+        for of_stage in &mut chosen {
+            of_stage.sort_unstable();
+        }
+        chosen
     }
 
     /// Returns the jumps of the instrument in a stage with at least `least_share` of the largest
@@ -256,8 +266,8 @@ impl JumpCollector {
         events
     }
 
-    /// Returns the jumps of a stage with at least the energy `least` in J.
-    fn listed_jumps(&self, stage: usize, least: f64) -> Result<Vec<Event>, ContactError> {
+    /// Returns the jumps of a stage at these places among all jumps of the stage.
+    fn listed_jumps(&self, stage: usize, places: &[usize]) -> Result<Vec<Event>, ContactError> {
         let Some(JumpsOfStage {
             stage: motion,
             jumps,
@@ -266,8 +276,7 @@ impl JumpCollector {
         else {
             return Ok(Vec::new());
         };
-        let mut listed = jumps.clone();
-        listed.retain(|jump| jump.energy.abs() >= least);
+        let listed: Vec<Jump> = places.iter().map(|&place| jumps[place]).collect();
         let mut events = Vec::with_capacity(listed.len());
         for (jump, forces) in listed.iter().zip(motion.forces_at_jumps(&listed)?) {
             events.push(Event {
@@ -276,6 +285,23 @@ impl JumpCollector {
             });
         }
         Ok(events)
+    }
+}
+
+/// A jump that may be listed.
+struct Candidate {
+    /// Magnitude of its energy in J.
+    energy: f64,
+    stage: usize,
+    /// Its place among the jumps of the stage.
+    place: usize,
+}
+
+impl Candidate {
+    /// Returns [`Ordering::Less`] if this jump is listed before another one.
+    fn before(&self, other: &Candidate) -> Ordering {
+        let by_energy = other.energy.total_cmp(&self.energy);
+        by_energy.then((self.stage, self.place).cmp(&(other.stage, other.place)))
     }
 }
 

@@ -413,6 +413,35 @@ proptest! {
     }
 }
 
+/// A loop that is repeated has each jump twice. A short list has the largest jumps, whatever stage
+/// they are in.
+#[test]
+fn of_equal_jumps_no_larger_one_is_left_out() {
+    // Ten flat asperities of different heights and lengths.
+    let gaps = (0..150).map(|spring| {
+        let asperity = spring / 15;
+        let is_flat = spring % 15 < 3 + asperity * 3 % 10;
+        0.004 * f64::from(asperity * 7 % 10) + if is_flat { 0.0 } else { 0.2 }
+    });
+    let body = Body::new(gaps.collect(), Edges::Grid, FOUNDATION, 0.002);
+    let contact = body.contact();
+    let once = [Move::ToIndentation(0.05), Move::ToSeparation];
+    let targets = [once, once].concat();
+    let energies = |events: &Events| -> Vec<f64> {
+        let jumps = events.list.iter().filter_map(|event| event.jump);
+        let mut energies: Vec<f64> = jumps.map(|jump| jump.energy.abs()).collect();
+        energies.sort_by(|energy, other| other.total_cmp(energy));
+        energies
+    };
+    let (all, _) = events_of(&contact, &targets, 0.0, usize::MAX);
+    let all = energies(&all);
+    assert!(all.len() > 8, "{}", all.len());
+    for most in 0..=all.len() {
+        let (few, _) = events_of(&contact, &targets, 0.0, most);
+        assert_eq!(energies(&few), all[..most]);
+    }
+}
+
 #[test]
 fn the_stepwise_solver_has_no_events() {
     let body = Body::new(sphere(50, 101), Edges::Grid, FOUNDATION, 0.02);
