@@ -73,8 +73,9 @@ impl<'a> Course<'a> {
             let tension = load.length * pulled / drive.instrument;
             let bent = from.drive - from.indentation;
             let lowest = match goal {
-                Goal::Indentation(end) => end,
-                Goal::Displacement(end) => end - bent.max(0.0),
+                // A body that is pulled farther has separated before.
+                Goal::Indentation(end) => end.max(-pulled),
+                Goal::Displacement(end) => (end - bent.max(0.0)).max(-pulled),
                 Goal::Force(_) | Goal::Separation(_) => -pulled,
             };
             let way = (from.indentation - lowest) + bent.max(0.0) + tension;
@@ -216,7 +217,9 @@ impl<'a> Course<'a> {
                     smallest: recorder.smallest_force().min(spring * smallest),
                 });
             }
+            let end = self.moved_freely(&reached);
             states.push(reached);
+            states.extend(end);
             return Ok(());
         }
         // The moments after the goal are no part of the motion.
@@ -232,7 +235,11 @@ impl<'a> Course<'a> {
             if jumps {
                 states.pop();
             }
-            self.drive.reach(&from, reached, goal_value)?
+            let rounding = match self.goal {
+                Goal::Force(_) => self.drive.accuracy(),
+                _ => 0.0,
+            };
+            self.drive.reach(&from, reached, goal_value, rounding)?
         };
         let state = match self.goal {
             // The search ends at the indentation to rounding.
@@ -245,6 +252,21 @@ impl<'a> Course<'a> {
         self.drive.remember(&from, &state);
         states.push(state);
         Ok(())
+    }
+
+    /// Returns the end of an unloading to an indentation or a displacement if the body separates
+    /// before: the body goes on without contact.
+    fn moved_freely(&self, separated: &State) -> Option<State> {
+        let (Goal::Indentation(end) | Goal::Displacement(end)) = self.goal else {
+            return None;
+        };
+        let way = (separated.drive - end).max(0.0);
+        (self.direction == Direction::Unloading).then(|| State {
+            seconds: separated.seconds + way / self.speed,
+            drive: end,
+            indentation: end,
+            ..separated.clone()
+        })
     }
 
     /// Returns true if a motion to a force ends because the contact is lost.

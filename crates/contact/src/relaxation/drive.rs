@@ -20,7 +20,7 @@ const GUESSES: usize = 160;
 /// Number of guesses after which the steps between guesses are doubled.
 const SHORT_GUESSES: usize = 8;
 /// Share of the largest force up to which instrument and contact may be out of equilibrium.
-const BALANCE: f64 = 1e-11;
+pub const BALANCE: f64 = 1e-11;
 
 /// Distance above the largest indentation, as a share of this indentation, up to which the body
 /// still counts as being at the largest indentation.

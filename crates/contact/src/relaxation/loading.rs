@@ -1,6 +1,6 @@
 //! A motion of the drive in steps that are divided until the force is accurate.
 
-use super::drive::Drive;
+use super::drive::{BALANCE, Drive};
 use super::state::State;
 use crate::error::ContactError;
 
@@ -144,7 +144,8 @@ impl Drive {
     }
 
     /// Returns true if the force has jumped on the step from the last one of `states` to `state`. A
-    /// force that changes as fast as on the step before has not jumped, unless patches have.
+    /// force that changes as fast as on the step before has not jumped, unless patches have. On the
+    /// first step the change is compared with that of a fixed contact.
     fn has_jumped(&self, states: &[State], state: &State, continuous: f64) -> bool {
         let Some(before) = states.last() else {
             return false;
@@ -157,9 +158,10 @@ impl Drive {
             [.., earlier, _] => self.growth(earlier, before),
             _ => None,
         };
-        let usual = growth.map_or(0.0, |growth| {
-            growth.abs() * (state.seconds - before.seconds)
-        });
+        let usual = match growth {
+            Some(growth) => growth.abs() * (state.seconds - before.seconds),
+            None => self.largest_change(before, state, state),
+        };
         state.jump > continuous || change > FASTER * usual
     }
 
@@ -187,12 +189,24 @@ impl Drive {
         way * length.min(self.instrument) + self.relaxation.share() * fresh * duration.min(1.0)
     }
 
+    /// Returns the accuracy in m with which the force is known that belongs to a displacement of the
+    /// drive.
+    pub fn accuracy(&self) -> f64 {
+        let share = if self.instrument.is_infinite() {
+            SAME
+        } else {
+            BALANCE
+        };
+        share * self.largest_force
+    }
+
     fn rounding(&self) -> f64 {
         SAME * self.largest_force
     }
 
     /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
-    /// the state `to`. The goal is not reached at `from`, and is reached at `to`.
+    /// the state `to`. The goal is not reached at `from`, and is reached at `to`. A state whose value
+    /// of the goal differs from zero by at most `rounding` has reached it too.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
@@ -201,6 +215,7 @@ impl Drive {
         from: &State,
         to: State,
         goal: Goal<'_>,
+        rounding: f64,
     ) -> Result<State, ContactError> {
         let step = Step {
             drive: to.drive,
@@ -223,6 +238,9 @@ impl Drive {
             let part = step.part(from.drive, share);
             let state = self.driven(from, part.drive, part.seconds)?;
             let value = goal(&state);
+            if value.abs() <= rounding {
+                return Ok(state);
+            }
             if value >= 0.0 {
                 high = share;
                 value_at_high = value;
@@ -230,9 +248,6 @@ impl Drive {
             } else {
                 low = share;
                 value_at_low = value;
-            }
-            if value_at_high == 0.0 {
-                break;
             }
         }
         Ok(reached)

@@ -140,7 +140,11 @@ impl Recorded {
             let bent = point.force / contact.loading_stiffness;
             point.stored_energy + 0.5 * point.force * bent
         };
-        record.released_energy = work - (energy(last) - energy(first)) - record.dashpot_energy;
+        // Without adhesion nothing is released, and the difference would be the error of the steps.
+        if contact.has_adhesion() {
+            let stored = energy(last) - energy(first);
+            record.released_energy = work - stored - record.dashpot_energy;
+        }
         record.curve = self.curve;
         record.seconds = self.seconds;
         record
