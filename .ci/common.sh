@@ -18,4 +18,4 @@ export CARGO_INCREMENTAL=0
 # The same random cases each time; a run by hand draws others.
 export PROPTEST_RNG_SEED="${PROPTEST_RNG_SEED:-2012}"
 # Many tests wait for a terminal or a connection, and others compute meanwhile.
-export RUST_TEST_THREADS="${RUST_TEST_THREADS:-$((2 * $(nproc)))}"
+export RUST_TEST_THREADS="${RUST_TEST_THREADS:-$((4 * $(nproc)))}"
