@@ -309,7 +309,7 @@ fn shortened(text: &str, width: usize) -> String {
 }
 
 /// Number of columns of the names of results.
-const NAME_COLUMNS: usize = 12;
+const NAME_COLUMNS: usize = 11;
 
 fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
     let name = format!("{:NAME_COLUMNS$} ", result.name);
@@ -328,4 +328,23 @@ fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
         ));
     }
     fitted(line, width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns of a value in a window of 80 columns.
+    const ROOM: usize = 19;
+
+    #[test]
+    fn no_regime_is_cut_in_a_window_of_80_columns() {
+        for (regime, short) in [
+            ("sensitive (d=0, F=0)", "sens. (d=0, F=0)"),
+            ("sensitive (d=0), insensitive (F=0)", "sens. d=0, ins. F=0"),
+            ("insensitive (d=0), sensitive (F=0)", "ins. d=0, sens. F=0"),
+        ] {
+            assert_eq!(shortened(regime, ROOM), short);
+        }
+    }
 }
