@@ -630,5 +630,5 @@ impl App {
 }
 
 fn share_in_words(share: f64) -> String {
-    format!("F_a/F_a,max {}", percent(share, 2))
+    format!("F_a/F_a,max {}", percent(share, 3))
 }

@@ -93,10 +93,15 @@ impl Layout {
 }
 
 /// Returns the area of a pane for its content: below the title and without the last column, which
-/// stays blank. If the pane is too small for a title, returns the whole `area`.
+/// stays blank. A wide pane that is too low for a title has a blank last column too. If the pane is
+/// too small for both, returns the whole `area`.
 pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
-        return area;
+        let is_wide = area.width >= WITH_BLANK_COLUMN;
+        return Rect {
+            width: area.width - u16::from(is_wide),
+            ..area
+        };
     }
     Rect {
         y: area.y + 1,
@@ -105,6 +110,9 @@ pub fn inside(area: Rect) -> Rect {
         ..area
     }
 }
+
+/// Smallest width in columns of a low pane whose last column stays blank.
+const WITH_BLANK_COLUMN: u16 = 40;
 
 /// Returns true if a pane of this size has a title.
 pub fn has_title(area: Rect) -> bool {

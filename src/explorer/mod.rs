@@ -49,6 +49,7 @@ pub mod request;
 pub mod runtime;
 mod search;
 pub mod session;
+mod shown_ensemble;
 mod shown_map;
 pub mod signals;
 pub mod snapshot;

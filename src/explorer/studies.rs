@@ -216,6 +216,11 @@ impl Findings {
         self.slots.retain(|_, slot| is_kept(slot));
     }
 
+    /// Removes the former values, because another scene is shown.
+    pub fn forget_former(&mut self) {
+        self.former.clear();
+    }
+
     /// Returns the last final value of the type `T` that was removed because the scene has changed;
     /// `None` if there is none.
     pub fn former<T: Any>(&self) -> Option<&T> {

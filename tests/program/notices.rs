@@ -269,7 +269,7 @@ fn roughness_weakens_a_sphere_and_waves_strengthen_it() {
 
 #[test]
 fn adhesion_at_zero_force_ends_at_an_elastic_energy() {
-    let keeps = "keeps 58 % of the ideal pull-off force; at e_el/γ = 2.5 it keeps 0.17 %";
+    let keeps = "keeps 58 % of F_a,max; at e_el/γ = 2.5 it keeps 0.17 %";
     let below = scene(
         "elastic-energy-below",
         &["would take twice the work of adhesion, e_el/γ = 2", keeps],

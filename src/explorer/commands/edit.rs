@@ -56,6 +56,8 @@ pub fn open(app: &mut App, document: Document) {
     adopt_all(app, opened);
     app.play_of_path = None;
     app.edit.set_saved();
+    // The results before the change would be those of another scene.
+    app.studies.forget_former();
 }
 
 /// Opens the editor for the value of the selected parameter. If the user has begun to type with the
@@ -536,6 +538,7 @@ pub fn replace(app: &mut App, document: Document) {
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let before = app.edit.generation;
+    let name_before = app.edit.document.name().to_owned();
     let Some(what) = app.edit.undo(back) else {
         return app.set_done(format!("nothing to {name}"));
     };
@@ -543,6 +546,9 @@ pub fn undo(app: &mut App, back: bool) {
     let is_other_scene = app.edit.generation != before;
     if is_other_scene {
         after_edit(app);
+        if app.edit.document.name() != name_before {
+            app.studies.forget_former();
+        }
     }
     if !matches!(app.message, Some(Message::Done(_))) {
         app.set_done(format!("{name}: {what}"));

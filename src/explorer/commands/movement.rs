@@ -28,8 +28,8 @@ pub fn toggle_play(app: &mut App) {
     }
 }
 
-/// Returns true if the animation is at its end.
-fn is_at_rest(app: &App, player: Player) -> bool {
+/// Returns true if the animation is at its end, so that it plays from the start next.
+pub fn is_at_rest(app: &App, player: Player) -> bool {
     let stages = app.played_stages();
     let is_at_end = player.at == At::End && player.stage + 1 >= stages.len();
     is_at_end || app.edit.path.is_none() && player == Player::at_rest(stages)

@@ -6,6 +6,7 @@ use super::row::{PaneRow, outcome};
 use super::trust;
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
+use crate::explorer::shown_ensemble::ShownEnsemble;
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
 use asperity_data::{counted, format_range, format_rounded, grouped};
@@ -50,20 +51,14 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some(outcome) = app.outcome() else {
         return Panel::of_text(title.to_owned(), "computing…");
     };
-    let ensemble = app.studies.value::<Ensemble>();
-    let former = if ensemble.is_none() && awaits_profiles(app) {
-        app.studies.former::<Ensemble>()
-    } else {
-        None
-    };
+    let shown = app.shown_ensemble();
+    let ensemble = shown.as_ref().map(|shown| shown.ensemble);
     let mut lines = Vec::new();
     if size.height >= WITH_STRIP {
-        // Over a slow line, a strip that disappears and comes back would be transmitted
-        // twice.
-        lines.extend(match ensemble.or(former) {
-            Some(ensemble) => strip(app, outcome, ensemble, size.width.into()),
+        lines.extend(match &shown {
+            Some(shown) => strip(app, outcome, shown, size.width.into()),
             // The lines below stay in their places when the strip appears.
-            None if awaits_profiles(app) => vec![Line::default(); STRIP_ROWS + 1],
+            None if app.awaits_profiles() => vec![Line::default(); STRIP_ROWS + 1],
             None => Vec::new(),
         });
     }
@@ -71,27 +66,22 @@ fn panel(app: &App, size: Size) -> Panel {
         lines.push(line_of_result(app, &result, size.width));
     }
     let mut panel = Panel::of_text(title.to_owned(), "");
-    panel.edge = edge(ensemble, former);
+    panel.edge = edge(shown.as_ref());
     panel.body = Body::Lines(lines);
     panel
 }
 
-/// Returns true if the scene has random profiles, which the explorer computes next.
-fn awaits_profiles(app: &App) -> bool {
-    let has_failed = app.studies.failure::<Ensemble>().is_some();
-    Ensemble::profiles_of(&app.edit.scene) > 1 && app.edit.count_profiles() > 1 && !has_failed
-}
-
 /// Returns the number of profiles that are computed, or that were computed before the last change.
-fn edge(ensemble: Option<&Ensemble>, former: Option<&Ensemble>) -> Vec<Vec<Span<'static>>> {
-    let Some(shown) = ensemble.or(former) else {
+fn edge(shown: Option<&ShownEnsemble>) -> Vec<Vec<Span<'static>>> {
+    let Some(shown) = shown else {
         return Vec::new();
     };
-    let all = counted(shown.profiles(), "profile");
-    let text = if ensemble.is_none() {
+    let ensemble = shown.ensemble;
+    let all = counted(ensemble.profiles(), "profile");
+    let text = if shown.is_former {
         format!("{all} before the change")
-    } else if shown.computed() < shown.profiles() {
-        format!("{} of {all}", grouped(shown.computed()))
+    } else if ensemble.computed() < ensemble.profiles() {
+        format!("{} of {all}", grouped(ensemble.computed()))
     } else {
         all
     };
@@ -99,8 +89,10 @@ fn edge(ensemble: Option<&Ensemble>, former: Option<&Ensemble>) -> Vec<Vec<Span<
 }
 
 /// Returns the pull-off forces of the random profiles as a strip with its axis: a point for each
-/// profile, stacked where several are in one column.
-fn strip(app: &App, outcome: &Outcome, ensemble: &Ensemble, width: usize) -> Vec<Line<'static>> {
+/// profile, stacked where several are in one column. The force of the shown profile is not among
+/// the results before a change.
+fn strip(app: &App, outcome: &Outcome, shown: &ShownEnsemble, width: usize) -> Vec<Line<'static>> {
+    let ensemble = shown.ensemble;
     let forces: Vec<f64> = ensemble
         .values(Quantity::PullOffForce)
         .into_iter()
@@ -109,7 +101,7 @@ fn strip(app: &App, outcome: &Outcome, ensemble: &Ensemble, width: usize) -> Vec
     let Some(statistics) = ensemble.statistics(Quantity::PullOffForce) else {
         return Vec::new();
     };
-    let present = outcome.figures.pull_off_force;
+    let present = outcome.figures.pull_off_force.filter(|_| !shown.is_former);
     let largest = forces.iter().copied().chain(present).fold(0.0, f64::max);
     if largest <= 0.0 || width < 12 {
         return Vec::new();
@@ -231,7 +223,7 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
         });
     }
     if let Some(computed) = app.current()
-        && let Some(largest) = largest_error(&trust::errors(app, computed))
+        && let Some(largest) = largest_error(&trust::errors(app, computed, ensemble))
     {
         results.push(ResultLine {
             name: "error",
@@ -292,12 +284,16 @@ fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
 }
 
 /// Shorter wordings of results, in the order in which they are used.
-const SHORTER: [[&str; 2]; 5] = [
+const SHORTER: [[&str; 2]; 9] = [
     [": a premise does not hold", ": see the premises"],
     ["sample of profiles", "sample"],
     ["insensitive", "insens."],
     ["sensitive", "sens."],
     ["more than ", "> "],
+    ["(d=0)", "d=0"],
+    ["(F=0)", "F=0"],
+    ["insens.", "ins."],
+    ["non-adhesive", "non-adh."],
 ];
 
 /// Returns a text with as few shorter wordings as it needs to fit into this width.
@@ -313,7 +309,7 @@ fn shortened(text: &str, width: usize) -> String {
 }
 
 /// Number of columns of the names of results.
-const NAME_COLUMNS: usize = 12;
+const NAME_COLUMNS: usize = 11;
 
 fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
     let name = format!("{:NAME_COLUMNS$} ", result.name);
@@ -332,4 +328,23 @@ fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
         ));
     }
     fitted(line, width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns of a value in a window of 80 columns.
+    const ROOM: usize = 19;
+
+    #[test]
+    fn no_regime_is_cut_in_a_window_of_80_columns() {
+        for (regime, short) in [
+            ("sensitive (d=0, F=0)", "sens. (d=0, F=0)"),
+            ("sensitive (d=0), insensitive (F=0)", "sens. d=0, ins. F=0"),
+            ("insensitive (d=0), sensitive (F=0)", "ins. d=0, sens. F=0"),
+        ] {
+            assert_eq!(shortened(regime, ROOM), short);
+        }
+    }
 }

@@ -104,16 +104,26 @@ pub fn table(app: &App, chart: Chart) -> Exported<'static> {
 
 /// Returns the range of heights in m that the vertical axis of a section shows. It contains the
 /// profile, and the elastic surface at all indentations of the loop. A surface that is far above
-/// the profile is left out.
+/// the profile is left out. The range exceeds the profile by whole steps, so that a small change of
+/// the surface leaves the profile in its place.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
+    const STEPS: f64 = 8.0;
     let (low, high) = snapshot.profile.heights;
+    let step = (high - low) / STEPS;
     let far = high + 0.5 * (high - low);
     let present = snapshot.point.indentation;
     let (least, most) = app.indentations().unwrap_or((present, present));
     let mut ends = vec![low, high];
     for indentation in [present, least, most] {
         let level = snapshot.profile.level + present - indentation;
-        ends.push(level.min(far));
+        let level = level.min(far);
+        ends.push(if level > high && step > 0.0 {
+            high + ((level - high) / step).ceil() * step
+        } else if level < low && step > 0.0 {
+            low - ((low - level) / step).ceil() * step
+        } else {
+            level
+        });
     }
     Span::around(ends.into_iter(), 0.05)
 }

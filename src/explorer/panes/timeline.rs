@@ -5,6 +5,7 @@ use super::force;
 use super::row::PaneRow;
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
+use crate::explorer::commands::movement::is_at_rest;
 use crate::explorer::manual_path;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel, title_line};
@@ -30,7 +31,7 @@ pub static ROW: PaneRow = PaneRow {
         "the stages of the loading, or their times if the body relaxes; a tick is a jump, its height the square root of \
          the elastic energy that springs gain or release. Such an energy is no loss: only a closed loop has a dissipated energy. ◇ jump-in, ▲ preload, ▼ \
          pull-off, ○ jump-out. With the pane selected, ← → move along the stage, Home and End go to the ends, + and - \
-         change the speed of play; a click goes there",
+         change the speed of play; a click goes there. ■ is the end of play, from which Space plays anew",
     )],
     ..PaneRow::EMPTY
 };
@@ -83,16 +84,16 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Returns the name of the pane, whether the animation plays, and its speed.
 fn title(app: &App) -> String {
     let playhead = app.playhead();
-    let playing = if playhead.playing { "▶" } else { "❚❚" };
     let speed = speed_in_words(app.config.speed);
     let repeat = if app.config.repeat { " ↻" } else { "" };
-    // After its end, the animation goes back to the pull-off.
-    let back = if playhead.at == At::PullOff && !playhead.playing {
-        " · at the pull-off"
-    } else {
-        ""
+    let (playing, end) = match playhead.at {
+        _ if playhead.playing => ("▶", ""),
+        _ if !is_at_rest(app, playhead) => ("❚❚", ""),
+        // After its end, the animation goes back to the pull-off.
+        At::PullOff => ("■", " · end, at the pull-off"),
+        _ => ("■", " · end"),
     };
-    format!("Timeline  {playing} {speed}{repeat}{back}")
+    format!("Timeline  {playing} {speed}{repeat}{end}")
 }
 
 /// Returns the event that the animation has passed last, with the energy of its jump; without an

@@ -218,7 +218,7 @@ fn words(app: &App, width: u16) -> Words {
         };
     };
     let ensemble = app.studies.value::<Ensemble>();
-    let mut errors = errors(app, computed);
+    let mut errors = errors(app, computed, ensemble);
     // `errors` ends with the largest error, which is moved to the first row.
     let first = errors.len().min(1);
     errors.rotate_right(first);
@@ -232,11 +232,15 @@ fn words(app: &App, width: u16) -> Words {
     }
 }
 
-/// Returns the errors of the pull-off force, each as the name of its source and a text.
-pub(super) fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
+/// Returns the errors of the pull-off force, each as the name of its source and a text. The error
+/// of the sample follows from `ensemble`.
+pub(super) fn errors(
+    app: &App,
+    computed: &SolvedScene,
+    ensemble: Option<&Ensemble>,
+) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let estimate = app.studies.value::<Estimate>();
-    let ensemble = app.studies.value::<Ensemble>();
     let measured = app.studies.value::<MeasuredAdhesion>();
     let deviation = measured.and_then(MeasuredAdhesion::fit_deviation);
     let Some(mut budget) = Budget::of(outcome, estimate, ensemble, deviation) else {

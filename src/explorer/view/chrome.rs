@@ -338,7 +338,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     if let Some(energy) = outcome.figures.dissipated_energy
         && app.snapshot.is_some()
     {
-        let text = format!("ΔW {}", format_rounded(energy, 2, "J"));
+        let text = format!("ΔW {}", format_rounded(energy, 3, "J"));
         facts.push(Fact::new(text, Meaning::Text));
     }
     facts
@@ -471,9 +471,13 @@ fn fact_of_squares(app: &App, width: usize) -> Fact {
 }
 
 /// Returns the median and the quartiles of the pull-off force over the random profiles computed so
-/// far. If `is_wide` is true, also states the number of profiles.
+/// far; before the first of them, those before the last change. If `is_wide` is true, also states
+/// the number of profiles.
 fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
-    let ensemble = app.studies.value::<Ensemble>()?;
+    let shown = app.shown_ensemble()?;
+    let ensemble = shown.ensemble;
+    // Words of one length keep the numbers in their places.
+    let name = if shown.is_former { "before" } else { "median" };
     let (quantity, symbol, unit) = if app.is_normalised() {
         (Quantity::AdhesionShare, "F_a/F_a,max", "1")
     } else {
@@ -491,7 +495,7 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     } else {
         format!(", {all}")
     };
-    let text = format!("{symbol} median {median} ({quartiles}{count})");
+    let text = format!("{symbol} {name} {median} ({quartiles}{count})");
     Some(Fact::new(text, Meaning::Title))
 }
 

@@ -31,6 +31,21 @@ fn the_headline_is_that_of_the_computed_curve() {
     }
 }
 
+/// The status line, the title of the force curve and the results round a quantity in one way.
+#[test]
+fn a_quantity_has_the_same_digits_everywhere() {
+    let mut driver = Driver::start(rough());
+    driver.press("!");
+    driver.resize((240, 45));
+    let figures = driver.outcome().figures.clone();
+    let energy = format_rounded(figures.dissipated_energy.unwrap(), 3, "J");
+    let text = driver.text();
+    assert_eq!(text.matches(&format!("ΔW {energy}")).count(), 2, "{text}");
+    assert!(text.contains(&format!("dissipated  {energy}")), "{text}");
+    let share = driver.app.adhesion_share_in_words().unwrap();
+    assert_eq!(text.matches(&share).count(), 3, "{text}");
+}
+
 /// A stage to zero force ends there but for rounding.
 #[test]
 fn a_rounding_error_is_a_force_of_zero() {

@@ -366,7 +366,12 @@ fn residuals_are_a_strip_in_units_of_the_noise() {
             driver.text()
         );
         // The residuals of another work of adhesion exceed 50 times the noise.
-        assert_eq!(has("-200┤"), is_there, "{size:?} {keys}\n{}", driver.text());
+        assert_eq!(
+            has("-200 ┤"),
+            is_there,
+            "{size:?} {keys}\n{}",
+            driver.text()
+        );
     }
     // Contact lengths have none.
     driver.sees("v", "Contact length");

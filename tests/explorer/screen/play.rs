@@ -182,6 +182,7 @@ fn the_configuration_sets_speed_and_end() {
     let expected = -driver.outcome().figures.pull_off_force.unwrap();
     assert!((driver.point().force / expected - 1.0).abs() < 1e-9 && !driver.app.play.playing);
     driver.shows("· pull-off");
+    driver.shows("■ 1× · end, at the pull-off");
     // An edit shows its own pull-off.
     driver.select("roughness.hurst");
     driver.press("l");
@@ -193,6 +194,7 @@ fn the_configuration_sets_speed_and_end() {
     );
     driver.press("Space");
     assert_eq!(driver.app.play, Player::START);
+    driver.shows("▶ 1×");
     let (stage, _, playing) = place(config("(version: 1, repeat: true)"), 14);
     assert!(stage == 0 && playing, "it begins again");
 }

@@ -20,12 +20,16 @@ use std::ops::RangeInclusive;
 pub(super) const COLUMNS_WITH_LEFT_SCALE: u16 = 26;
 /// Smallest height in rows of an area that has numbers on the left of the plot.
 const ROWS_WITH_LEFT_SCALE: u16 = 6;
+/// Smallest number of columns of the numbers on the left. Most numbers with and without a sign fit
+/// into it, so that the plot keeps its place when they change.
+const LEAST_LEFT_NUMBER: u16 = 4;
 /// Smallest height in rows of an area that has numbers below the plot.
 const WITH_SCALE_BELOW: u16 = 5;
 /// Smallest height in rows of an area that has a line between the plot and the numbers below it.
 const WITH_LINE_BELOW: u16 = 12;
-/// Smallest height in rows of an area in which the label of the horizontal axis may get a row of
-/// its own. The label gets this row only if it would cover a number otherwise.
+/// Smallest height in rows of an area in which the label of the horizontal axis has a row of its
+/// own, where it covers no number. This does not depend on the numbers, so that the plot keeps its
+/// place when they change.
 const WITH_LABEL_BELOW: u16 = 16;
 /// Number of columns of Braille dots in a cell.
 const COLUMNS_OF_DOTS: u16 = 2;
@@ -78,15 +82,15 @@ impl CellPlot {
     /// and leaves `between` rows free directly below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let has_scale_below = area.height >= WITH_SCALE_BELOW;
-        let has_label_row =
-            area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
+        let has_label_row = area.height >= WITH_LABEL_BELOW;
         let rows_below = u16::from(has_scale_below) + between + u16::from(has_label_row);
         let height = area.height.saturating_sub(rows_below);
         let mut left = 0;
         if area.width >= COLUMNS_WITH_LEFT_SCALE && area.height >= ROWS_WITH_LEFT_SCALE {
             let numbers = scale_beside(chart, height);
             let widths = numbers.iter().map(|(_, text)| text.chars().count() as u16);
-            left = widths.max().unwrap_or(0) + 2;
+            let width = widths.max().map_or(0, |width| width.max(LEAST_LEFT_NUMBER));
+            left = width + 2;
         }
         // Names on the vertical axis may take more room than numbers, because the names already
         // state what the bars beside them show.
@@ -501,14 +505,6 @@ fn is_covered(number: &PlacedNumber, width: u16, label: &str) -> bool {
     let (column, text) = number;
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     usize::from(*column) + text.chars().count().div_ceil(2) > end
-}
-
-/// Returns true if the label of the horizontal axis would be written over a number.
-fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
-    let (numbers, label) = scale_below(chart, width, true);
-    numbers
-        .iter()
-        .any(|number| is_covered(number, width, &label))
 }
 
 #[cfg(test)]

@@ -17,6 +17,10 @@ pub(super) struct LayerShape<'a> {
     pub palette: Palette,
 }
 
+/// Distance of the lines that show pulled springs above the profile, in columns of dots. Between
+/// two lines, one cell stays blank.
+const COLUMNS_BETWEEN_LINES: usize = 4;
+
 /// Column and row of a Braille dot on the canvas.
 type Dot = (usize, usize);
 
@@ -79,8 +83,8 @@ impl LayerShape<'_> {
 
     /// Fills the area between a profile and the level without stress. The colour of each row of
     /// dots shows the stress at its height. Above the profile, pulled springs are lines with gaps,
-    /// so that they do not hide its peaks. Without colours, they have only every second dot, and
-    /// the dots along the profile.
+    /// so that they do not hide its peaks; each patch has one at its left end. Without colours,
+    /// they have only every second dot, and the dots along the profile.
     fn fill(
         &self,
         painter: &mut Painter<'_, '_>,
@@ -108,10 +112,13 @@ impl LayerShape<'_> {
         let is_thinned = self.palette.colours == Colours::Plain && self.ink == Ink::Pull;
         let level = row_at(fill.level);
         let width = (x.1 - x.0) / columns.len().max(1) as f64;
+        let mut is_inside = false;
         for (index, heights) in columns.iter().enumerate() {
             let Some((low, high)) = *heights else {
+                is_inside = false;
                 continue;
             };
+            let is_end = !std::mem::replace(&mut is_inside, true);
             let left = self.chart.x.share(x.0 + width * index as f64) * last_column as f64;
             let right = self.chart.x.share(x.0 + width * (index + 1) as f64) * last_column as f64;
             if right < 0.0 || left > last_column as f64 {
@@ -134,7 +141,8 @@ impl LayerShape<'_> {
                     let is_painted = if is_thinned {
                         row == edge || (column + row).is_multiple_of(2)
                     } else {
-                        !is_above || column.is_multiple_of(2)
+                        let is_line = column.is_multiple_of(COLUMNS_BETWEEN_LINES);
+                        !is_above || is_line || is_end && column == first
                     };
                     if is_painted {
                         painter.paint(column, row, *colour);
