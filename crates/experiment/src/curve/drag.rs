@@ -42,6 +42,8 @@ const ALIKE: [f64; 2] = [2.0, 3.0];
 /// Smallest coefficient of the drag on the approach, in standard errors, that is significant if it
 /// is computed only from points far from contact.
 const FOUND_FAR: f64 = 2.5;
+/// Smallest distance of first touch from the pole of the drag, as a share of the length h₀.
+const NEAREST: f64 = 0.25;
 /// Largest ratio of the drag on the approach to the drag on the retraction, or the reverse. The
 /// drag is proportional to the speed, so this is also the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
@@ -61,10 +63,12 @@ pub struct DragForce {
 }
 
 /// Drag of a fluid, found from the points before and after contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
-    /// Displacement in m at first touch.
+    /// Displacement in m at first touch, midway between the last point before contact and the next
+    /// point.
     touch: f64,
     /// Force on the retraction minus force on the approach, far from contact, in N.
     step: f64,
@@ -150,14 +154,18 @@ impl Side {
         })
     }
 
-    /// Returns the possible numbers of points without contact, in descending order. Each number is
-    /// at least `fewest`.
-    fn ends(&self, fewest: usize) -> Vec<usize> {
+    /// Returns the largest number of points without contact that `is_described` accepts; `None` if
+    /// it accepts none. The number is at least `fewest`. Numbers in large steps are tried first, and
+    /// then the numbers within one step above the first accepted one.
+    fn longest(&self, fewest: usize, is_described: impl Fn(usize) -> bool) -> Option<usize> {
         let count = self.forces.len();
         let most = (count_before_steep_part(&self.forces) + 2).min(count);
         let fewest = fewest.clamp(FEWEST, most);
         let step = ((most - fewest) / ENDS).max(1);
-        (fewest..=most).rev().step_by(step).collect()
+        let mut ends = (fewest..=most).rev().step_by(step);
+        let found = ends.find(|end| is_described(*end))?;
+        let mut finer = (found + 1..=most.min(found + step - 1)).rev();
+        Some(finer.find(|end| is_described(*end)).unwrap_or(found))
     }
 }
 
@@ -188,22 +196,16 @@ impl Drag {
         let pressed = Side::new(points, &approach, before, options);
         let pulled = Side::new(points, &retraction, free.after.max(FEWEST), options);
 
-        let mut found = None;
-        for end in pressed.ends(before) {
-            let pole = pressed.best_pole(end);
-            if pressed.is_described(end, pole) {
-                found = Some((end, pole));
-                break;
-            }
-        }
-        let (before, pole) = found?;
-        let touch = points.displacement[(before).min(approach.len() - 1)];
+        let is_described = |end: usize| pressed.is_described(end, pressed.best_pole(end));
+        let before = pressed.longest(before, is_described)?;
+        let pole = pressed.best_pole(before);
+        let next = points.displacement[before.min(approach.len() - 1)];
+        let touch = 0.5 * (points.displacement[before - 1] + next);
         let pole = pole.max(touch + RATIO.powi(-REACHES) * (touch - points.displacement[0]));
-        let ends = pulled.ends(free.after);
-        let after = ends.into_iter().find(|end| {
+        let after = pulled.longest(free.after, |end| {
             // The pole has to lie beyond all points without contact, where the drag is finite.
-            pulled.displacements[..*end].iter().all(|at| *at < pole)
-                && pulled.is_described(*end, pole)
+            pulled.displacements[..end].iter().all(|at| *at < pole)
+                && pulled.is_described(end, pole)
         })?;
         let both = BothSides {
             points,
@@ -232,6 +234,23 @@ impl Drag {
     /// Returns h + h₀ in m, where h is the distance to first touch. In contact h is 0.
     fn distance(&self, displacement: f64) -> f64 {
         self.pole - displacement.min(self.touch)
+    }
+
+    /// Returns the force in N by which the drag grows at a displacement in m, if the first touch is
+    /// at `touch` in m and not where the drag was found to end. A body in contact has the drag of
+    /// first touch.
+    pub fn growth(&self, displacement: f64, is_pulled: bool, touch: f64) -> f64 {
+        let nearest = displacement
+            .min(touch)
+            .min(self.pole - self.least_distance());
+        let coefficient = if is_pulled { self.pulled } else { self.pressed };
+        coefficient * (1.0 / (self.pole - nearest) - 1.0 / self.distance(displacement))
+    }
+
+    /// Returns the smallest distance in m to the pole that a first touch may have. At the pole the
+    /// drag would be infinite.
+    fn least_distance(&self) -> f64 {
+        NEAREST * (self.pole - self.touch)
     }
 
     pub fn subtract(&self, points: &mut Points) {
@@ -379,5 +398,62 @@ impl BothSides<'_> {
             before,
             after,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drag(touch: f64) -> Drag {
+        Drag {
+            pole: 7e-7,
+            touch,
+            step: -2e-11,
+            pressed: 6e-17,
+            pulled: -5e-17,
+            before: 100,
+            after: 100,
+        }
+    }
+
+    /// The drag and its growth are together the drag of a body that touches elsewhere.
+    #[test]
+    fn the_drag_grows_until_first_touch() {
+        let found = drag(-5e-8);
+        for touch in [-2e-7, -5e-8, 0.0, 3e-8] {
+            let elsewhere = drag(touch);
+            for displacement in [-1e-6, -1e-7, -1e-8, 2e-8, 1e-6] {
+                for is_pulled in [false, true] {
+                    let growth = found.growth(displacement, is_pulled, touch);
+                    let force = found.force(displacement, is_pulled) + growth;
+                    let expected = elsewhere.force(displacement, is_pulled);
+                    assert!(
+                        (force - expected).abs() < 1e-12 * expected.abs(),
+                        "{touch} {displacement} {is_pulled}: {force:e} {expected:e}"
+                    );
+                }
+            }
+        }
+        assert!(found.growth(1e-6, false, 1e-6).is_finite());
+    }
+
+    /// The part without contact is found to its last point, however many points there are.
+    #[test]
+    fn the_longest_part_without_contact_is_found() {
+        // The steep part begins at the last points, so that all numbers are tried.
+        let mut forces = vec![0.0; 2000];
+        forces.extend([1.0, 3.0, 6.0, 10.0]);
+        let side = Side {
+            displacements: Vec::new(),
+            forces,
+            noise: 1.0,
+            has_tilt: false,
+        };
+        for wanted in [200, 1000, 1234, 1777, 1999] {
+            let found = side.longest(150, |count| count <= wanted);
+            assert_eq!(found, Some(wanted));
+        }
+        assert_eq!(side.longest(150, |_| false), None);
     }
 }

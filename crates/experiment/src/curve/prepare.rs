@@ -190,6 +190,7 @@ impl MeasuredCurve {
             features,
             jumps,
             drag: drag_in_contact,
+            drag_over_distance: drag,
             detaches: detaches(&points, noise),
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing: columns.missing,
