@@ -42,6 +42,11 @@ const ALIKE: [f64; 2] = [2.0, 3.0];
 /// Smallest coefficient of the drag on the approach, in standard errors, that is significant if it
 /// is computed only from points far from contact.
 const FOUND_FAR: f64 = 2.5;
+/// Number of parameters of the drag that a fit of a model refines.
+pub(crate) const COLUMNS: usize = 4;
+/// First and last step of the search for the length h₀ with a model, as exponents of [`RATIO`].
+const COARSE_STEP: f64 = 0.5;
+const FINE_STEP: f64 = 0.002;
 /// Smallest distance of first touch from the pole of the drag, as a share of the length h₀.
 const NEAREST: f64 = 0.25;
 /// Largest ratio of the drag on the approach to the drag on the retraction, or the reverse. The
@@ -80,6 +85,36 @@ pub(crate) struct Drag {
     /// number of such points after contact.
     pub before: usize,
     pub after: usize,
+}
+
+/// Forces that are the sum of a drag and of other contributions.
+pub(crate) struct ForcesWithDrag {
+    /// Displacement in m of each point.
+    pub displacements: Vec<f64>,
+    /// Number of the segment of each point.
+    pub segments: Vec<usize>,
+    /// Force in N at each point.
+    pub forces: Vec<f64>,
+    /// The other contributions, such as a zero offset, by their values at all points.
+    pub others: Vec<Vec<f64>>,
+}
+
+impl ForcesWithDrag {
+    /// Returns the columns of the fit: the other contributions, and the step and the two
+    /// coefficients of a drag.
+    fn columns(&self, drag: &Drag) -> Vec<Vec<f64>> {
+        let mut columns = self.others.clone();
+        let of_drag = drag.columns(&self.displacements, &self.segments);
+        columns.extend(of_drag.into_iter().take(COLUMNS - 1));
+        columns
+    }
+
+    /// Returns the sum of the squared residuals of the fit of a drag with the lengths of this one.
+    fn squares(&self, drag: &Drag) -> f64 {
+        let mut residuals = self.forces.clone();
+        subtract_all(&mut residuals, &right_angled(&self.columns(drag)));
+        dot(&residuals, &residuals)
+    }
 }
 
 /// Points of an approach or a retraction, in the order from far away to the contact.
@@ -222,7 +257,7 @@ impl Drag {
 
     /// Returns the drag in N at a displacement in m: on the retraction if `is_pulled` is true,
     /// otherwise on the approach.
-    fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
+    pub fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
         let distance = self.distance(displacement);
         if is_pulled {
             self.step + self.pulled / distance
@@ -261,10 +296,11 @@ impl Drag {
     }
 
     /// Returns the derivatives of the force at each point with respect to the parameters of the
-    /// drag. A fit of a model to the curve needs them to refine these parameters.
-    pub fn columns(&self, points: &Points) -> Vec<Vec<f64>> {
-        let mut columns = vec![Vec::new(); 4];
-        for (displacement, segment) in points.displacement.iter().zip(&points.segment) {
+    /// drag. A fit of a model to the curve needs them to refine these parameters. The points are
+    /// given by their displacements in m and by the numbers of their segments.
+    pub fn columns(&self, displacements: &[f64], segments: &[usize]) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::new(); COLUMNS];
+        for (displacement, segment) in displacements.iter().zip(segments) {
             let inverse = 1.0 / self.distance(*displacement);
             let is_pulled = segment % 2 == 1;
             columns[0].push(f64::from(u8::from(is_pulled)));
@@ -274,6 +310,46 @@ impl Drag {
             columns[3].push(coefficient * inverse * inverse);
         }
         columns
+    }
+
+    /// Returns the drag that describes these forces best, if first touch is at `touch` in m and the
+    /// length h₀ is near that of this drag. Returns `None` if the forces do not determine it.
+    pub fn refitted(&self, forces: &ForcesWithDrag, touch: f64) -> Option<Drag> {
+        let reach = self.pole - self.touch;
+        let mut power = 0.0;
+        let mut step = COARSE_STEP;
+        let with_power = |power: f64| Drag {
+            pole: touch + reach * RATIO.powf(power),
+            touch,
+            ..*self
+        };
+        let mut least = forces.squares(&with_power(power));
+        // The length h₀ is changed by smaller and smaller factors.
+        while step > FINE_STEP {
+            let mut is_better = false;
+            for tried in [power - step, power + step] {
+                let squares = forces.squares(&with_power(tried));
+                if squares < least && tried.abs() <= f64::from(REACHES) {
+                    least = squares;
+                    power = tried;
+                    is_better = true;
+                }
+            }
+            if !is_better {
+                step *= 0.5;
+            }
+        }
+        let drag = with_power(power);
+        let coefficients = least_squares(&forces.columns(&drag), &forces.forces)?;
+        let [.., step, pressed, pulled] = coefficients[..] else {
+            return None;
+        };
+        Some(Drag {
+            step: step.value,
+            pressed: pressed.value,
+            pulled: pulled.value,
+            ..drag
+        })
     }
 
     /// Returns the forces of the drag on a body in contact.
@@ -436,6 +512,50 @@ mod tests {
             }
         }
         assert!(found.growth(1e-6, false, 1e-6).is_finite());
+    }
+
+    /// A drag that was found with a wrong touch and a wrong length h₀ is found again from forces in
+    /// which it adds to a zero offset and a tilt.
+    #[test]
+    fn a_drag_is_found_again_from_forces_with_other_contributions() {
+        let truth = drag(0.0);
+        let displacements: Vec<f64> = (0..400)
+            .map(|index: i32| 1e-8 * f64::from(100 - (index - 200).abs()))
+            .collect();
+        let segments: Vec<usize> = (0..400).map(|index| index / 200).collect();
+        let tilt: Vec<f64> = displacements.iter().map(|at| 1e6 * at).collect();
+        let mut forces = Vec::new();
+        for (displacement, segment) in displacements.iter().zip(&segments) {
+            let tilted = 3e-12 + 2e-5 * displacement;
+            forces.push(truth.force(*displacement, *segment == 1) + tilted);
+        }
+        let with_drag = ForcesWithDrag {
+            others: vec![vec![1.0; 400], tilt],
+            displacements,
+            segments,
+            forces,
+        };
+        let wrong = Drag {
+            pole: 9e-7,
+            touch: -4e-8,
+            step: 0.0,
+            pressed: 1e-17,
+            pulled: 1e-17,
+            ..truth
+        };
+        let found = wrong.refitted(&with_drag, 0.0).unwrap();
+        for (found, expected, tolerance) in [
+            (found.pole, truth.pole, 1e-3),
+            (found.step, truth.step, 1e-2),
+            (found.pressed, truth.pressed, 1e-2),
+            (found.pulled, truth.pulled, 1e-2),
+        ] {
+            assert!(
+                (found / expected - 1.0).abs() < tolerance,
+                "{found:e} {expected:e}"
+            );
+        }
+        assert_eq!(found.touch, 0.0);
     }
 
     /// The part without contact is found to its last point, however many points there are.

@@ -223,7 +223,9 @@ impl SubtractedLines {
 /// Returns the values of all subtracted lines, except the constant zero offset, at all points.
 fn lines_of(subtracted: Subtracted, drag: Option<&Drag>, points: &Points) -> Vec<Vec<f64>> {
     let mut lines = subtracted.columns;
-    lines.extend(drag.into_iter().flat_map(|drag| drag.columns(points)));
+    if let Some(drag) = drag {
+        lines.extend(drag.columns(&points.displacement, &points.segment));
+    }
     lines
 }
 
