@@ -33,8 +33,9 @@ const DEVIATES: f64 = 3.5;
 /// Smallest coefficients of a significant drag, in standard errors: first on the approach, second
 /// on the retraction.
 const FOUND: [f64; 2] = [5.0, 3.0];
-/// Distance from first touch, in units of h₀, beyond which points are far from contact.
-const FAR: f64 = 1.0;
+/// Distance from first touch, in units of h₀, beyond which points are far from contact. There the
+/// drag is less than a sixth of that in contact, and the weak contact of a rough body has ended.
+const FAR: f64 = 5.0;
 /// Largest ratio of two coefficients of the drag, or of its inverse: from the points far from
 /// contact, and from all points. Up to this ratio, both show the same drag. The first element is
 /// for the approach, the second for the retraction.
