@@ -13,8 +13,6 @@ step() {
 }
 
 target="${CARGO_TARGET_DIR:-target}"
-# Instructions are attributed to effects by line tables, which a first `cargo test` does without.
-export CARGO_PROFILE_DEV_DEBUG=line-tables-only LINE_TABLES=required
 # A clean build, and the last of its kind: records of changes would cost more than they save.
 export CARGO_INCREMENTAL=0
 # The same random cases each time; a run by hand draws others.

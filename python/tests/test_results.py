@@ -159,7 +159,7 @@ class Objects(unittest.TestCase):
             self.assertEqual(vars(pickle.loads(pickle.dumps(error))), vars(error))
 
     def test_curves_of_several_speeds_share_one_relaxation(self):
-        fields = {"numerics__points": 512, "form__radius": 7.5e-6, "length": 2.4e-5, "loading_stiffness": 3}
+        fields = {"numerics__points": 128, "form__radius": 7.5e-6, "length": 2.4e-5, "loading_stiffness": 3}
         relaxing = {"modulus": 1.5e6, "work": 0.05, "material__relaxation": "(share: 0.3, time: 5.0)", **fields}
         curves = []
         for seed, speed in enumerate((1e-7, 1e-6)):

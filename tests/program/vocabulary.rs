@@ -33,7 +33,7 @@ const COMMANDS: [&str; 8] = [
     "reversals pressure-sensitive --set numerics.points=1024",
     "sensitivity pressure-sensitive --set numerics.points=1024",
     "plan pressure-sensitive",
-    "cost jkr-sphere --set numerics.points=1024",
+    "cost jkr-sphere --set numerics.points=1024 --budget 1s",
     "reference docs/examples/rough-square.ron --grid 32 --surfaces 2 --profiles 4",
 ];
 

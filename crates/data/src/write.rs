@@ -464,7 +464,7 @@ mod tests {
                 }
                 seen
             });
-            for number in 0..400 {
+            for number in 0..100 {
                 let path = folder.path().join(format!("{number}.csv"));
                 write_new(&path, number % 2 == 0, |out| out.write_all(b"one")).unwrap();
                 fs::remove_file(&path).unwrap();

@@ -2,8 +2,8 @@
 //! for it.
 //!
 //! Counted by callgrind at the optimisation of the test profile; without valgrind only the results
-//! of the kernels are compared with the program. Instructions are attributed to effects where the
-//! program has line tables, as in `.ci/run`: `CARGO_PROFILE_DEV_DEBUG=line-tables-only`.
+//! of the kernels are compared with the program. Instructions are attributed to effects by the line
+//! tables that Cargo.toml asks for.
 //! `cargo bench --bench instructions` prints the table, fully optimised.
 
 #[path = "../benches/instructions/mod.rs"]
@@ -34,15 +34,10 @@ fn only_what_a_scene_calls_for_is_executed() {
         &["--exact", "child_process", "--test-threads=1"],
     );
     println!("{}", Report::table(&reports));
-    if !reports.iter().all(Report::has_line_tables) {
-        assert!(
-            std::env::var_os("LINE_TABLES").is_none(),
-            "CARGO_PROFILE_DEV_DEBUG=line-tables-only"
-        );
-        eprintln!(
-            "SKIPPED: no line tables, instructions are counted but not attributed to effects"
-        );
-    }
+    assert!(
+        reports.iter().all(Report::has_line_tables),
+        "line tables of the crates contact, fourier, scene and surface are missing"
+    );
     let failures: Vec<String> = reports.iter().flat_map(Report::failures).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

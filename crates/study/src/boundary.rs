@@ -293,29 +293,51 @@ fn resampled_interval(curve: &Curve, count: usize, level: f64) -> Option<(f64, f
 /// logarithm of the mean is interpolated linearly between two values of the parameter. If the
 /// crossing lies beyond an end of the curve, this end is returned.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
-    let mean =
-        |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
-    let means: Vec<(f64, f64)> = curve
-        .iter()
-        .map(|(kappa, shares)| (*kappa, mean(shares)))
-        .collect();
-    let Some(last) = means.iter().rposition(|&(_, mean)| mean >= level) else {
-        return (
-            means.first().map_or(f64::NAN, |&(kappa, _)| kappa),
-            Ordering::Less,
-        );
-    };
-    let (kappa, above) = means[last];
-    let Some(&(next, below)) = means.get(last + 1) else {
-        return (kappa, Ordering::Greater);
-    };
-    // A mean of zero has no logarithm, so the mean itself is interpolated.
-    let share = if below > 0.0 {
-        (above / level).ln() / (above / below).ln()
-    } else {
-        (above - level) / above
-    };
-    (kappa + share * (next - kappa), Ordering::Equal)
+    // Only the means from the last one to the crossing are needed.
+    let mut after = None;
+    for (kappa, shares) in curve.iter().rev() {
+        let point = MeanShare {
+            kappa: *kappa,
+            mean: mean_of_chosen(shares, chosen),
+        };
+        if point.mean >= level {
+            return match after {
+                Some(next) => (point.crossing_before(&next, level), Ordering::Equal),
+                None => (point.kappa, Ordering::Greater),
+            };
+        }
+        after = Some(point);
+    }
+    (after.map_or(f64::NAN, |first| first.kappa), Ordering::Less)
+}
+
+/// Mean of F_a(d=0)/F_a,max or F_a(F=0)/F_a,max over profiles, at a value of κ or e_el/γ.
+struct MeanShare {
+    kappa: f64,
+    mean: f64,
+}
+
+impl MeanShare {
+    /// Returns the κ or e_el/γ at which the mean falls to `level`, between this value and the next
+    /// one, whose mean is below `level`.
+    fn crossing_before(&self, next: &MeanShare, level: f64) -> f64 {
+        // A mean of zero has no logarithm, so the mean itself is interpolated.
+        let share = if next.mean > 0.0 {
+            (self.mean / level).ln() / (self.mean / next.mean).ln()
+        } else {
+            (self.mean - level) / self.mean
+        };
+        self.kappa + share * (next.kappa - self.kappa)
+    }
+}
+
+/// Returns the mean of the shares of the chosen profiles.
+fn mean_of_chosen(shares: &[f64], chosen: &[usize]) -> f64 {
+    let mut sum = 0.0;
+    for &line in chosen {
+        sum += shares[line];
+    }
+    sum / chosen.len() as f64
 }
 
 #[cfg(test)]

@@ -174,7 +174,7 @@ impl Report {
                 effect.executed(&self.profile),
             );
             let counted = (effect.counted)(&self.work);
-            if self.has_line_tables() && wanted != (instructions > 0) {
+            if wanted != (instructions > 0) {
                 let called = if wanted {
                     "called for"
                 } else {
