@@ -191,8 +191,8 @@ impl Side {
     }
 
     /// Returns the largest number of points without contact that `is_described` accepts; `None` if
-    /// it accepts none. The number is at least `fewest`. Numbers in large steps are tried first, and
-    /// then the numbers within one step above the first accepted one.
+    /// it accepts none. The number is at least `fewest`. Numbers in large steps are tried first,
+    /// and then the numbers within one step above the first accepted one.
     fn longest(&self, fewest: usize, is_described: impl Fn(usize) -> bool) -> Option<usize> {
         let count = self.forces.len();
         let most = (count_before_steep_part(&self.forces) + 2).min(count);
