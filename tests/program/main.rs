@@ -7,6 +7,7 @@ mod common {
     pub mod draws;
     pub mod effort;
 }
+mod cases;
 mod claims;
 #[cfg(target_os = "linux")]
 mod console;

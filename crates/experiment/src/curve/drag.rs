@@ -33,8 +33,9 @@ const DEVIATES: f64 = 3.5;
 /// Smallest coefficients of a significant drag, in standard errors: first on the approach, second
 /// on the retraction.
 const FOUND: [f64; 2] = [5.0, 3.0];
-/// Distance from first touch, in units of h₀, beyond which points are far from contact.
-const FAR: f64 = 1.0;
+/// Distance from first touch, in units of h₀, beyond which points are far from contact. There the
+/// drag is less than a sixth of that in contact, and the weak contact of a rough body has ended.
+const FAR: f64 = 5.0;
 /// Largest ratio of two coefficients of the drag, or of its inverse: from the points far from
 /// contact, and from all points. Up to this ratio, both show the same drag. The first element is
 /// for the approach, the second for the retraction.
@@ -42,6 +43,13 @@ const ALIKE: [f64; 2] = [2.0, 3.0];
 /// Smallest coefficient of the drag on the approach, in standard errors, that is significant if it
 /// is computed only from points far from contact.
 const FOUND_FAR: f64 = 2.5;
+/// Number of parameters of the drag that a fit of a model refines.
+pub(crate) const COLUMNS: usize = 4;
+/// First and last step of the search for the length h₀ with a model, as exponents of [`RATIO`].
+const COARSE_STEP: f64 = 0.5;
+const FINE_STEP: f64 = 0.002;
+/// Smallest distance of first touch from the pole of the drag, as a share of the length h₀.
+const NEAREST: f64 = 0.25;
 /// Largest ratio of the drag on the approach to the drag on the retraction, or the reverse. The
 /// drag is proportional to the speed, so this is also the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
@@ -61,10 +69,12 @@ pub struct DragForce {
 }
 
 /// Drag of a fluid, found from the points before and after contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
-    /// Displacement in m at first touch.
+    /// Displacement in m at first touch, midway between the last point before contact and the next
+    /// point.
     touch: f64,
     /// Force on the retraction minus force on the approach, far from contact, in N.
     step: f64,
@@ -76,6 +86,36 @@ pub(crate) struct Drag {
     /// number of such points after contact.
     pub before: usize,
     pub after: usize,
+}
+
+/// Forces that are the sum of a drag and of other contributions.
+pub(crate) struct ForcesWithDrag {
+    /// Displacement in m of each point.
+    pub displacements: Vec<f64>,
+    /// Number of the segment of each point.
+    pub segments: Vec<usize>,
+    /// Force in N at each point.
+    pub forces: Vec<f64>,
+    /// The other contributions, such as a zero offset, by their values at all points.
+    pub others: Vec<Vec<f64>>,
+}
+
+impl ForcesWithDrag {
+    /// Returns the columns of the fit: the other contributions, and the step and the two
+    /// coefficients of a drag.
+    fn columns(&self, drag: &Drag) -> Vec<Vec<f64>> {
+        let mut columns = self.others.clone();
+        let of_drag = drag.columns(&self.displacements, &self.segments);
+        columns.extend(of_drag.into_iter().take(COLUMNS - 1));
+        columns
+    }
+
+    /// Returns the sum of the squared residuals of the fit of a drag with the lengths of this one.
+    fn squares(&self, drag: &Drag) -> f64 {
+        let mut residuals = self.forces.clone();
+        subtract_all(&mut residuals, &right_angled(&self.columns(drag)));
+        dot(&residuals, &residuals)
+    }
 }
 
 /// Points of an approach or a retraction, in the order from far away to the contact.
@@ -150,14 +190,18 @@ impl Side {
         })
     }
 
-    /// Returns the possible numbers of points without contact, in descending order. Each number is
-    /// at least `fewest`.
-    fn ends(&self, fewest: usize) -> Vec<usize> {
+    /// Returns the largest number of points without contact that `is_described` accepts; `None` if
+    /// it accepts none. The number is at least `fewest`. Numbers in large steps are tried first,
+    /// and then the numbers within one step above the first accepted one.
+    fn longest(&self, fewest: usize, is_described: impl Fn(usize) -> bool) -> Option<usize> {
         let count = self.forces.len();
         let most = (count_before_steep_part(&self.forces) + 2).min(count);
         let fewest = fewest.clamp(FEWEST, most);
         let step = ((most - fewest) / ENDS).max(1);
-        (fewest..=most).rev().step_by(step).collect()
+        let mut ends = (fewest..=most).rev().step_by(step);
+        let found = ends.find(|end| is_described(*end))?;
+        let mut finer = (found + 1..=most.min(found + step - 1)).rev();
+        Some(finer.find(|end| is_described(*end)).unwrap_or(found))
     }
 }
 
@@ -188,22 +232,16 @@ impl Drag {
         let pressed = Side::new(points, &approach, before, options);
         let pulled = Side::new(points, &retraction, free.after.max(FEWEST), options);
 
-        let mut found = None;
-        for end in pressed.ends(before) {
-            let pole = pressed.best_pole(end);
-            if pressed.is_described(end, pole) {
-                found = Some((end, pole));
-                break;
-            }
-        }
-        let (before, pole) = found?;
-        let touch = points.displacement[(before).min(approach.len() - 1)];
+        let is_described = |end: usize| pressed.is_described(end, pressed.best_pole(end));
+        let before = pressed.longest(before, is_described)?;
+        let pole = pressed.best_pole(before);
+        let next = points.displacement[before.min(approach.len() - 1)];
+        let touch = 0.5 * (points.displacement[before - 1] + next);
         let pole = pole.max(touch + RATIO.powi(-REACHES) * (touch - points.displacement[0]));
-        let ends = pulled.ends(free.after);
-        let after = ends.into_iter().find(|end| {
+        let after = pulled.longest(free.after, |end| {
             // The pole has to lie beyond all points without contact, where the drag is finite.
-            pulled.displacements[..*end].iter().all(|at| *at < pole)
-                && pulled.is_described(*end, pole)
+            pulled.displacements[..end].iter().all(|at| *at < pole)
+                && pulled.is_described(end, pole)
         })?;
         let both = BothSides {
             points,
@@ -220,7 +258,7 @@ impl Drag {
 
     /// Returns the drag in N at a displacement in m: on the retraction if `is_pulled` is true,
     /// otherwise on the approach.
-    fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
+    pub fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
         let distance = self.distance(displacement);
         if is_pulled {
             self.step + self.pulled / distance
@@ -234,6 +272,23 @@ impl Drag {
         self.pole - displacement.min(self.touch)
     }
 
+    /// Returns the force in N by which the drag grows at a displacement in m, if the first touch is
+    /// at `touch` in m and not where the drag was found to end. A body in contact has the drag of
+    /// first touch.
+    pub fn growth(&self, displacement: f64, is_pulled: bool, touch: f64) -> f64 {
+        let nearest = displacement
+            .min(touch)
+            .min(self.pole - self.least_distance());
+        let coefficient = if is_pulled { self.pulled } else { self.pressed };
+        coefficient * (1.0 / (self.pole - nearest) - 1.0 / self.distance(displacement))
+    }
+
+    /// Returns the smallest distance in m to the pole that a first touch may have. At the pole the
+    /// drag would be infinite.
+    fn least_distance(&self) -> f64 {
+        NEAREST * (self.pole - self.touch)
+    }
+
     pub fn subtract(&self, points: &mut Points) {
         for index in 0..points.force.len() {
             let is_pulled = points.segment[index] % 2 == 1;
@@ -242,10 +297,11 @@ impl Drag {
     }
 
     /// Returns the derivatives of the force at each point with respect to the parameters of the
-    /// drag. A fit of a model to the curve needs them to refine these parameters.
-    pub fn columns(&self, points: &Points) -> Vec<Vec<f64>> {
-        let mut columns = vec![Vec::new(); 4];
-        for (displacement, segment) in points.displacement.iter().zip(&points.segment) {
+    /// drag. A fit of a model to the curve needs them to refine these parameters. The points are
+    /// given by their displacements in m and by the numbers of their segments.
+    pub fn columns(&self, displacements: &[f64], segments: &[usize]) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::new(); COLUMNS];
+        for (displacement, segment) in displacements.iter().zip(segments) {
             let inverse = 1.0 / self.distance(*displacement);
             let is_pulled = segment % 2 == 1;
             columns[0].push(f64::from(u8::from(is_pulled)));
@@ -255,6 +311,46 @@ impl Drag {
             columns[3].push(coefficient * inverse * inverse);
         }
         columns
+    }
+
+    /// Returns the drag that describes these forces best, if first touch is at `touch` in m and the
+    /// length h₀ is near that of this drag. Returns `None` if the forces do not determine it.
+    pub fn refitted(&self, forces: &ForcesWithDrag, touch: f64) -> Option<Drag> {
+        let reach = self.pole - self.touch;
+        let mut power = 0.0;
+        let mut step = COARSE_STEP;
+        let with_power = |power: f64| Drag {
+            pole: touch + reach * RATIO.powf(power),
+            touch,
+            ..*self
+        };
+        let mut least = forces.squares(&with_power(power));
+        // The length h₀ is changed by smaller and smaller factors.
+        while step > FINE_STEP {
+            let mut is_better = false;
+            for tried in [power - step, power + step] {
+                let squares = forces.squares(&with_power(tried));
+                if squares < least && tried.abs() <= f64::from(REACHES) {
+                    least = squares;
+                    power = tried;
+                    is_better = true;
+                }
+            }
+            if !is_better {
+                step *= 0.5;
+            }
+        }
+        let drag = with_power(power);
+        let coefficients = least_squares(&forces.columns(&drag), &forces.forces)?;
+        let [.., step, pressed, pulled] = coefficients[..] else {
+            return None;
+        };
+        Some(Drag {
+            step: step.value,
+            pressed: pressed.value,
+            pulled: pulled.value,
+            ..drag
+        })
     }
 
     /// Returns the forces of the drag on a body in contact.
@@ -379,5 +475,106 @@ impl BothSides<'_> {
             before,
             after,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drag(touch: f64) -> Drag {
+        Drag {
+            pole: 7e-7,
+            touch,
+            step: -2e-11,
+            pressed: 6e-17,
+            pulled: -5e-17,
+            before: 100,
+            after: 100,
+        }
+    }
+
+    /// The drag and its growth are together the drag of a body that touches elsewhere.
+    #[test]
+    fn the_drag_grows_until_first_touch() {
+        let found = drag(-5e-8);
+        for touch in [-2e-7, -5e-8, 0.0, 3e-8] {
+            let elsewhere = drag(touch);
+            for displacement in [-1e-6, -1e-7, -1e-8, 2e-8, 1e-6] {
+                for is_pulled in [false, true] {
+                    let growth = found.growth(displacement, is_pulled, touch);
+                    let force = found.force(displacement, is_pulled) + growth;
+                    let expected = elsewhere.force(displacement, is_pulled);
+                    assert!(
+                        (force - expected).abs() < 1e-12 * expected.abs(),
+                        "{touch} {displacement} {is_pulled}: {force:e} {expected:e}"
+                    );
+                }
+            }
+        }
+        assert!(found.growth(1e-6, false, 1e-6).is_finite());
+    }
+
+    /// A drag that was found with a wrong touch and a wrong length h₀ is found again from forces in
+    /// which it adds to a zero offset and a tilt.
+    #[test]
+    fn a_drag_is_found_again_from_forces_with_other_contributions() {
+        let truth = drag(0.0);
+        let displacements: Vec<f64> = (0..400)
+            .map(|index: i32| 1e-8 * f64::from(100 - (index - 200).abs()))
+            .collect();
+        let segments: Vec<usize> = (0..400).map(|index| index / 200).collect();
+        let tilt: Vec<f64> = displacements.iter().map(|at| 1e6 * at).collect();
+        let mut forces = Vec::new();
+        for (displacement, segment) in displacements.iter().zip(&segments) {
+            let tilted = 3e-12 + 2e-5 * displacement;
+            forces.push(truth.force(*displacement, *segment == 1) + tilted);
+        }
+        let with_drag = ForcesWithDrag {
+            others: vec![vec![1.0; 400], tilt],
+            displacements,
+            segments,
+            forces,
+        };
+        let wrong = Drag {
+            pole: 9e-7,
+            touch: -4e-8,
+            step: 0.0,
+            pressed: 1e-17,
+            pulled: 1e-17,
+            ..truth
+        };
+        let found = wrong.refitted(&with_drag, 0.0).unwrap();
+        for (found, expected, tolerance) in [
+            (found.pole, truth.pole, 1e-3),
+            (found.step, truth.step, 1e-2),
+            (found.pressed, truth.pressed, 1e-2),
+            (found.pulled, truth.pulled, 1e-2),
+        ] {
+            assert!(
+                (found / expected - 1.0).abs() < tolerance,
+                "{found:e} {expected:e}"
+            );
+        }
+        assert_eq!(found.touch, 0.0);
+    }
+
+    /// The part without contact is found to its last point, however many points there are.
+    #[test]
+    fn the_longest_part_without_contact_is_found() {
+        // The steep part begins at the last points, so that all numbers are tried.
+        let mut forces = vec![0.0; 2000];
+        forces.extend([1.0, 3.0, 6.0, 10.0]);
+        let side = Side {
+            displacements: Vec::new(),
+            forces,
+            noise: 1.0,
+            has_tilt: false,
+        };
+        for wanted in [200, 1000, 1234, 1777, 1999] {
+            let found = side.longest(150, |count| count <= wanted);
+            assert_eq!(found, Some(wanted));
+        }
+        assert_eq!(side.longest(150, |_| false), None);
     }
 }

@@ -18,7 +18,7 @@ mod tests;
 pub(crate) mod timing;
 pub(crate) mod zero;
 
-use crate::curve::drag::DragForce;
+use crate::curve::drag::{Drag, DragForce};
 use crate::curve::features::{CurveFeatures, ForceJump};
 use crate::curve::numerics::Extent;
 use crate::curve::timing::Timing;
@@ -56,6 +56,9 @@ pub struct MeasuredCurve {
     /// Drag of a fluid in contact, which was found from the points without contact and subtracted
     /// from the force; `None` if no drag was found.
     pub drag: Option<DragForce>,
+    /// The same drag over the distance to first touch; `None` for a drag that does not depend on
+    /// the distance.
+    pub(crate) drag_over_distance: Option<Drag>,
     /// True if the body is out of contact at the end of the last retraction.
     pub detaches: bool,
     /// Number of points of the file that are used. In a long curve, neighbouring points are

@@ -190,6 +190,7 @@ impl MeasuredCurve {
             features,
             jumps,
             drag: drag_in_contact,
+            drag_over_distance: drag,
             detaches: detaches(&points, noise),
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing: columns.missing,
@@ -222,7 +223,9 @@ impl SubtractedLines {
 /// Returns the values of all subtracted lines, except the constant zero offset, at all points.
 fn lines_of(subtracted: Subtracted, drag: Option<&Drag>, points: &Points) -> Vec<Vec<f64>> {
     let mut lines = subtracted.columns;
-    lines.extend(drag.into_iter().flat_map(|drag| drag.columns(points)));
+    if let Some(drag) = drag {
+        lines.extend(drag.columns(&points.displacement, &points.segment));
+    }
     lines
 }
 

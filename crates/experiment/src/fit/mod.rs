@@ -3,6 +3,7 @@
 
 pub(crate) mod agreement;
 pub(crate) mod descent;
+mod drag;
 pub(crate) mod ensemble;
 mod evaluation;
 mod further;
@@ -30,6 +31,7 @@ pub(crate) mod two_spheres;
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
+use crate::fit::drag::with_drag_of_model;
 use crate::fit::evaluation::fit_result;
 use crate::fit::parameter::{Free, Parameter};
 use crate::fit::relaxation::notes_on_time;
@@ -169,8 +171,12 @@ fn find(
 ) -> Result<FitResult, ExperimentError> {
     let (_, instrument) = curve.with_instrument(given).map_err(wrong)?;
     let mut ranges = free.to_vec();
+    let measured = curve;
+    let with_drag = with_drag_of_model(measured, given, free, simulation, stop)?;
+    let curve = with_drag.as_ref().map_or(measured, |found| &found.curve);
     let touch = touch_of_best(curve, given, free, simulation, stop)?;
     let mut computed = touch.map_or(0, |touch| touch.evaluations);
+    computed += with_drag.as_ref().map_or(0, |found| found.evaluations);
     let mut extensions = 0;
     loop {
         let (document, mut space) = Space::of(curve, given, simulation, &ranges, stop)?;
@@ -189,6 +195,10 @@ fn find(
         }
         searched.evaluations = computed;
         let mut result = fit_result(&document, simulation, &space, searched)?;
+        // The forces of the model are those of the curve as it was read.
+        for (index, force) in result.model.iter_mut().enumerate() {
+            *force += measured.force[index] - curve.force[index];
+        }
         if let Some(touch) = touch {
             result
                 .assumptions

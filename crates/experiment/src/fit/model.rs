@@ -161,7 +161,8 @@ impl<'a> Model<'a> {
     }
 
     /// Computes the forces in N at all points of the measured curve, for the given values of the
-    /// parameters.
+    /// parameters. They include the change of the drag, which was subtracted from the curve as if
+    /// the contact began where the points without contact end.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow the values, or if its force curve cannot be
@@ -176,6 +177,13 @@ impl<'a> Model<'a> {
                 forces.push(zero + part.force(curve, index));
             }
         })?;
+        if let Some(drag) = curve.drag_over_distance {
+            let touch = values[Parameter::Offset as usize];
+            for (index, force) in forces.iter_mut().enumerate() {
+                let is_pulled = curve.segment[index] % 2 == 1;
+                *force += drag.growth(curve.displacement[index], is_pulled, touch);
+            }
+        }
         Ok(forces)
     }
 

@@ -171,8 +171,8 @@ fn compare(name: &str, with_errors: bool) {
         ));
         let least = if with_errors { 0.85 } else { 0.9 };
         assert!(count < 20 || row.share() >= least, "{table}");
-        // The page states how many of the intervals of rough spheres are wide.
-        assert!(name != "rough-sphere" || row.wide() <= 4, "{table}");
+        // The page states the largest half-width.
+        assert!(name != "rough-sphere" || row.wide() == 0, "{table}");
     }
     println!("{table}");
     // The page has the rows of rough spheres.
@@ -181,6 +181,22 @@ fn compare(name: &str, with_errors: bool) {
         count < 60 || name != "rough-sphere" || docs.contains(&table),
         "{table}"
     );
+}
+
+/// The weak contact of a rough body before and after its strong contact ends at some distance. It
+/// is no drag of a fluid, which does not end.
+#[test]
+fn weak_contacts_of_rough_bodies_are_no_drag() {
+    let mut simulation = Simulation::default();
+    let scene = scene("pressure-sensitive");
+    let mut with_drag = Vec::new();
+    for seed in 0..200 {
+        let curve = curve(&mut simulation, &scene, seed, 0.01);
+        if curve.drag.is_some_and(|drag| drag.reach.is_some()) {
+            with_drag.push(seed);
+        }
+    }
+    assert!(with_drag.len() <= 1, "{with_drag:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::computed::Workers;
 use super::scatter::Scatter;
-use super::summary::{Measurement, SUMMARIES};
+use super::summary::{Measurement, SUMMARIES, Summaries};
 use super::table::{Axis, Place, Table, places};
 use crate::error::ExperimentError;
 use asperity_scene::Governing;
@@ -30,6 +30,9 @@ const HIGHEST_KAPPA: f64 = 80.0;
 /// Standard deviation that is added in quadrature to the scatter of each summary, so that no
 /// summary has too large a weight.
 const LEAST_SCATTER: f64 = 0.1;
+/// Mean square difference of the summaries from those of the measured curves, in units of its
+/// variance, above which a place is far from the curves.
+const FAR: f64 = 25.0;
 
 /// Finds the place at which the computed curves have the mean summaries of the measured curves,
 /// with an accuracy of about a step of the first table. `known` is ln E* if E* is given.
@@ -77,25 +80,84 @@ pub(crate) fn placed(
 
 /// Returns the place, on a fine grid over the table, at which the mean summaries agree best with
 /// those of the measured curves.
+///
+/// If all places are far from the curves, the place may be beyond the table. The scatter of the
+/// summaries then says nothing about the curves, and a place with a small scatter would count as
+/// farther than it is. So the distances from all places are compared in the same units.
 fn best_place(table: &Table, measured: &Measurement) -> Option<Place> {
-    let target = measured.mean().summaries;
-    let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / COARSE_LINES as f64;
-    let scatters: Vec<Scatter> = (0..SUMMARIES)
-        .map(|index| Scatter::of_summary(table, index))
-        .collect();
+    let summaries = SummariesOfTable::new(table, measured);
+    let places = places(&refined(&table.ranges), &refined(&table.moduli));
+    let best = least(&places, |place| summaries.misfit(place))?;
+    if summaries.mean_square(best) <= FAR {
+        return Some(best);
+    }
+    least(&places, |place| summaries.distance(place))
+}
+
+/// Returns the place with the smallest value of a function.
+fn least(places: &[Place], value: impl Fn(Place) -> f64) -> Option<Place> {
     let mut best: Option<(f64, Place)> = None;
-    for place in places(&refined(&table.ranges), &refined(&table.moduli)) {
-        let terms = scatters.iter().zip(target).map(|(scatter, target)| {
-            let moments = scatter.at(place);
-            let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
-            (moments.mean[0] - target).powi(2) / square / variance + square.ln()
-        });
-        let misfit: f64 = terms.sum();
-        if best.is_none_or(|(least, _)| misfit.total_cmp(&least).is_lt()) {
-            best = Some((misfit, place));
+    for place in places {
+        let value = value(*place);
+        if best.is_none_or(|(least, _)| value.total_cmp(&least).is_lt()) {
+            best = Some((value, *place));
         }
     }
     best.map(|(_, place)| place)
+}
+
+/// Summaries over the random profiles of a table, and those of the measured curves.
+struct SummariesOfTable {
+    scatters: Vec<Scatter>,
+    target: Summaries,
+    /// Variance of the difference between the means of the curves and of the table, in units of the
+    /// variance of one profile.
+    variance: f64,
+}
+
+impl SummariesOfTable {
+    fn new(table: &Table, measured: &Measurement) -> Self {
+        SummariesOfTable {
+            scatters: (0..SUMMARIES)
+                .map(|index| Scatter::of_summary(table, index))
+                .collect(),
+            target: measured.mean().summaries,
+            variance: 1.0 / measured.summaries.len() as f64 + 1.0 / COARSE_LINES as f64,
+        }
+    }
+
+    /// Returns the difference of each summary from the measured curves at a place, and the variance
+    /// of the summary over the profiles.
+    fn differences(&self, place: Place) -> impl Iterator<Item = [f64; 2]> {
+        let pairs = self.scatters.iter().zip(self.target);
+        pairs.map(move |(scatter, target)| {
+            let moments = scatter.at(place);
+            let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
+            [moments.mean[0] - target, square]
+        })
+    }
+
+    /// Returns twice the negative logarithm of the likelihood of a place, up to a constant.
+    fn misfit(&self, place: Place) -> f64 {
+        let terms = self
+            .differences(place)
+            .map(|[difference, square]| difference.powi(2) / square / self.variance + square.ln());
+        terms.sum()
+    }
+
+    /// Returns the mean square of the differences at a place, in units of their variances.
+    fn mean_square(&self, place: Place) -> f64 {
+        let terms = self
+            .differences(place)
+            .map(|[difference, square]| difference.powi(2) / square / self.variance);
+        terms.sum::<f64>() / SUMMARIES as f64
+    }
+
+    /// Returns the sum of the squared differences at a place.
+    fn distance(&self, place: Place) -> f64 {
+        let squares = self.differences(place);
+        squares.map(|[difference, _]| difference.powi(2)).sum()
+    }
 }
 
 /// Returns the values of an axis and [`FINE_STEPS`] − 1 further values between each pair of its

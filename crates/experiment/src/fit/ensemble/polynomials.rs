@@ -14,8 +14,8 @@ const RIDGE: f64 = 1e-5;
 
 /// Computed curve of a random profile with known parameters.
 pub(crate) struct Example {
-    /// Index of the random profile.
-    pub profile: u64,
+    /// Half of the random profiles, 0 or 1, to which the profile of the curve belongs.
+    pub half: usize,
     pub description: Description,
     /// Values ln γ and ln E* for which the curve was computed, with γ and E* in SI units.
     pub parameters: [f64; 2],
@@ -32,8 +32,7 @@ struct Standard {
 pub(crate) struct Polynomials {
     /// Mean and standard deviation of each summary.
     standards: Vec<Standard>,
-    /// Coefficients for both parameters: first those learned from the profiles with even numbers,
-    /// then those learned from the profiles with odd numbers.
+    /// Coefficients for both parameters, as learned from each half of the profiles.
     halves: [Vec<[f64; 2]>; 2],
     /// Mean of the parameters of the computed curves.
     centre: [f64; 2],
@@ -54,13 +53,13 @@ impl Polynomials {
     }
 
     /// Returns the coefficients that are learned from one half of the profiles (ridge regression).
-    fn coefficients(&self, examples: &[Example], half: u64) -> Vec<[f64; 2]> {
+    fn coefficients(&self, examples: &[Example], half: usize) -> Vec<[f64; 2]> {
         let count = self.terms(&examples[0].description).len();
         let mut products = vec![0.0; count * count];
         let mut right_of_work = vec![0.0; count];
         let mut right_of_modulus = vec![0.0; count];
         for example in examples {
-            if example.profile % 2 != half {
+            if example.half != half {
                 continue;
             }
             let terms = self.terms(&example.description);
@@ -122,9 +121,10 @@ impl Polynomials {
 
     /// Predicts ln γ and ln E* of a computed curve by a polynomial. Each of the two polynomials was
     /// learned from one half of the random profiles. The polynomial of the half without the profile
-    /// of this curve is used, so that the prediction has no bias from learning.
-    pub fn of_profile(&self, profile: u64, description: &Description) -> [f64; 2] {
-        self.by_half(&self.terms(description), 1 - (profile % 2) as usize)
+    /// of this curve is used, so that the prediction has no bias from learning. `half` is the half
+    /// to which the profile belongs.
+    pub fn of_profile(&self, half: usize, description: &Description) -> [f64; 2] {
+        self.by_half(&self.terms(description), 1 - half)
     }
 
     /// Predicts ln γ and ln E* of a curve that belongs to no random profile of the table. The
@@ -187,7 +187,7 @@ mod tests {
                 // the other half does not learn.
                 let [work, modulus] = parameters(&of);
                 Example {
-                    profile: index % 16,
+                    half: index % 2,
                     description: of,
                     parameters: [work + f64::from(u8::from(index % 2 == 0)), modulus],
                 }

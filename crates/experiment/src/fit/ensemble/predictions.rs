@@ -76,7 +76,7 @@ impl Predictions {
         let mut of_profiles = Vec::with_capacity(table.profiles.len());
         for profile in examples.chunks(table.places().len()) {
             let predict = |example: &Example| {
-                let prediction = polynomials.of_profile(example.profile, &example.description);
+                let prediction = polynomials.of_profile(example.half, &example.description);
                 without_modulus_if(has_one_modulus, prediction)
             };
             of_profiles.push(profile.iter().map(predict).collect::<Vec<_>>());
@@ -105,7 +105,8 @@ impl Predictions {
         measured: &Measurement,
     ) -> [f64; 2] {
         let description = measured.describe(*curve, profile);
-        let prediction = self.polynomials.of_profile(profile as u64, &description);
+        let half = measured.half(profile);
+        let prediction = self.polynomials.of_profile(half, &description);
         without_modulus_if(self.has_one_modulus, prediction)
     }
 
@@ -194,7 +195,7 @@ fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
     for (profile, curves) in table.profiles.iter().enumerate() {
         for (curve, place) in curves.iter().zip(&places) {
             examples.push(Example {
-                profile: profile as u64,
+                half: measured.half(profile),
                 description: measured.describe(*curve, profile),
                 parameters: place.parameters(),
             });

@@ -426,6 +426,15 @@ impl Measurement {
         }
     }
 
+    /// Returns the half, 0 or 1, to which a random profile belongs. The profiles of each measured
+    /// curve, whose properties they have, are in both halves in turn. Otherwise a preload that only
+    /// one curve has, or every second one, would be in one half only, and what is learned from the
+    /// other half would not apply to it.
+    pub fn half(&self, profile: usize) -> usize {
+        let count = self.protocols.len();
+        (profile % count + profile / count) % 2
+    }
+
     /// Returns the description of a curve: its `summaries`, and also its preload if the preloads of
     /// the curves differ. `curve` is the index of a measured curve or of a random profile. If there
     /// are more profiles than measured curves, the properties of the measured curves are repeated.
@@ -539,6 +548,34 @@ mod tests {
         branches.retraction.insert(last.unwrap() + 1, after);
         assert!(has_jump_ends(&branches.retraction, branches.noise));
         assert!(!has_jump_ends(&branches.retraction, 100.0));
+    }
+
+    /// The profiles of each measured curve are in both halves, as nearly as possible in equal
+    /// numbers.
+    #[test]
+    fn the_profiles_of_each_curve_are_in_both_halves() {
+        for curves in [1, 2, 3, 6, 8, 32] {
+            let point = Point {
+                displacement: 0.0,
+                force: 0.0,
+            };
+            let branches = Branches {
+                approach: vec![point; 2],
+                retraction: vec![point; 2],
+                noise: 1.0,
+                free: 1,
+            };
+            let measurement = Measurement {
+                protocols: (0..curves).map(|_| Protocol::of(&branches, 1.0)).collect(),
+                preloads: vec![1.0; curves],
+                preload_scatter: None,
+                summaries: Vec::new(),
+            };
+            for curve in 0..curves {
+                let of_curve = (0..8).map(|turn| measurement.half(curve + turn * curves));
+                assert_eq!(of_curve.sum::<usize>(), 4, "{curves} {curve}");
+            }
+        }
     }
 
     /// A distance that ends between two points changes continuously with the curve, and not in
