@@ -37,7 +37,7 @@ fn a_quantity_has_the_same_digits_everywhere() {
     let mut driver = Driver::start(rough());
     driver.press("!");
     driver.resize((240, 45));
-    let figures = driver.outcome().figures.clone();
+    let figures = driver.outcome().figures;
     let energy = format_rounded(figures.dissipated_energy.unwrap(), 3, "J");
     let text = driver.text();
     assert_eq!(text.matches(&format!("ΔW {energy}")).count(), 2, "{text}");
