@@ -51,13 +51,9 @@ pub(crate) fn with_drag_of_model(
     if space.relaxes() {
         return Ok(None);
     }
-    let mut search = Search {
-        space: &space,
-        model: Model::new(searched, document.scene(), simulation),
-        report: &mut |_| {},
-        lines: space.lines(),
-        further: Vec::new(),
-    };
+    let mut no_report = |_| {};
+    let model = Model::new(searched, document.scene(), simulation);
+    let mut search = Search::of_curve(&space, model, &mut no_report);
     let best = search.descended()?;
     let mut evaluations = search.evaluations();
     let residuals = search.lines.refined(&best.residuals, 1.0);

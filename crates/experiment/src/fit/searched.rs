@@ -74,13 +74,8 @@ pub(crate) fn search(
     }
     let of_part = search_part(curve, document, simulation, space, report)?;
     let mut report_all = |evaluations: usize| report(of_part.evaluations + evaluations);
-    let mut search = Search {
-        space,
-        model: Model::new(curve, document.scene(), simulation),
-        report: &mut report_all,
-        lines: space.lines(),
-        further: Vec::new(),
-    };
+    let model = Model::new(curve, document.scene(), simulation);
+    let mut search = Search::of_curve(space, model, &mut report_all);
     let result = match of_part.result {
         Some(result) => result,
         None => search.find()?,
@@ -100,13 +95,8 @@ fn search_relaxing(
     report: &mut dyn FnMut(usize),
 ) -> Result<Searched, ExperimentError> {
     let curve = space.curve;
-    let mut search = Search {
-        space,
-        model: Model::new(curve, document.scene(), simulation),
-        report,
-        lines: space.lines(),
-        further: Vec::new(),
-    };
+    let model = Model::new(curve, document.scene(), simulation);
+    let mut search = Search::of_curve(space, model, report);
     let result = search.find()?;
     let searched = compared_with_all(&mut search, result)?;
     Ok(without_rest(searched, curve))
@@ -149,13 +139,8 @@ fn search_part(
         curve: &part,
         ..space.clone()
     };
-    let mut search = Search {
-        space: &space,
-        model: Model::new(&part, document.scene(), simulation),
-        report,
-        lines: space.lines(),
-        further: Vec::new(),
-    };
+    let model = Model::new(&part, document.scene(), simulation);
+    let mut search = Search::of_curve(&space, model, report);
     let (population, generator) = search.first()?;
     let result = if search.is_systematic(&population) {
         Some(search.find_from(population, generator)?)

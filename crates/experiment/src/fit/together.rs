@@ -211,13 +211,9 @@ impl Specimen<'_> {
         for (index, part) in self.parts.iter_mut().enumerate() {
             let space = &with_rests[index];
             let document = &documents[index];
-            let mut search = Search {
-                space,
-                model: Model::new(space.curve, document.scene(), &mut part.simulation),
-                lines: space.lines(),
-                further: Vec::new(),
-                report: &mut |_| {},
-            };
+            let mut no_report = |_| {};
+            let model = Model::new(space.curve, document.scene(), &mut part.simulation);
+            let mut search = Search::of_curve(space, model, &mut no_report);
             let result = result_of(&joint.parts[index], found);
             let searched = compared_with_all(&mut search, result)?;
             let mut searched = without_rest(searched, space.curve);

@@ -39,13 +39,9 @@ pub(crate) fn touch_of_best(
     let mut with_offset = free.to_vec();
     with_offset.push(Parameter::Offset.into());
     let (document, space) = Space::of(curve, document, simulation, &with_offset, stop)?;
-    let mut search = Search {
-        space: &space,
-        model: Model::new(curve, document.scene(), simulation),
-        report: &mut |_| {},
-        lines: space.lines(),
-        further: Vec::new(),
-    };
+    let mut no_report = |_| {};
+    let model = Model::new(curve, document.scene(), simulation);
+    let mut search = Search::of_curve(&space, model, &mut no_report);
     let best = search.descended()?;
     Ok(Some(Touch {
         displacement: space.values(&best.place)[Parameter::Offset as usize],

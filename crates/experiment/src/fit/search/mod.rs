@@ -117,6 +117,23 @@ pub(crate) struct Search<'a> {
     pub report: &'a mut dyn FnMut(usize),
 }
 
+impl<'a> Search<'a> {
+    /// Returns a search on one curve with the lines of its space.
+    pub fn of_curve(
+        space: &'a Space<'a>,
+        model: Model<'a>,
+        report: &'a mut dyn FnMut(usize),
+    ) -> Self {
+        Search {
+            lines: space.lines(),
+            space,
+            model,
+            further: Vec::new(),
+            report,
+        }
+    }
+}
+
 impl Search<'_> {
     fn member(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
         if (self.space.stop)() {
