@@ -94,8 +94,8 @@ impl<W: Write> CellWriter<W> {
 /// thousands of runs; a frame of a usual window has fewer.
 const MOST_COMPARED: usize = 400;
 
-/// Smallest number of bytes of a control sequence that moves the cursor within a row. A gap in a
-/// row with so many bytes is written again.
+/// Smallest number of bytes of a control sequence that moves the cursor within a row. Unchanged
+/// cells between two changes are written again if they take at most this number of bytes.
 const SHORTEST_MOVEMENT: usize = 3;
 /// Number of bytes of a gap between blanks that is written again, because it may be erased with
 /// them.

@@ -293,7 +293,7 @@ struct Candidate {
     /// Magnitude of its energy in J.
     energy: f64,
     stage: usize,
-    /// Its place among the jumps of the stage.
+    /// Index of the jump in the list of all jumps of the stage.
     place: usize,
 }
 

@@ -254,8 +254,9 @@ impl<'a> Course<'a> {
         Ok(())
     }
 
-    /// Returns the end of an unloading to an indentation or a displacement if the body separates
-    /// before: the body goes on without contact.
+    /// Returns the state at the target of an unloading if the body has separated before it reaches
+    /// this target. The body then moves on without contact. Returns `None` if the target is a force
+    /// or the separation itself.
     fn moved_freely(&self, separated: &State) -> Option<State> {
         let (Goal::Indentation(end) | Goal::Displacement(end)) = self.goal else {
             return None;

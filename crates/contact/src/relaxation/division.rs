@@ -20,8 +20,8 @@ pub struct Division {
 }
 
 impl Division {
-    /// Divides the profile of a contact into more springs. Returns `None` for a profile that already
-    /// has enough springs.
+    /// Divides the profile of a contact into more springs. Returns `None` for a profile that
+    /// already has enough springs.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.

@@ -189,8 +189,7 @@ impl Drive {
         way * length.min(self.instrument) + self.relaxation.share() * fresh * duration.min(1.0)
     }
 
-    /// Returns the accuracy in m with which the force is known that belongs to a displacement of the
-    /// drive.
+    /// Returns the error in m of a force that is computed for a displacement of the drive.
     pub fn accuracy(&self) -> f64 {
         let share = if self.instrument.is_infinite() {
             SAME
@@ -205,8 +204,8 @@ impl Drive {
     }
 
     /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
-    /// the state `to`. The goal is not reached at `from`, and is reached at `to`. A state whose value
-    /// of the goal differs from zero by at most `rounding` has reached it too.
+    /// the state `to`. The goal is not reached at `from`, and is reached at `to`. A state also counts
+    /// as the goal if its value of `goal` differs from zero by at most `rounding`.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.

@@ -56,8 +56,8 @@ pub struct MeasuredCurve {
     /// Drag of a fluid in contact, which was found from the points without contact and subtracted
     /// from the force; `None` if no drag was found.
     pub drag: Option<DragForce>,
-    /// The same drag over the distance to first touch; `None` for a drag that does not depend on
-    /// the distance.
+    /// The drag as a function of the distance to first touch; `None` if the drag has the same value
+    /// at all distances.
     pub(crate) drag_over_distance: Option<Drag>,
     /// True if the body is out of contact at the end of the last retraction.
     pub detaches: bool,

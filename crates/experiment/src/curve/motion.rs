@@ -187,7 +187,7 @@ mod tests {
         }
     }
 
-    /// If the displacement changes during a rest only by rounding, the rest does not become a piece.
+    /// If the displacement changes during a rest only by rounding, the rest becomes no piece.
     #[test]
     fn a_rest_is_no_piece_of_a_length_by_rounding() {
         let mut passages = passages([1e-7; 4], 20.0, 1.0);

@@ -35,7 +35,8 @@ pub(crate) struct Posterior<'a> {
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
     /// The samples as they are shown. Here the coordinate of the relaxation is the whole share of
-    /// the modulus that relaxes. In the other samples it is the part that relaxes during the contact.
+    /// the modulus that relaxes. In the other samples it is the part that relaxes during the
+    /// contact.
     shown: Vec<Vec<f64>>,
     /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,

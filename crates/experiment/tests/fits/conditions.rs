@@ -149,7 +149,7 @@ fn turning_points(
     }
 }
 
-/// What a fit found of γ and E*, and what is wrong with it.
+/// Intervals of γ and E* that a fit found, and their faults.
 struct Judged {
     /// For γ and E*: whether the interval holds the truth.
     holds: [bool; 2],

@@ -183,8 +183,8 @@ fn compare(name: &str, with_errors: bool) {
     );
 }
 
-/// The weak contact of a rough body before and after its strong contact ends at some distance. It
-/// is no drag of a fluid, which does not end.
+/// A rough body has a weak contact before and after its strong contact. This weak contact ends at
+/// some distance, whereas the drag of a fluid is present at all distances.
 #[test]
 fn weak_contacts_of_rough_bodies_are_no_drag() {
     let mut simulation = Simulation::default();

@@ -43,7 +43,7 @@ impl Value<'_> {
     /// Returns the numerical value at the path `inside` within this value. The empty path means
     /// this value itself, `0` and `1` mean the two values of a pair, `2.0` means the target value
     /// of the third loading stage, and `2.radius` a value of the third sphere. Returns `None` if
-    /// there is no number at this path.
+    /// the path leads to no number.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
