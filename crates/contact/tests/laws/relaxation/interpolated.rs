@@ -164,3 +164,37 @@ fn a_stage_that_ends_at_a_jump_changes_nothing() {
     assert!(ends > 50, "{ends}");
     assert!(worst < 2e-3, "{worst}");
 }
+
+/// A motion reaches its target and takes its time, also if the body separates before. Without
+/// adhesion no energy is released.
+#[test]
+fn targets_are_reached_also_beyond_separation() {
+    for number in 0..20 {
+        let (body, _, motion) = case(number);
+        let adhesive = relaxing(&body, &motion);
+        let smooth = Body::new(body.gaps.clone(), Edges::SubCell, body.foundation, 0.0);
+        for contact in [adhesive, relaxing(&smooth, &motion)] {
+            let force = {
+                let mut solver = RelaxingBody::new(&contact).unwrap();
+                let pressed = solver.advance(Move::ToIndentation(motion.deepest));
+                0.7 * pressed.unwrap().largest.force
+            };
+            let mut solver = RelaxingBody::new(&contact).unwrap();
+            let pressed = solver.advance(Move::ToForce(force)).unwrap();
+            let end = pressed.curve[pressed.curve.len() - 1];
+            // Modulus and length are 1, so that the depth is the scale of the force.
+            let deviation = (end.force - force).abs();
+            assert!(deviation <= 1e-10 * motion.deepest, "{number}: {end:?}");
+            let target = -50.0 * motion.deepest;
+            let pulled = solver.advance(Move::ToIndentation(target)).unwrap();
+            let last = pulled.curve[pulled.curve.len() - 1];
+            assert_eq!((last.indentation, last.springs), (target, 0), "{number}");
+            let seconds = pulled.seconds[pulled.seconds.len() - 1] - pulled.seconds[0];
+            let expected = (end.indentation - target) / motion.speed;
+            assert!((seconds - expected).abs() < 1e-9 * expected, "{number}");
+            if !contact.has_adhesion() {
+                assert_eq!([pressed.released_energy, pulled.released_energy], [0.0; 2]);
+            }
+        }
+    }
+}
