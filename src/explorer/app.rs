@@ -226,6 +226,7 @@ impl App {
             tried: None,
             prompt: None,
             message: None,
+            offer: None,
             config,
             chosen: None,
             finished: false,
@@ -244,7 +245,7 @@ impl App {
 
     /// Adds a warning and an offer to the message that is shown for the opened scene, so that all
     /// three are one message. The offer may be to restore unsaved changes. Warnings and errors come
-    /// first.
+    /// first. An offer alone is shown in the place of the footer, so that the results stay visible.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
         let mut done = None;
@@ -254,15 +255,16 @@ impl App {
             Some(Message::Error(text) | Message::Refused(text)) => error = Some(text),
             None => {}
         }
+        if warning.is_none() && error.is_none() && done.is_none() {
+            self.offer = offer;
+            return;
+        }
         let is_error = warning.is_some() || error.is_some();
         let notices: Vec<String> = [warning, error, done, offer]
             .into_iter()
             .flatten()
             .collect();
         let text = notices.join(" · ");
-        if text.is_empty() {
-            return;
-        }
         if is_error {
             self.set_error(text);
         } else {
@@ -343,6 +345,7 @@ impl App {
     /// new edit.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
+        self.offer = None;
         // If the computation of the scene has failed, the message with the reason stays visible.
         // All other messages disappear with the next key.
         if self.is_current() || self.is_computing() {

@@ -173,7 +173,7 @@ pub fn offer(folder: &Path) -> Option<String> {
         }
     }
     Some(format!(
-        "unsaved changes of {} are kept: asperity --restore opens them",
+        "asperity --restore opens the unsaved changes of {}",
         names.join(", ")
     ))
 }

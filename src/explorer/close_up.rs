@@ -63,13 +63,17 @@ fn facts(contact: &SectionContact<'_>, stage: &Stage, number: usize) -> Option<P
 
 /// Smallest number of springs in a close-up of a patch.
 const FEWEST: usize = 32;
+/// Number of equal parts of a profile that one patch covers; the close-up shows as much as one part.
+const PARTS_OF_WHOLE: usize = 4;
 /// Number of equal parts into which the profile is divided. If no spring is in contact, the
 /// close-up shows one part.
 const PARTS: usize = 32;
 
 /// Returns the range of springs in a close-up. If the user has chosen the number of springs, the
 /// range has this size and lies around the centre. Otherwise the range contains the whole patch.
-/// Its size is then a power of two, so that it does not change when the patch grows a little.
+/// Its size is then a power of two, so that it does not change when the patch grows a little. Of a
+/// patch that covers nearly the whole profile, which its own pane shows, the range is a part around
+/// the centre.
 fn shown(
     count: usize,
     centre: usize,
@@ -81,10 +85,14 @@ fn shown(
         springs
     } else if let Some(patch) = patch {
         let needed = patch.springs().len() * 5 / 4;
-        let springs = needed.max(FEWEST).next_power_of_two();
-        let step = springs / 16;
-        middle = patch.middle() / step * step;
-        springs
+        if needed >= count {
+            (count / PARTS_OF_WHOLE).max(FEWEST)
+        } else {
+            let springs = needed.max(FEWEST).next_power_of_two();
+            let step = springs / 16;
+            middle = patch.middle() / step * step;
+            springs
+        }
     } else {
         count / PARTS
     };

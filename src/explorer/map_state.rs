@@ -1,6 +1,7 @@
 //! State of the pane of the map. The pane shows the live map, which is computed for the present
 //! scene over H and κ, or a map of a study over axes of this study.
 
+use asperity_data::AxisScale;
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};
 use asperity_study::{Plan, Quantity, StudyError};
@@ -12,6 +13,8 @@ pub struct MapState {
     /// Quantity that the user has chosen. If the map does not contain it, the first quantity of the
     /// map is shown.
     pub quantity: Quantity,
+    /// Scale of the colours that the user has chosen; `None` for the scale that suits the values.
+    pub scale: Option<AxisScale>,
     /// Axes that the user has chosen for the live map; `None` for a map over H and κ.
     pub chosen: Option<ChosenAxes>,
     /// File to which the plan of the live map was written; `None` if it was not.
@@ -60,6 +63,7 @@ impl Default for MapState {
     fn default() -> Self {
         MapState {
             quantity: Quantity::Regime,
+            scale: None,
             chosen: None,
             plan_file: None,
             study: None,

@@ -61,7 +61,7 @@ impl FileKind {
             }
             FileKind::Curve => "Enter shows the force curve beside the present scene.",
             FileKind::Surface => {
-                "Enter makes the surface the roughness of the present scene; u undoes it."
+                "Enter makes the surface the roughness of the present scene, whose length stays; u undoes it."
             }
         }
     }

@@ -119,6 +119,18 @@ impl Panel {
     }
 }
 
+/// Adds to the title of each page its number and the key for the next page, if there are several
+/// pages.
+pub fn numbered(mut pages: Vec<Panel>) -> Vec<Panel> {
+    let count = pages.len();
+    if count > 1 {
+        for (number, page) in (1..).zip(&mut pages) {
+            page.title = format!("{} · {number}/{count} PageDown", page.title);
+        }
+    }
+    pages
+}
+
 /// Returns the vertical line of the crosshair.
 fn upright(x: f64) -> Layer {
     Layer::unnamed(Ink::Cursor, Shape::Upright(x))

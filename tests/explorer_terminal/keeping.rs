@@ -64,7 +64,7 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
         // The next explorer reports the kept change in a line that ends with the next key.
         let mut terminal = again(home, "scene.ron").start();
-        terminal.wait_for("unsaved changes of scene.ron are kept");
+        terminal.wait_for("asperity --restore opens the unsaved changes of scene.ron");
         terminal.send(">");
         terminal.wait_without("unsaved changes");
         quit(&mut terminal);

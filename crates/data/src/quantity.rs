@@ -328,17 +328,27 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
 }
 
 /// Formats a range of values with their unit, such as `0.33 to 35 µN`. Both ends are rounded to
-/// `digits` significant digits.
+/// `digits` significant digits. If the rounded ends are equal, they get up to two more digits, so
+/// that a narrow range does not look like a single value.
 ///
 /// ```
-/// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
+/// use asperity_data::format_range;
+///
+/// assert_eq!(format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
+/// assert_eq!(format_range((2.31e-3, 2.33e-3), 2, "N"), "2.31 to 2.33 mN");
 /// ```
 pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
+    /// Largest number of further digits.
+    const FURTHER: usize = 2;
     let (low, high) = range;
-    one_unit([
-        format_rounded(low, digits, unit),
-        format_rounded(high, digits, unit),
-    ])
+    for digits in digits..=digits + FURTHER {
+        let low = format_rounded(low, digits, unit);
+        let high = format_rounded(high, digits, unit);
+        if low != high {
+            return one_unit([low, high]);
+        }
+    }
+    format_rounded(low, digits, unit)
 }
 
 /// Joins the two formatted ends of a range to one text, such as `0.33 to 35 µN`. The unit is

@@ -20,7 +20,7 @@ mod ticks;
 
 pub use axis::ChartAxis;
 pub use cells::legend::legend;
-pub use cells::map::{SHADES, key, shade_sample};
+pub use cells::map::{SHADES, key, shade_of};
 pub use cells::pane::{ContactRow, PaneChart, contact_signs, split};
 pub use cells::plot::{CellPlot, Name};
 pub use cells::text::figure_text;

@@ -356,8 +356,8 @@ impl Palette {
                 pull: [153, 110, 75],
             },
             Background::Light => StressIndices {
-                press: [239, 137, 94],
-                pull: [24, 25, 25],
+                press: [247, 137, 94],
+                pull: [110, 67, 25],
             },
             Background::Unknown => StressIndices {
                 press: [101, 137, 130],
@@ -368,10 +368,14 @@ impl Palette {
 
     /// Returns the colour of a step from 1 to [`STRESS_STEPS`] between zero stress and a role.
     pub(crate) fn stress_rgb(self, role: ColourRole, step: u8) -> Rgb {
+        /// Colour next to zero stress on a light background. It is paler than all stresses, whereas
+        /// the dark grey of the free surface would look like the largest stress.
+        const PALE: Rgb = [176, 180, 188];
         let zero = match self.background {
             // On an unknown background, springs without stress have the grey that reads everywhere.
             Background::Unknown => self.rgb(ColourRole::Quiet),
-            Background::Dark | Background::Light => self.rgb(ColourRole::Zero),
+            Background::Dark => self.rgb(ColourRole::Zero),
+            Background::Light => PALE,
         };
         let full = self.rgb(role);
         let share = f64::from(step) / f64::from(STRESS_STEPS);

@@ -70,7 +70,7 @@ pub use scene_figure::ContactSets;
 pub use scene_spectra::SceneSpectra;
 pub use scenes::{ComparedScene, ScenesReport};
 pub use section::{LineColumns, Part, Section, SectionContact};
-pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
+pub use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
 pub use status::{progress_text, status_text};

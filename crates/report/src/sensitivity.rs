@@ -9,6 +9,7 @@ use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
 use serde::Serialize;
+use std::ops::Range;
 
 /// Smallest relative change that is written as a factor. A relative change of 2 is a change to
 /// three times the value.
@@ -21,7 +22,7 @@ const LEAST: f64 = 1.0;
 const HALF: f64 = 0.35;
 
 /// Text that replaces a change if the scene does not allow the changed number.
-const NOT_ALLOWED: &str = "not allowed";
+pub const NOT_ALLOWED: &str = "not allowed";
 
 const PROFILES: &str = "profiles";
 
@@ -141,11 +142,11 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns two rows for each of at most `most` numbers, beginning with the number that has the
-/// largest influence on a result, and finally the rows that belong to the profiles.
-fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
+/// Returns two rows for each number, beginning with the number that has the largest influence on a
+/// result, and finally the rows that belong to the profiles.
+fn sides(sensitivity: &Sensitivity, result: usize) -> Vec<Side<'_>> {
     let mut sides = Vec::new();
-    for influence in sensitivity.ordered(result).into_iter().take(most) {
+    for influence in sensitivity.ordered(result) {
         sides.push(Side::of_number(sensitivity, influence, 0));
         sides.push(Side::of_number(sensitivity, influence, 1));
     }
@@ -163,17 +164,18 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 }
 
 /// Returns a table of the changes of the median results of a scene. The table has a row of
-/// headings, a row with the medians of the unchanged scene, and two rows for each of at most `most`
-/// numbers of the scene. The columns are: name, value and change of the number, change of the
-/// pull-off force F_a with its range over the profiles, change of the pull-off force F_a(d=0)
-/// without a preload, and change of the dissipated energy.
-pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
+/// headings, a row with the medians of the unchanged scene, two rows for each number of the scene
+/// and, for a random profile, two rows for the range over the profiles. The columns are: name,
+/// value and change of the number, change of the pull-off force F_a with its range over the
+/// profiles, change of the pull-off force F_a(d=0) without a preload, and change of the dissipated
+/// energy.
+pub fn sensitivity_table(sensitivity: &Sensitivity) -> Vec<[String; 7]> {
     let has_profiles = sensitivity.range.is_some();
     let mut rows = vec![
         headings(has_profiles),
         present_row(sensitivity, has_profiles),
     ];
-    for side in sides(sensitivity, 0, most) {
+    for side in sides(sensitivity, 0) {
         // Only the first of the two rows of a number has its name and its value.
         let mut name = String::new();
         let mut value = String::new();
@@ -227,12 +229,13 @@ fn present_row(sensitivity: &Sensitivity, has_profiles: bool) -> [String; 7] {
     ]
 }
 
-/// Returns a bar chart of the changes in per cent of one result of a scene. The chart has two bars
-/// for each of at most `most` numbers of the scene. `result` is an index of
-/// [`Sensitivity::RESULTS`].
-pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
-    let sides = sides(sensitivity, result, most);
+/// Returns a bar chart of the changes in per cent of one result of a scene. `result` is an index of
+/// [`Sensitivity::RESULTS`]. The chart has the bars number `rows`, counted from the first change of
+/// the number with the largest influence, and the same horizontal axis for all parts.
+pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, rows: Range<usize>) -> Chart {
+    let sides = sides(sensitivity, result);
     let span = span_of_changes(&sides, result);
+    let sides = sides.get(rows).unwrap_or_default();
     let mut bars = Bars::default();
     let mut names = Vec::new();
     // The rows are drawn from below, beginning with the last row at 0 on the vertical axis.
@@ -375,7 +378,7 @@ impl Report for SensitivityReport<'_> {
             sheet.heading(&format!(
                 "Changes of the {results} where one number changes, {springs}"
             ));
-            sheet.table(&sensitivity_table(sensitivity, usize::MAX));
+            sheet.table(&sensitivity_table(sensitivity));
         }
         sheet.heading(&self.note());
         sentences_section(&mut sheet, &self.warnings());
@@ -601,7 +604,7 @@ mod tests {
             range: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
             warnings: Vec::new(),
         };
-        let rows = sensitivity_table(&sensitivity, 9)
+        let rows = sensitivity_table(&sensitivity)
             .into_iter()
             .map(|row| row.join("|"));
         let expected = [
@@ -615,13 +618,19 @@ mod tests {
             "||most|×4||-|0 %",
         ];
         assert_eq!(rows.collect::<Vec<_>>(), expected);
-        let chart = sensitivity_chart(&sensitivity, 0, 1);
-        let names: Vec<String> = chart.y.names.iter().map(Label::to_string).collect();
+        let names =
+            |chart: &Chart| -> Vec<String> { chart.y.names.iter().map(Label::to_string).collect() };
+        let first = sensitivity_chart(&sensitivity, 0, 0..2);
+        assert_eq!(names(&first), ["k_min, +1: +25 %", "k_min, -1: +50 %"]);
+        let chart = sensitivity_chart(&sensitivity, 0, 0..expected.len() - 2);
+        assert_eq!(chart.x, first.x);
         assert_eq!(
-            names,
+            names(&chart),
             [
                 "profiles, most: ×4",
                 "profiles, least: -50 %",
+                "ν, +10 %: -",
+                "ν, -10 %: -10 %",
                 "k_min, +1: +25 %",
                 "k_min, -1: +50 %"
             ]

@@ -75,11 +75,24 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
 /// Returns a heat map with the two axes of `grid`, or `None` if `grid` has one axis. The values are
 /// means of a quantity over the random profiles. Markers (letters in a terminal) show the regimes
 /// of adhesion. If `whole` is true, a cell that is not computed yet shows the value of a computed
-/// cell nearby.
-pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
+/// cell nearby. With `scale` the colours have this scale instead of the usual one.
+pub fn study_map(
+    grid: &Grid,
+    quantity: Quantity,
+    whole: bool,
+    scale: Option<AxisScale>,
+) -> Option<Chart> {
     let across = &grid.across;
     let up = grid.up.as_ref()?;
-    let shading = Shading::new(grid.layer(quantity));
+    let values = means(&grid.statistics(quantity, whole));
+    let mut layer = grid.layer(quantity).copied();
+    if let Some(layer) = &mut layer
+        && let Some(scale) = scale
+        && scale != layer.scale
+    {
+        *layer = GridLayer::new(quantity, scale, values.iter().flatten());
+    }
+    let shading = Shading::new(layer);
     let contour = vanishing(grid, quantity).map(|share| Contour {
         name: vanishing_label(share),
         field: means(&grid.statistics(share, whole)),
@@ -88,7 +101,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     let map = HeatMap {
         columns: across.values.clone(),
         rows: up.values.clone(),
-        values: means(&grid.statistics(quantity, whole)),
+        values,
         key: quantity_axis(quantity, shading.scale, shading.span),
         shades: shading.shades,
         classes: classes(&grid.regimes(quantity, whole)),
@@ -113,7 +126,7 @@ struct Shading {
 
 impl Shading {
     /// Returns the colours for a layer of a grid; for `None`, the colours for values from 0 to 1.
-    fn new(layer: Option<&GridLayer>) -> Self {
+    fn new(layer: Option<GridLayer>) -> Self {
         let (scale, range) = match layer {
             Some(layer) => (layer.scale, layer.range),
             None => (AxisScale::Linear, Some((0.0, 1.0))),
@@ -603,7 +616,7 @@ mod tests {
     }
 
     fn figure(Study { title, grid }: &Study) -> Figure {
-        let map = |quantity| study_map(grid, quantity, false);
+        let map = |quantity| study_map(grid, quantity, false, None);
         let charts =
             |quantity| map(quantity).map_or_else(|| study_curves(grid, quantity), |map| vec![map]);
         study_figure(title, grid, [SHARE, COEFFICIENT].map(charts).concat())

@@ -486,17 +486,14 @@ impl Target {
             }) => ("last mode".into(), "k_max", "1"),
             Target::Number(Field {
                 range: Range::Wavelengths(..),
-                symbol,
                 unit,
                 ..
-            }) => {
-                let which = if path.ends_with(".0") {
-                    "longest"
-                } else {
-                    "shortest"
-                };
-                (format!("{which} wavelength"), symbol, unit)
-            }
+            }) if path.ends_with(".0") => ("longest wavelength".into(), "λ_max", unit),
+            Target::Number(Field {
+                range: Range::Wavelengths(..),
+                unit,
+                ..
+            }) => ("shortest wavelength".into(), "λ_min", unit),
             Target::Number(field) => (field.name.into(), field.symbol, field.unit),
         }
     }

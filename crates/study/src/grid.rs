@@ -47,9 +47,12 @@ pub struct GridLayer {
 
 impl GridLayer {
     /// Makes a layer of a quantity with the range of `means`, its means over the profiles, one for
-    /// each cell. If `scale` is `None`, the layer gets the scale that suits these means.
-    pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
-        let scale = scale.unwrap_or_else(|| scale_of(means));
+    /// each cell.
+    pub fn new<'a>(
+        quantity: Quantity,
+        scale: AxisScale,
+        means: impl IntoIterator<Item = &'a f64>,
+    ) -> GridLayer {
         let mut range: Option<(f64, f64)> = None;
         for &mean in means {
             if scale.coordinate(mean).is_finite() {
@@ -80,6 +83,18 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     } else {
         AxisScale::Linear
     }
+}
+
+/// Returns the scale of the colours of a map that suits `means`. In contrast to [`scale_of`], a mean
+/// of zero counts as a small mean, since a cell with it has the colour of the smallest means. A map
+/// of a few profiles and a map of many profiles then usually have the same scale.
+pub(super) fn scale_of_colours(means: &[f64]) -> AxisScale {
+    let least = means.iter().copied().filter(|mean| *mean > 0.0);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let means = means
+        .iter()
+        .map(|mean| if *mean == 0.0 { least } else { *mean });
+    scale_of(&means.collect::<Vec<_>>())
 }
 
 /// Position on a [`Grid`]. The first number is a value on the horizontal axis. The second is a

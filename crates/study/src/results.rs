@@ -3,7 +3,7 @@
 
 use super::axis::Axis;
 use super::error::StudyError;
-use super::grid::{Grid, GridCell, GridLayer};
+use super::grid::{Grid, GridCell, GridLayer, scale_of, scale_of_colours};
 use super::missing_profiles::{Failures, MissingProfiles, SolvedProfile};
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
@@ -518,9 +518,17 @@ impl Results {
     /// Returns a recorded quantity with its scale. If `scale` is `None`, the quantity gets the
     /// scale that suits its means over the profiles in all cells of the study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
-        let means =
-            (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
-        GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
+        let means: Vec<f64> = (0..self.plan.cells())
+            .filter_map(|cell| Some(self.statistics(cell, quantity)?.mean))
+            .collect();
+        let mut axes = self.plan.axes.iter();
+        let is_map = axes.by_ref().any(has_several) && axes.any(has_several);
+        let scale = match scale {
+            Some(scale) => scale,
+            None if is_map => scale_of_colours(&means),
+            None => scale_of(&means),
+        };
+        GridLayer::new(quantity, scale, &means)
     }
 
     /// Returns a grid of the cells over one or two axes, with the quantities of `layers`. On each
@@ -571,6 +579,11 @@ impl Results {
             regimes,
         })
     }
+}
+
+/// Returns true for an axis along which a study has several cells.
+fn has_several(axis: &Axis) -> bool {
+    axis.values.len() > 1
 }
 
 #[cfg(test)]

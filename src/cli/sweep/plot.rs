@@ -64,7 +64,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let mut charts = Vec::new();
     for quantity in quantities {
-        match study_map(&grid, quantity, false) {
+        match study_map(&grid, quantity, false, None) {
             Some(map) if !curves => charts.push(map),
             _ => charts.extend(study_curves(&grid, quantity).into_iter().take(scales)),
         }

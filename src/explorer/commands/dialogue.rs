@@ -10,7 +10,7 @@ use crate::explorer::openable::Openable;
 use crate::explorer::opening::CurveQuestion;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
-use crate::explorer::panes::trust;
+use crate::explorer::panes::row;
 use crate::explorer::prompt::{Aim, COMMANDS, Prompt, Purpose, Topic};
 use crate::explorer::text::on_one_line;
 use asperity_scene::library::typed_path;
@@ -125,7 +125,7 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     };
     if app.prompt.is_some() {
         select(app, rows)
-    } else if app.view.pane == Pane::Trust {
+    } else if is_paged(app.view.pane) {
         turn_page(app, rows > 0)
     } else {
         edit::move_selection(app, rows)
@@ -134,15 +134,21 @@ pub fn page(app: &mut App, key: &KeyEvent) {
 
 /// Returns true if a list is open, or if the selected pane has several pages.
 pub fn has_pages(app: &App) -> bool {
-    app.prompt.is_some() || app.view.pane == Pane::Trust
+    app.prompt.is_some() || is_paged(app.view.pane)
 }
 
-/// Shows the next or the previous page of the pane of accuracy.
+/// Returns true for a pane whose content may be divided into pages.
+fn is_paged(pane: Pane) -> bool {
+    matches!(pane, Pane::Trust | Pane::Sensitivity)
+}
+
+/// Shows the next or the previous page of the selected pane.
 fn turn_page(app: &mut App, is_next: bool) {
-    let Some(area) = Layout::of(app).pane(Pane::Trust) else {
+    let pane = app.view.pane;
+    let Some(area) = Layout::of(app).pane(pane) else {
         return;
     };
-    let last = trust::count_pages(app, inside(area).as_size()) - 1;
+    let last = (row(pane).pages)(app, inside(area).as_size()) - 1;
     let page = app.view.page.min(last);
     app.view.page = if is_next {
         (page + 1).min(last)

@@ -40,13 +40,27 @@ pub fn next_theme(app: &mut App) {
     app.set_done(format!("colours: {}", app.view.appearance.theme.name()));
 }
 
-/// Switches the axis of preloads between a linear and a logarithmic scale.
-pub fn toggle_preload_scale(app: &mut App) {
-    app.view.preloads = match app.view.preloads {
+/// Switches the axis of preloads, or the colours of a map, between a linear and a logarithmic
+/// scale.
+pub fn toggle_scale(app: &mut App) {
+    if app.view.pane == Pane::Map {
+        let mapped = app.mapped();
+        let usual = app.grid().and_then(|grid| grid.layer(mapped));
+        let Some(usual) = usual.map(|layer| layer.scale) else {
+            return app.set_error("regimes have no scale; V shows another quantity");
+        };
+        app.map.scale = Some(other_scale(app.map.scale.unwrap_or(usual)));
+        return;
+    }
+    app.view.preloads = other_scale(app.view.preloads);
+    app.effects.push(Task::Study);
+}
+
+fn other_scale(scale: AxisScale) -> AxisScale {
+    match scale {
         AxisScale::Linear => AxisScale::Logarithmic,
         AxisScale::Logarithmic => AxisScale::Linear,
-    };
-    app.effects.push(Task::Study);
+    }
 }
 
 /// Returns the number of springs of the whole profile.

@@ -9,8 +9,8 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use asperity_data::{counted, format_range, format_rounded, grouped};
-use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign, shade_sample};
+use asperity_data::{AxisScale, counted, format_range, format_rounded, grouped};
+use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Sign, shade_of};
 use asperity_report::{study_curves, study_figure, study_map};
 use asperity_study::StudyError;
 use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap};
@@ -37,8 +37,13 @@ pub static ROW: PaneRow = PaneRow {
             "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes",
         ),
     ],
+    ..PaneRow::EMPTY
 };
 
+/// Values of the regimes on a map of regimes, in the order of the classes of the map.
+const VALUES_OF_REGIMES: [f64; 3] = [1.0, 0.5, 0.0];
+/// Values of cells in which some profiles are in one regime and some in the next.
+const VALUES_BETWEEN_REGIMES: [f64; 2] = [0.75, 0.25];
 /// Largest number of springs with which a demo computes a map. With more springs, the hundreds of
 /// scenes of a map would take too long.
 const MOST_SPRINGS: u64 = 1 << 12;
@@ -73,8 +78,8 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some(grid) = app.grid() else {
         return Panel::of_text(title, &nothing_yet(app));
     };
-    let foot = below(app, grid, size.width);
-    let Some(mut chart) = map(grid, app.mapped()) else {
+    let foot = below(app, grid, size);
+    let Some(mut chart) = map(grid, app.mapped(), app.map.scale) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
@@ -102,8 +107,8 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Returns the map of the regimes or of another quantity over two axes; `None` if the grid has only
 /// one axis. The cells are drawn without the letters of the regimes. In a map of regimes the shades
 /// already show them, and in a map of another quantity they would hide the boundary.
-fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
-    let mut chart = study_map(grid, mapped, true)?;
+fn map(grid: &Grid, mapped: Quantity, scale: Option<AxisScale>) -> Option<Chart> {
+    let mut chart = study_map(grid, mapped, true, scale)?;
     if let Some(map) = chart.map_mut() {
         if mapped.is_regime() {
             map.contour = None;
@@ -145,7 +150,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
         None => curves(app, grid),
         Some(_) => shown_quantities(app.mapped(), grid)
             .into_iter()
-            .filter_map(|quantity| study_map(grid, quantity, false))
+            .filter_map(|quantity| study_map(grid, quantity, false, app.map.scale))
             .collect(),
     };
     let title = match app.map.shown_study() {
@@ -253,17 +258,13 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
         return parts;
     }
     parts.truncate(1);
-    // Only every second shade belongs to a regime, beginning with the densest shade. A shade
-    // between two regimes shows that some profiles of a cell are in one regime and some in the
-    // other.
     let palette = look.palette();
-    let sample = |step: usize| {
-        let (character, style) = shade_sample(map, step, palette);
+    let sample = |value: f64| {
+        let (character, style) = shade_of(map, value, palette);
         Text::styled(character, style)
     };
-    let steps_of_regimes = (0..SHADES.len()).rev().step_by(2);
-    for (class, step) in map.class_names.iter().zip(steps_of_regimes) {
-        let mut shade = sample(step);
+    for (class, value) in map.class_names.iter().zip(VALUES_OF_REGIMES) {
+        let mut shade = sample(value);
         if !palette.has_shades() {
             shade = shade.style(palette.ink(class.ink));
         }
@@ -272,7 +273,8 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     }
     if grid.is_split(app.mapped()) {
         let name = Text::raw(" profiles disagree");
-        parts.push(vec![sample(3), Text::raw(" "), sample(1), name]);
+        let [upper, lower] = VALUES_BETWEEN_REGIMES;
+        parts.push(vec![sample(upper), Text::raw(" "), sample(lower), name]);
     }
     parts
 }
@@ -310,10 +312,36 @@ fn on_axis(axis: &Axis, value: f64) -> String {
     format!("{} {value}", axis.symbol_or_name())
 }
 
+/// Number of rows of the pane for each line of text on the mark. In a lower pane the text has less
+/// detail, so that it is not cut and the map keeps most of the rows.
+const ROWS_PER_LINE: u16 = 5;
+
+/// Detail of the text on the mark.
+#[derive(Clone, Copy, PartialEq)]
+enum Detail {
+    Every,
+    /// Without the medians and ranges over the profiles.
+    Means,
+    /// Also without the turning point that belongs to the regime, and the number of its profiles.
+    Least,
+}
+
+impl Detail {
+    const ALL: [Detail; 3] = [Detail::Every, Detail::Means, Detail::Least];
+}
+
 /// Returns the lines below the map: the position of the scene, the values of the nearest cell and,
 /// if necessary, the reason why the map is incomplete or does not belong to the scene.
-fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
-    let mut lines = wrapped(&Line::raw(mark_in_words(app, grid)), width);
+fn below(app: &App, grid: &Grid, size: Size) -> Vec<Line<'static>> {
+    let Size { width, height } = size;
+    let most = usize::from((height / ROWS_PER_LINE).max(1));
+    let mut lines = Vec::new();
+    for detail in Detail::ALL {
+        lines = wrapped(&Line::raw(mark_in_words(app, grid, detail)), width);
+        if lines.len() <= most {
+            break;
+        }
+    }
     if let Some(missing) = missing(app) {
         let missing = Line::styled(missing, app.style(Meaning::Key));
         lines.extend(wrapped(&missing, width));
@@ -322,7 +350,7 @@ fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
 }
 
 /// Returns the position of the scene and the values of the nearest cell as text.
-fn mark_in_words(app: &App, grid: &Grid) -> String {
+fn mark_in_words(app: &App, grid: &Grid, detail: Detail) -> String {
     let Some(place) = app.place() else {
         return "no mark: the scene lacks a quantity of the axes".to_owned();
     };
@@ -331,7 +359,7 @@ fn mark_in_words(app: &App, grid: &Grid) -> String {
     } else {
         ", outside the map"
     };
-    let values = cell_values(app, grid, place).unwrap_or_else(|| "not computed".to_owned());
+    let values = cell_values(app, grid, place, detail).unwrap_or_else(|| "not computed".to_owned());
     format!("◆ {}{outside}: {values}", on_axes(grid, place))
 }
 
@@ -386,7 +414,7 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
 
 /// Returns the values of the computed cell nearest to the mark. If the position of this cell
 /// differs from the mark, the text begins with the position. `None` if no cell is computed.
-fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
+fn cell_values(app: &App, grid: &Grid, mark: GridPlace, detail: Detail) -> Option<String> {
     let (cell, column, row) = grid.nearest(mark)?;
     let across = grid.across.values[column];
     let up = grid.up.as_ref().map(|up| up.values[row]);
@@ -408,14 +436,14 @@ fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
     let decided = regimes.find(|regime| deciding(*regime).contains(&mapped));
     let mapped = decided.unwrap_or(mapped);
     let mut parts = Vec::new();
-    parts.extend(regime_in_words(cell, mapped));
+    parts.extend(regime_in_words(cell, mapped, detail));
     let shown = shown_quantities(mapped, grid);
     for (layer, statistics) in grid.layers.iter().zip(&cell.statistics) {
         if let Some(statistics) = statistics
             && shown.contains(&layer.quantity)
         {
             let name = name_of(grid, layer.quantity);
-            let value = value(*statistics, layer.quantity.unit());
+            let value = value(*statistics, layer.quantity.unit(), detail);
             parts.push(format!("{name} {value}"));
         }
     }
@@ -423,9 +451,12 @@ fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
 }
 
 /// Returns the regime of most profiles of a cell, and the number of these profiles.
-fn regime_in_words(cell: &GridCell, mapped: Quantity) -> Option<String> {
+fn regime_in_words(cell: &GridCell, mapped: Quantity, detail: Detail) -> Option<String> {
     let regimes = cell.regimes_of(mapped);
     let (regime, count) = regimes.most()?;
+    if detail == Detail::Least {
+        return Some(regime.name().to_owned());
+    }
     let words = format!("{} {}", regime.name(), mapped.protocol());
     let profiles = regimes.profiles() as u64;
     if profiles == 1 {
@@ -438,11 +469,12 @@ fn regime_in_words(cell: &GridCell, mapped: Quantity) -> Option<String> {
     ))
 }
 
-/// Returns a mean value as text, with the median and the range if the profiles differ.
-fn value(statistics: Statistics, unit: &str) -> String {
+/// Returns a mean value as text, with the median and the range if the profiles differ and there is
+/// room for every detail.
+fn value(statistics: Statistics, unit: &str, detail: Detail) -> String {
     let mean = format_rounded(statistics.mean, 2, unit);
     let (least, most) = statistics.range;
-    if least == most {
+    if least == most || detail != Detail::Every {
         return mean;
     }
     let median = format_rounded(statistics.quartiles[1], 2, unit);

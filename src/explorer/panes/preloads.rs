@@ -10,7 +10,7 @@ use crate::explorer::studies::Study;
 use crate::explorer::text::wrapped;
 use crate::explorer::theme::Meaning;
 use asperity_data::AxisScale;
-use asperity_plot::{Chart, Ink, Layer, Shape, Sign};
+use asperity_plot::{Chart, Ink, Label, Layer, Shape, Sign};
 use asperity_report::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 use asperity_study::PreloadCurve;
 use ratatui::layout::Size;
@@ -45,6 +45,7 @@ pub static ROW: PaneRow = PaneRow {
          random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of \
          profiles up to each force",
     )],
+    ..PaneRow::EMPTY
 };
 
 /// Returns the data of the curves, and the command that computes them as a table.
@@ -77,6 +78,9 @@ fn report(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
+/// Smallest height in rows of a pane whose legend states the turning points in words.
+const WITH_TURNS: u16 = 14;
+
 fn panel(app: &App, size: Size) -> Panel {
     let name = "Pull-off force";
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
@@ -84,7 +88,16 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text(name.to_owned(), failure.unwrap_or("computing …"));
     };
     let charts = Charts::new(app, curve);
-    let chart = charts.curves.with_symbols();
+    let mut chart = charts.curves.with_symbols();
+    if size.height < WITH_TURNS {
+        for layer in &mut chart.layers {
+            // The value before the comma is enough, since the symbol states the turning point.
+            let name = layer.name.to_string();
+            if let Some((value, _)) = name.split_once(", ") {
+                layer.name = Label::plain(value);
+            }
+        }
+    }
     let title = format!("{name} {}", chart.y.symbol_with_unit());
     let mut edge = Vec::new();
     let computed = curve.profiles();

@@ -3,28 +3,30 @@
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
-use crate::explorer::panel::Panel;
+use crate::explorer::panel::{Panel, numbered};
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled};
-use asperity_plot::{Figure, Label};
-use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
+use asperity_plot::{CellPlot, Figure, Label};
+use asperity_report::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 use asperity_study::Sensitivity;
-use ratatui::layout::Size;
+use ratatui::layout::{Rect, Size};
 use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Number of rows that cannot be used for bars: they contain the results of the scene, the heading,
-/// and the horizontal axis with its numbers and its label.
-const BESIDE: u16 = 5;
-
 pub static ROW: PaneRow = PaneRow {
-    panel,
+    panel: |app, size| {
+        let mut pages = pages(app, size);
+        let page = app.view.page.min(pages.len() - 1);
+        pages.swap_remove(page)
+    },
+    pages: |app, size| pages(app, size).len(),
     figure: |app, _| {
         let found = app
             .studies
             .value::<Sensitivity>()
             .filter(|found| found.missing().is_none())?;
-        let chart = sensitivity_chart(found, 0, found.influences.len());
+        let rows = sensitivity_table(found).len() - BEFORE_BARS;
+        let chart = sensitivity_chart(found, 0, 0..rows);
         Some(Figure::of_chart(app.edit.document.title(), chart))
     },
     report,
@@ -39,7 +41,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Sensitivity",
         "key Y: change of the median F_a where one number of the scene is 10 % smaller or larger, and the range over the \
-         profiles",
+         profiles. PageDown: further numbers in a small window",
     )],
 };
 
@@ -55,41 +57,61 @@ fn report(app: &App) -> Exported<'_> {
     Some(("asperity sensitivity".into(), Box::new(report)))
 }
 
-fn panel(app: &App, size: Size) -> Panel {
+/// Number of rows of the table before the rows with bars: the heading and the present results.
+const BEFORE_BARS: usize = 2;
+
+/// Returns the pages of the pane, each with as many bars as fit. There is at least one page.
+fn pages(app: &App, size: Size) -> Vec<Panel> {
     let title = "Sensitivity: each number ±10 %".to_owned();
     let Some(sensitivity) = app.studies.value::<Sensitivity>() else {
         let failure = app.studies.failure::<Sensitivity>();
-        return Panel::of_text(title, failure.unwrap_or("computing …"));
+        return vec![Panel::of_text(title, failure.unwrap_or("computing …"))];
     };
     if let Some(missing) = sensitivity.missing() {
-        return Panel::of_text(title, missing);
+        return vec![Panel::of_text(title, missing)];
     }
-    // Each number of the scene takes two rows: a bar for its decrease and a bar for its increase.
-    let bars = usize::from(size.height.saturating_sub(BESIDE));
-    let of_range = sensitivity.range.iter().len();
-    let most = (bars / 2).saturating_sub(of_range).max(1);
-    let mut rows = sensitivity_table(sensitivity, most);
+    let mut rows = sensitivity_table(sensitivity);
     let present = rows.remove(1);
     let mut head = filled(results(&rows[0], &present), "  ", size.width.into());
-    let mut chart = sensitivity_chart(sensitivity, 0, most);
-    if let Some(labels) = labels_within(&rows, usize::from(3 * size.width / 4)) {
+    for row in &mut rows {
+        if row[SINGLE_PROFILES] == NOT_ALLOWED {
+            row[RESULTS[0]] = NOT_ALLOWED.to_owned();
+        }
+    }
+    let labels = labels_within(&rows, usize::from(3 * size.width / 4));
+    if let Some(labels) = &labels {
         head.push(Line::raw(labels[0].clone()));
-        let names = labels[1..].iter().rev();
-        chart.y.names = names.map(|label| Label::plain(label)).collect();
     }
-    chart.y.span.low -= bars.saturating_sub(chart.y.names.len()) as f64;
-    let mut edge = Vec::new();
-    let hidden = sensitivity.influences.len().saturating_sub(most);
-    if hidden > 0 {
-        let text = format!("and {hidden} numbers of less influence");
-        edge.push(vec![Span::raw(text)]);
+    let bars = rows.len() - 1;
+    let room = Rect {
+        height: size.height.saturating_sub(head.len() as u16),
+        ..Rect::from(size)
+    };
+    let whole = sensitivity_chart(sensitivity, 0, 0..bars);
+    let rows_of_plot = usize::from(CellPlot::within(room, &whole).plot.height);
+    // The two bars of a number are on one page.
+    let bars_of_page = (rows_of_plot / 2 * 2).max(2);
+    let mut pages = Vec::new();
+    for first in (0..bars).step_by(bars_of_page) {
+        let shown = first..bars.min(first + bars_of_page);
+        let mut chart = sensitivity_chart(sensitivity, 0, shown.clone());
+        if let Some(labels) = &labels {
+            let names = labels[1..][shown].iter().rev();
+            chart.y.names = names.map(|label| Label::plain(label)).collect();
+        }
+        // Each bar has one row, and the rows that remain are below the bars.
+        let blank = rows_of_plot.saturating_sub(chart.y.names.len());
+        chart.y.span.low -= blank as f64;
+        pages.push(Panel {
+            head: head.clone(),
+            ..Panel::of_chart(title.clone(), chart)
+        });
     }
-    Panel {
-        head,
-        edge,
-        ..Panel::of_chart(title, chart)
-    }
+    numbered(pages)
 }
+
+/// Column of the table that contains the range of F_a over the profiles.
+const SINGLE_PROFILES: usize = 4;
 
 /// Columns of the table that contain results: F_a and two further results.
 const RESULTS: [usize; 3] = [3, 5, 6];

@@ -6,7 +6,7 @@ use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::measured::fitted;
-use crate::explorer::panel::{Panel, entries};
+use crate::explorer::panel::{Panel, entries, numbered};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
@@ -28,6 +28,7 @@ use std::time::Duration;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
+    pages: |app, size| pages(app, size).len(),
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     report,
     studies: |_, computed| vec![study(computed)],
@@ -103,14 +104,9 @@ fn panel(app: &App, size: Size) -> Panel {
     pages.swap_remove(page)
 }
 
-/// Returns the number of pages of the pane in an area of this size.
-pub fn count_pages(app: &App, size: Size) -> usize {
-    pages(app, size).len()
-}
-
 /// Returns the pages of the pane, through which PageDown and PageUp go. There is one page if the
-/// texts and the chart fit below each other. Otherwise the chart has the last page. There is at
-/// least one page.
+/// texts and the chart fit below each other. Otherwise the theories get a page of their own or, if
+/// this is not enough, the chart. There is at least one page.
 fn pages(app: &App, size: Size) -> Vec<Panel> {
     let words = words(app, size.width);
     let mut warnings = Vec::new();
@@ -135,6 +131,16 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
             ..Panel::of_chart(title, chart)
         }];
     }
+    if needed - words.theories.len() <= size.height.into() {
+        let foot = [words.cost, words.errors].concat();
+        let mut pages = vec![Panel {
+            head: warnings,
+            foot,
+            ..Panel::of_chart(title, chart)
+        }];
+        pages.extend(pages_of_text(words.theories, size.height));
+        return numbered(pages);
+    }
     let texts = [warnings, words.errors, words.theories].concat();
     let mut pages = pages_of_text(texts, size.height);
     // Below the chart are the texts that state what its curves mean for the scene.
@@ -156,18 +162,6 @@ fn pages_of_text(lines: Vec<Line<'static>>, rows: u16) -> Vec<Panel> {
             head: lines.to_vec(),
             ..Panel::of_text("Trust: errors of F_a".to_owned(), "")
         });
-    }
-    pages
-}
-
-/// Adds to the title of each page its number and the key for the next page, if there are several
-/// pages.
-fn numbered(mut pages: Vec<Panel>) -> Vec<Panel> {
-    let count = pages.len();
-    if count > 1 {
-        for (number, page) in (1..).zip(&mut pages) {
-            page.title = format!("{} · {number}/{count} PageDown", page.title);
-        }
     }
     pages
 }

@@ -540,6 +540,10 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     if let Some(note) = app.view.demo {
         return Line::styled(note, app.style(Meaning::Quiet));
     }
+    if let Some(offer) = &app.offer {
+        let offer = Line::styled(offer.clone(), app.style(Meaning::Key));
+        return fitted(offer, width);
+    }
     if let Some(prompt) = &app.prompt
         && !prompt.paths.is_empty()
     {

@@ -72,7 +72,6 @@ fn notices_at_the_start_stand_beside_each_other() {
         ["config.ron:3:1: speed", "unsaved changes are kept"].map(|text| Some(text.to_owned()));
     for (notice, warning, offer, shown) in [
         (None, &None, &None, ""),
-        (None, &None, &offer, "unsaved changes are kept"),
         (
             Some("loaded"),
             &warning,
@@ -87,6 +86,19 @@ fn notices_at_the_start_stand_beside_each_other() {
         assert_eq!(driver.app.message.is_some(), !shown.is_empty());
         driver.states(shown);
     }
+}
+
+/// An offer alone has the place of the footer until the next key, and the results stay visible.
+#[test]
+fn an_offer_hides_no_result() {
+    let mut driver = mid_retraction(rough());
+    let results = driver.app.message.clone();
+    let offer = "asperity --restore opens the unsaved changes of a scene";
+    driver.app.state_beside(None, Some(offer.to_owned()));
+    assert_eq!(driver.app.message, results);
+    assert_eq!(driver.rows().last().unwrap().trim_end(), offer);
+    driver.press("Tab");
+    driver.hides(offer);
 }
 
 #[test]

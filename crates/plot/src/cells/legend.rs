@@ -2,6 +2,7 @@
 
 use super::glyph::glyph;
 use crate::chart::{Chart, Entry, Sample, Stroke};
+use crate::colour::Ink;
 use crate::label::Label;
 use crate::palette::Palette;
 use ratatui::text::Span as Text;
@@ -17,12 +18,14 @@ fn strokes(stroke: Stroke) -> [&'static str; 3] {
     }
 }
 
-fn text_of(sample: Sample, palette: Palette) -> String {
+fn text_of(sample: Sample, ink: Ink, palette: Palette) -> String {
     match sample {
         Sample::Line(stroke, sign) => {
             let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
             format!("{left}{}{right}", sign.map_or(middle, glyph))
         }
+        // The area has as few dots as in the chart.
+        Sample::Area if ink == Ink::Quiet => "⡀⠄⠂".to_owned(),
         Sample::Area => "⠪⠕⠪".to_owned(),
         Sample::Solid => "■".to_owned(),
         Sample::Guide => "┊".to_owned(),
@@ -43,7 +46,7 @@ pub fn legend(charts: &[Chart], palette: Palette) -> Vec<Vec<Text<'static>>> {
         for (ink, sample) in entry.samples {
             let text = match (sample, letter) {
                 (Sample::Line(..), Some(letter)) => letter.to_string(),
-                (sample, _) => text_of(sample, palette),
+                (sample, _) => text_of(sample, ink, palette),
             };
             if part.last().is_none_or(|last| *last.content != text) {
                 part.push(Text::styled(text, palette.ink(ink)));

@@ -232,12 +232,23 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
 /// Returns a character with its style, as it shows a value of a heat map in a terminal. The range
 /// of the values is divided into five steps, and the value is the middle of step number `step`.
 /// Step 0 has the lowest values.
-pub fn shade_sample(map: &HeatMap, step: usize, palette: Palette) -> (&'static str, Style) {
+fn shade_sample(map: &HeatMap, step: usize, palette: Palette) -> (&'static str, Style) {
     if palette.has_shades() {
         let colour = map.shades.at((step as f64 + 0.5) / SHADES.len() as f64);
         (" ", Style::new().bg(palette.shade(colour)))
     } else {
         (SHADES[step.min(SHADES.len() - 1)], Style::new())
+    }
+}
+
+/// Returns the character with its style that shows a value in the cells of a heat map in a
+/// terminal.
+pub fn shade_of(map: &HeatMap, value: f64, palette: Palette) -> (&'static str, Style) {
+    if palette.has_shades() {
+        let colour = map.shades.of_band(map.shade(value));
+        (" ", Style::new().bg(palette.shade(colour)))
+    } else {
+        (SHADES[step(map.key.share(value))], Style::new())
     }
 }
 

@@ -284,8 +284,9 @@ impl PaneChart {
         beside.draw(buffer, chart, palette);
     }
 
-    /// Marks the position of the present scene on a map: by pointers on both axes, and by a blank
-    /// on each side of the position, so that it is visible even without colours.
+    /// Marks the position of the present scene on a map by pointers on both axes. On a map without
+    /// colours, a blank on each side of the position makes it visible. On a map with colours the
+    /// mark contrasts with its cell, and the cells beside it keep their colours.
     fn point_at_mark(&self, place: &CellPlot, area: Rect, palette: Palette, buffer: &mut Buffer) {
         let mut layers = self.chart.layers.iter().rev();
         let Some(mark) = layers.find(|layer| layer.ink == Ink::Cursor) else {
@@ -302,14 +303,15 @@ impl PaneChart {
         };
         let plot = place.plot;
         let style = palette.ink(Ink::Cursor);
-        for beside in [x.wrapping_sub(1), x + 1] {
-            if (plot.x..plot.right()).contains(&beside) {
-                buffer[(beside, y)].set_symbol(" ");
-            }
-        }
         if palette.has_shades() {
             let ground = buffer[(x, y)].bg;
             buffer[(x, y)].set_fg(palette.ink_on_shade(ground));
+        } else {
+            for beside in [x.wrapping_sub(1), x + 1] {
+                if (plot.x..plot.right()).contains(&beside) {
+                    buffer[(beside, y)].set_symbol(" ");
+                }
+            }
         }
         if let Some(cell) = buffer.cell_mut((x, plot.bottom()))
             && ["─", "┬"].contains(&cell.symbol())

@@ -335,12 +335,12 @@ impl CellPlot {
         if self.left > 0 {
             self.draw_scale_beside(buffer, chart, quiet);
         }
-        let (numbers, label) = scale_below(chart, self.plot.width, self.has_label_row);
+        let scale = self.scale_below(chart);
         if self.has_line {
-            self.draw_line_below(buffer, &numbers, quiet);
+            self.draw_line_below(buffer, &scale.numbers, quiet);
         }
         if self.has_scale_below {
-            self.draw_scale_below(buffer, numbers, &label, quiet);
+            self.draw_scale_below(buffer, &scale, quiet);
         }
     }
 
@@ -358,11 +358,11 @@ impl CellPlot {
         }
     }
 
-    fn draw_line_below(&self, buffer: &mut Buffer, numbers: &[PlacedNumber], quiet: Style) {
+    fn draw_line_below(&self, buffer: &mut Buffer, numbers: &[NumberBelow], quiet: Style) {
         let plot = self.plot;
         let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
-        for (column, _) in numbers {
-            line[usize::from(*column)] = '┬';
+        for number in numbers {
+            line[usize::from(number.tick)] = '┬';
         }
         if self.left > 0 {
             buffer.set_string(plot.x - 1, plot.bottom(), "└", quiet);
@@ -371,42 +371,129 @@ impl CellPlot {
         buffer.set_string(plot.x, plot.bottom(), line, quiet);
     }
 
-    fn draw_scale_below(
-        &self,
-        buffer: &mut Buffer,
-        numbers: Vec<PlacedNumber>,
-        label: &str,
-        quiet: Style,
-    ) {
+    fn draw_scale_below(&self, buffer: &mut Buffer, scale: &ScaleBelow, quiet: Style) {
         let plot = self.plot;
         let y = plot.bottom() + self.between;
-        let from = plot.x - self.left;
-        let label_width = (label.chars().count() as u16).min(plot.width);
-        let end = if self.has_label_row {
-            plot.right()
-        } else {
-            plot.right() - label_width
-        };
-        // If the label is in the same row as the numbers, there must be a blank between the last
-        // number and the label.
-        let end_of_numbers = end.max(from + 1) + u16::from(self.has_label_row);
-        let mut free = from;
-        for (column, text) in numbers {
-            let width = text.chars().count() as u16;
-            let x = (plot.x + column).saturating_sub(width / 2).max(from);
-            let right = x + width;
-            if x >= free && right < end_of_numbers {
-                buffer.set_string(x, y, text, quiet);
-                free = right + 1;
+        for number in &scale.numbers {
+            let x = (i32::from(plot.x) + number.start) as u16;
+            buffer.set_string(x, y, &number.text, quiet);
+        }
+        let y = y + u16::from(self.has_label_row);
+        let x = plot.x + scale.label_start;
+        let width = plot.width - scale.label_start;
+        buffer.set_stringn(x, y, &scale.label, usize::from(width), quiet);
+    }
+
+    /// Returns the numbers on the horizontal axis, and its label. If the label does not fit, it
+    /// contains only the symbol and the unit. The label has a row of its own, or shares the row of
+    /// the numbers: it is then at the right end or, if it would cover a number there, before the
+    /// last number. If it fits nowhere, it replaces the last numbers.
+    fn scale_below(&self, chart: &Chart) -> ScaleBelow {
+        let width = self.plot.width;
+        let short = chart.x.symbol_with_unit().to_string();
+        let mut label = chart.x.label_with_unit().to_string();
+        let room = if self.has_label_row { width } else { width / 2 };
+        if columns_of(&label) > i32::from(room) {
+            label.clone_from(&short);
+        }
+        let mut numbers = self.numbers_below(chart, &label);
+        if self.has_label_row {
+            let blank = i32::from(width) - columns_of(&label);
+            return ScaleBelow {
+                numbers,
+                label_start: (blank.max(0) / 2) as u16,
+                label,
+            };
+        }
+        for text in [&label, &short] {
+            if let Some(label_start) = start_of_label(text, &numbers, width) {
+                return ScaleBelow {
+                    numbers,
+                    label: text.clone(),
+                    label_start,
+                };
             }
         }
-        let (x, y) = if self.has_label_row {
-            (plot.x + (plot.width - label_width) / 2, y + 1)
-        } else {
-            (end, y)
-        };
-        buffer.set_stringn(x, y, label, usize::from(label_width), quiet);
+        let start = (i32::from(width) - columns_of(&short)).max(0);
+        numbers.retain(|number| number.end() < start);
+        ScaleBelow {
+            numbers,
+            label: short,
+            label_start: start as u16,
+        }
     }
+
+    /// Returns the numbers on the horizontal axis that do not overlap. A number at an end of the
+    /// axis begins and ends within the columns of the plot and of the numbers on its left.
+    fn numbers_below(&self, chart: &Chart, label: &str) -> Vec<NumberBelow> {
+        let width = self.plot.width;
+        let span = chart.x.span;
+        let column =
+            |number: f64| cell_at((number - span.low) / span.width(), width, COLUMNS_OF_DOTS);
+        let fewest = usize::from(width / 10).clamp(2, 9);
+        let most = fewest.max(usize::from(width / 4));
+        let is_seen = |number: &PlacedNumber| !is_covered(number, width, label);
+        let mut numbers = Vec::new();
+        let mut free = -i32::from(self.left);
+        for (tick, text) in numbers_at(&chart.x, fewest..=most, column, is_seen) {
+            let length = columns_of(&text);
+            let last_start = i32::from(width) - length;
+            let start = i32::from(tick) - length / 2;
+            let start = start.min(last_start).max(-i32::from(self.left));
+            let number = NumberBelow { tick, start, text };
+            if tick < width && start >= free && start <= last_start {
+                free = number.end() + 1;
+                numbers.push(number);
+            }
+        }
+        numbers
+    }
+}
+
+/// Numbers and label of the horizontal axis of a plot.
+struct ScaleBelow {
+    numbers: Vec<NumberBelow>,
+    label: String,
+    /// First column of the label, counted from the left end of the plot.
+    label_start: u16,
+}
+
+/// Number below a plot. Its columns are counted from the left end of the plot.
+struct NumberBelow {
+    /// Column of the tick to which the number belongs.
+    tick: u16,
+    /// First column of the text, which is negative for a text that begins before the plot.
+    start: i32,
+    text: String,
+}
+
+impl NumberBelow {
+    /// Returns the column after the last column of the text.
+    fn end(&self) -> i32 {
+        self.start + columns_of(&self.text)
+    }
+}
+
+/// Number of columns of a text on the screen.
+fn columns_of(text: &str) -> i32 {
+    text.chars().count() as i32
+}
+
+/// Returns the first column of a label in the row of the numbers: at the right end, or before the
+/// last number with two blanks on each side. `None` if the label would cover a number at both
+/// places.
+fn start_of_label(label: &str, numbers: &[NumberBelow], width: u16) -> Option<u16> {
+    let columns = columns_of(label);
+    let last_end = numbers.last().map_or(-1, NumberBelow::end);
+    let at_right = i32::from(width) - columns;
+    if at_right >= 0 && last_end < at_right {
+        return Some(at_right as u16);
+    }
+    let [.., before, last] = numbers else {
+        return None;
+    };
+    let start = last.start - 2 - columns;
+    (start >= before.end() + 2).then_some(start.max(0) as u16)
 }
 
 /// Returns true for a layer whose data are Braille dots.
@@ -479,25 +566,6 @@ fn numbers_at(
         }
     }
     numbers(fewest)
-}
-
-/// Returns the numbers on the horizontal axis of a plot of this width, each with its column, and
-/// the label of the axis. If the label does not fit, it contains only the symbol and the unit. The
-/// label may take a whole row (`has_own_row`), or half of the row that it shares with the numbers.
-fn scale_below(chart: &Chart, width: u16, has_own_row: bool) -> (Vec<PlacedNumber>, String) {
-    let mut label = chart.x.label_with_unit().to_string();
-    let room = if has_own_row { width } else { width / 2 };
-    if label.chars().count() > usize::from(room) {
-        label = chart.x.symbol_with_unit().to_string();
-    }
-    let span = chart.x.span;
-    let column = |number: f64| cell_at((number - span.low) / span.width(), width, COLUMNS_OF_DOTS);
-    let fewest = usize::from(width / 10).clamp(2, 9);
-    let most = fewest.max(usize::from(width / 4));
-    let is_seen = |number: &PlacedNumber| !is_covered(number, width, &label);
-    let mut numbers = numbers_at(&chart.x, fewest..=most, column, is_seen);
-    numbers.retain(|(column, _)| *column < width);
-    (numbers, label)
 }
 
 /// Returns true if a label at the right end of the same row would be written over this number.

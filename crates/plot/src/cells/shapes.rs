@@ -18,8 +18,8 @@ pub(super) struct LayerShape<'a> {
 }
 
 /// Distance of the lines that show pulled springs above the profile, in columns of dots. Between
-/// two lines, one cell stays blank.
-const COLUMNS_BETWEEN_LINES: usize = 4;
+/// two lines, three cells stay blank, in which the profile is seen.
+const COLUMNS_BETWEEN_LINES: usize = 8;
 
 /// Column and row of a Braille dot on the canvas.
 type Dot = (usize, usize);

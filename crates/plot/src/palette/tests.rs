@@ -201,6 +201,18 @@ fn each_number_is_that_of_the_nearest_fixed_colour() {
     }
 }
 
+/// On a light background a larger stress is darker, so that a spring without stress is the palest.
+#[test]
+fn contrast_grows_with_the_stress_on_a_light_background() {
+    let grounds = grounds(Palette::LIGHT);
+    for role in [ColourRole::Press, ColourRole::Pull] {
+        let steps = (1..=STRESS_STEPS).map(|step| Palette::LIGHT.stress_rgb(role, step));
+        let contrasts: Vec<f64> = steps.map(|rgb| least_contrast(rgb, &grounds)).collect();
+        assert!(contrasts.is_sorted(), "{role:?} {contrasts:?}");
+        assert!(contrasts[0] >= 2.0, "{role:?} {contrasts:?}");
+    }
+}
+
 #[test]
 fn stress_has_four_steps_on_each_side() {
     let steps = [0.0, 0.1, 0.2, 0.4, 0.7, 1.0, 5.0].map(stress_step);

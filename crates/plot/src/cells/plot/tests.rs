@@ -139,6 +139,46 @@ fn ticks_are_beside_the_dots_of_their_values() {
     assert!(labelled > 20, "{labelled}");
 }
 
+/// In each width, every tick below a plot has its number, and no number is cut or covered.
+#[test]
+fn every_tick_below_a_plot_has_its_number() {
+    let mut between = 0;
+    for width in 26..=90 {
+        for height in [8, 13, 20] {
+            let d = axis(-1.3e-7, 7e-7, "d", "m");
+            let named = Chart::new(
+                ChartAxis {
+                    name: "indentation".to_owned(),
+                    ..d
+                },
+                axis(-2.1e-5, 1.2e-5, "F", "N"),
+                Vec::new(),
+            );
+            let (place, buffer) = drawn(&named, (width, height));
+            let scale = place.scale_below(&named);
+            let y = place.plot.bottom() + place.between;
+            let row: String = (buffer.area.x..buffer.area.right())
+                .map(|x| buffer[(x, y)].symbol())
+                .collect();
+            let words: Vec<&str> = row.split_whitespace().collect();
+            for number in &scale.numbers {
+                assert!(words.contains(&number.text.as_str()), "{row}");
+                assert!(number.text.parse::<f64>().unwrap() % 50.0 == 0.0, "{row}");
+            }
+            assert!(scale.numbers.len() >= 2, "{width} {height} {row}");
+            if place.has_line {
+                let line: String = (place.plot.x..place.plot.right())
+                    .map(|x| buffer[(x, place.plot.bottom())].symbol())
+                    .collect();
+                assert_eq!(line.matches('┬').count(), scale.numbers.len(), "{row}\n{line}");
+            }
+            let last = scale.numbers.last().unwrap();
+            between += usize::from(!place.has_label_row && i32::from(scale.label_start) < last.start);
+        }
+    }
+    assert!(between > 0, "a label is before the last number");
+}
+
 #[test]
 fn names_are_beside_their_points_and_hide_nothing() {
     let points: Vec<(f64, f64)> = (0..40)
