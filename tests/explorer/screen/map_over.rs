@@ -61,6 +61,13 @@ fn a_map_has_the_selected_row_and_the_row_edited_before() {
     assert_eq!(plan.record, [Quantity::AdhesionShare]);
     let axes: Vec<&str> = plan.axes.iter().map(|axis| axis.path.as_str()).collect();
     assert_eq!(axes, ["roughness.rms_height", "material.youngs_modulus"]);
+    // Its scene is the present one, to which an opened study returns.
+    let scene = driver.document().scene();
+    assert_eq!(plan.scene.title, scene.title);
+    assert_eq!(plan.scene.numerics.samples, scene.numerics.samples);
+    for path in axes {
+        assert_eq!(plan.scene.number(path), scene.number(path), "{path}");
+    }
     driver.press("y");
     assert_eq!(
         driver.copied,
