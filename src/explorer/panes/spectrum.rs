@@ -21,13 +21,12 @@ use std::sync::Arc;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    studies: |app, computed| {
+    studies: |_, computed| {
         let solved = Arc::clone(computed);
         let spectra = Study::new(computed.generation, false, move |simulation, _| {
             SceneSpectra::new(&solved.scene, &solved.outcome, simulation)
         });
-        let profiles = is_sampled(&computed.scene).then(|| profiles(app, computed));
-        [spectra].into_iter().chain(profiles).collect()
+        vec![spectra]
     },
     help: &[(
         "Spectrum",
@@ -146,11 +145,16 @@ fn is_sampled(scene: &Scene) -> bool {
 }
 
 /// Returns the study (background computation) that computes the pull-off force of those random
-/// profiles that have not been computed yet.
-fn profiles(app: &App, computed: &SolvedScene) -> Study {
+/// profiles that have not been computed yet. The error of the pull-off force by the uncertainty of
+/// the measured spectrum follows from it. `None` if the profile of the scene is not the equivalent
+/// line of a measured surface. `is_long` is true if demos leave the study out.
+pub fn profiles(app: &App, computed: &SolvedScene, is_long: bool) -> Option<Study> {
+    if !is_sampled(&computed.scene) {
+        return None;
+    }
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);
-    Study::new(computed.generation, false, move |_, mut control| {
+    Some(Study::new(computed.generation, is_long, move |_, mut control| {
         let faces = read_faces(&scene.measured_paths(Path::new("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
         let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
@@ -162,5 +166,5 @@ fn profiles(app: &App, computed: &SolvedScene) -> Study {
             control.report(&found);
         }
         Ok::<_, RunError>(found)
-    })
+    }))
 }

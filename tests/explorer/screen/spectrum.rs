@@ -148,3 +148,23 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
         );
     }
 }
+
+/// The error by the uncertainty of the measured spectrum is computed whatever pane is shown. The
+/// card names it as the largest error, or says that it is not computed.
+#[test]
+fn the_error_of_a_measured_surface_is_known_without_its_pane() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = measured(&folder.path().join("stylus.txt"));
+    let waits = |study: &Study| !study.is::<MeasuredAdhesion>();
+    let mut driver = Driver::open_with(document.clone(), Simulation::run, waits);
+    driver.perform(vec![Task::Ask]);
+    driver.shows_all(["surface not computed"]);
+    let mut driver = Driver::open_with(document, Simulation::run, |study| !study.is_long);
+    driver.perform(vec![Task::Ask]);
+    driver.shows_all(["error       surface ± "]);
+    driver.press("A z");
+    driver.shows_all([
+        "by the uncertainty of the measured spectrum",
+        "surface: more or larger scans reduce it",
+    ]);
+}
