@@ -36,7 +36,10 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
         .pull_off_force()
         .filter(|forces| forces.count >= 2)?;
     let fit = match computed.fit_interval() {
-        Some(interval) => format!("standard error of the fit {}", format_range(interval, 2, "N")),
+        Some(interval) => format!(
+            "standard error of the fit {}",
+            format_range(interval, 2, "N")
+        ),
         None => "standard error of the fit not known".to_owned(),
     };
     let profiles = forces.count;

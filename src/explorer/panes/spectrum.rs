@@ -154,17 +154,21 @@ pub fn profiles(app: &App, computed: &SolvedScene, is_long: bool) -> Option<Stud
     }
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);
-    Some(Study::new(computed.generation, is_long, move |_, mut control| {
-        let faces = read_faces(&scene.measured_paths(Path::new("")))?;
-        let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
-        let first = scene.seed().unwrap_or(0);
-        while found.profiles.len() < PROFILES {
-            let seed = first.wrapping_add(found.profiles.len() as u64);
-            let profile = ProfileAdhesion::solve(&scene, &line, seed, control.stop())?;
-            found.profiles.push(profile);
-            control.report(&found);
-        }
-        Ok::<_, RunError>(found)
-    }))
+    Some(Study::new(
+        computed.generation,
+        is_long,
+        move |_, mut control| {
+            let faces = read_faces(&scene.measured_paths(Path::new("")))?;
+            let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+            let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
+            let first = scene.seed().unwrap_or(0);
+            while found.profiles.len() < PROFILES {
+                let seed = first.wrapping_add(found.profiles.len() as u64);
+                let profile = ProfileAdhesion::solve(&scene, &line, seed, control.stop())?;
+                found.profiles.push(profile);
+                control.report(&found);
+            }
+            Ok::<_, RunError>(found)
+        },
+    ))
 }
