@@ -47,6 +47,7 @@ pub mod prompt;
 pub mod recognition;
 pub mod request;
 pub mod runtime;
+pub mod scene_title;
 mod search;
 pub mod session;
 mod shown_ensemble;
