@@ -35,6 +35,7 @@ pub mod measured;
 mod mouse;
 pub mod openable;
 pub mod opening;
+mod pacing;
 pub mod pane;
 pub mod panel;
 pub mod panes;
