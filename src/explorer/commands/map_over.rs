@@ -356,6 +356,8 @@ pub fn plan(app: &App, profiles: u64) -> Result<Plan, String> {
     });
     let plan = app.map.plan(&scene).map_err(|error| error.to_string())?;
     let mut of_study = plan.scene.clone();
+    // Who opens the study gets its scene, whose curve should have all its points.
+    of_study.numerics.samples = scene.numerics.samples;
     let is_axis = plan.axes.iter().any(|axis| axis.path == "numerics.points");
     if !is_axis {
         of_study.numerics.points = scene.numerics.points;
