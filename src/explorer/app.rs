@@ -416,10 +416,17 @@ impl App {
 
     /// Shows a pane and selects it. A large pane takes the main place on the screen.
     pub fn show(&mut self, pane: Pane) {
-        let large = if pane.is_large() {
-            Some(pane)
-        } else {
-            self.view.large
+        match pane {
+            // The list of events and the results may have the same place.
+            Pane::Events => self.view.lists_events = true,
+            Pane::Result => self.view.lists_events = false,
+            _ => {}
+        }
+        let large = match pane {
+            _ if pane.is_large() => Some(pane),
+            // A pane in the main place hides these.
+            Pane::Timeline | Pane::Profile | Pane::CloseUp => None,
+            _ => self.view.large,
         };
         self.show_large(large, pane);
     }
