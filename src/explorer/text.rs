@@ -4,12 +4,20 @@
 //! ratatui can break lines too. But if a word has wide characters or begins with a combining mark,
 //! ratatui writes beyond its area and panics. Titles and typed values may contain such words.
 
-use asperity_data::belong_together;
+use asperity_data::{belong_together, format_range, format_rounded};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 
 /// Pieces of styled text that are shown either together or not at all.
 pub type Part = Vec<Span<'static>>;
+
+/// Returns a range such as the quartiles as text, with two digits or, if its ends would then be the
+/// same, with three.
+pub fn range_in_words(range: (f64, f64), unit: &str) -> String {
+    let (low, high) = range;
+    let is_same = format_rounded(low, 2, unit) == format_rounded(high, 2, unit);
+    format_range(range, if is_same { 3 } else { 2 }, unit)
+}
 
 /// Breaks a line into lines of at most this number of columns. A word that is wider than a line is
 /// broken anywhere. The digits of a number and its unit are kept together unless they are wider
@@ -158,6 +166,13 @@ mod tests {
             .iter()
             .map(ToString::to_string)
             .collect()
+    }
+
+    #[test]
+    fn ends_of_a_range_differ_where_three_digits_show_it() {
+        assert_eq!(range_in_words((1.23e-3, 4.56e-3), "N"), "1.2 to 4.6 mN");
+        assert_eq!(range_in_words((2.31e-3, 2.33e-3), "N"), "2.31 to 2.33 mN");
+        assert_eq!(range_in_words((2.31e-3, 2.31e-3), "N"), "2.31 mN");
     }
 
     #[test]

@@ -78,15 +78,15 @@ fn panel(app: &App, size: Size) -> Panel {
         chart.y.names = names.map(|label| Label::plain(label)).collect();
     }
     chart.y.span.low -= bars.saturating_sub(chart.y.names.len()) as f64;
-    let mut edge = Vec::new();
-    let hidden = sensitivity.influences.len().saturating_sub(most);
-    if hidden > 0 {
-        let text = format!("and {hidden} numbers of less influence");
-        edge.push(vec![Span::raw(text)]);
-    }
+    let all = sensitivity.influences.len();
+    // At the edge of the title there might be no room to say that numbers are left out.
+    let title = if all > most {
+        format!("Sensitivity: the largest {most} of {all}, ±10 %")
+    } else {
+        title
+    };
     Panel {
         head,
-        edge,
         ..Panel::of_chart(title, chart)
     }
 }

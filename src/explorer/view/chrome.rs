@@ -10,12 +10,12 @@ use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
 use crate::explorer::pane::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text::{Part, filled, wrapped_within};
+use crate::explorer::text::{Part, filled, range_in_words, wrapped_within};
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use crate::explorer::typed;
 use asperity_contact::Move;
-use asperity_data::{counted, format_quantity, format_range, format_rounded};
+use asperity_data::{counted, format_quantity, format_rounded};
 use asperity_report::{event_words, square_loops_words};
 use asperity_scene::{Estimate, Outcome};
 use asperity_study::half_space::SquareLoops;
@@ -294,7 +294,7 @@ fn event_of_animation(app: &App) -> Option<String> {
         .rfind(|event| event.mark.is_some() || event.instrument.is_some())?;
     let mut without_patches = *named;
     without_patches.jump = None;
-    Some(format!("▶ {}", event_words(&without_patches)))
+    Some(format!("▶ passed {}", event_words(&without_patches)))
 }
 
 /// Returns the main results of the loop for a line of this width, the most important first.
@@ -485,7 +485,7 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     };
     let [lower, median, upper] = ensemble.statistics(quantity)?.quartiles;
     let median = format_rounded(median, 3, unit);
-    let quartiles = format_range((lower, upper), 2, unit);
+    let quartiles = range_in_words((lower, upper), unit);
     let computed = ensemble.computed();
     let all = counted(ensemble.profiles(), "profile");
     let count = if !is_wide {

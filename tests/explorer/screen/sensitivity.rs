@@ -38,3 +38,10 @@ fn bars_show_the_changes_and_the_table_has_them_all() {
     driver.press("Y");
     assert!(driver.app.is_shown(Pane::Profile));
 }
+
+#[test]
+fn a_small_window_says_that_numbers_are_left_out() {
+    let mut driver = computed_sensitivity(rough());
+    driver.resize((80, 24));
+    driver.shows("Sensitivity: the largest 2 of ");
+}
