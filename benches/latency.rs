@@ -1,9 +1,11 @@
-//! Time of the explorer from a key to the frame with its effect, at 2^20 springs, and bytes written
-//! by its animation. The program itself is measured, in a pseudo-terminal of 120 x 40.
+//! Time of the explorer from a key to the frame with its effect, at 2^20 springs; the same on a
+//! small scene over SSH beside a local terminal, with the frames of a key; and bytes written by its
+//! animation. The program itself is measured, in a pseudo-terminal of 120 x 40.
 //!
 //! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and
-//! plays no loop to its end, `-- --runs 100` sets the number of repetitions. Without `--bench`, as
-//! started by `cargo test --benches`, it only checks that it runs, on a small scene.
+//! plays no loop to its end, `-- --runs 100` sets the number of repetitions, `-- --program PATH`
+//! measures another executable, `-- --ssh` prints only the table over SSH. Without `--bench`, as started by `cargo test --benches`, it only
+//! checks that it runs, on a small scene.
 
 #[cfg(unix)]
 #[path = "../tests/common/terminal.rs"]
@@ -24,7 +26,10 @@ mod measure {
     use super::terminal::{Frame, Program, Terminal};
     use std::time::{Duration, Instant};
 
+    /// Executable that is measured unless another one is named.
     const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
+    /// Variable by which the explorer knows a connection over SSH.
+    const CONNECTION: (&str, &str) = ("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22");
     const SPRINGS: &str = "million-springs";
     const SMALL: &str = "pressure-sensitive";
 
@@ -33,6 +38,14 @@ mod measure {
     const ECHO: f64 = 16.0;
     const EDIT: f64 = 50.0;
     const NEW_LINE: f64 = 150.0;
+
+    /// Longest additional time from a key to its answer over SSH, ms, and most frames of a key: one
+    /// with its answer and one with the results of the studies, and two more on a busy machine.
+    const MORE_OVER_SSH: f64 = 20.0;
+    const MOST_FRAMES: f64 = 4.0;
+
+    /// Pause without output after the last result of the studies.
+    const REST: Duration = Duration::from_millis(400);
 
     /// Pause without output after which the next key is sent.
     const QUIET: Duration = Duration::from_millis(120);
@@ -68,12 +81,6 @@ mod measure {
             bar: EDIT,
         },
         Case {
-            what: "work of adhesion, small step",
-            row: WORK,
-            keys: ["l", "h"],
-            bar: EDIT,
-        },
-        Case {
             what: "force of the first stage, small step",
             row: "force of stage",
             keys: ["h", "l"],
@@ -97,11 +104,72 @@ mod measure {
             keys: ["h", "l"],
             bar: NEW_LINE,
         },
+        // The last case, because the scene then adheres so strongly that F_a hardly depends on the
+        // numbers above.
+        Case {
+            what: "work of adhesion, small step",
+            row: WORK,
+            keys: ["l", "h"],
+            bar: EDIT,
+        },
+    ];
+
+    /// A key whose answers over SSH and in a local terminal are compared.
+    struct Compared {
+        what: &'static str,
+        /// The selected row in the list; empty if the key needs none.
+        row: &'static str,
+        /// Keys, in turn.
+        keys: [&'static str; 2],
+        /// Returns the part of the screen that the answer changes.
+        shown: fn(&[String]) -> Option<String>,
+    }
+
+    const COMPARED: [Compared; 6] = [
+        Compared {
+            what: "E, small step",
+            row: "Young's modulus",
+            keys: ["l", "h"],
+            shown: force,
+        },
+        Compared {
+            what: "force of the first stage, small step",
+            row: "force of stage",
+            keys: ["l", "h"],
+            shown: force,
+        },
+        Compared {
+            what: "Hurst exponent, small step",
+            row: "Hurst exponent",
+            keys: ["h", "l"],
+            shown: force,
+        },
+        Compared {
+            what: "seed, next",
+            row: "seed",
+            keys: ["l", "h"],
+            shown: force,
+        },
+        Compared {
+            what: "random seed",
+            row: "seed",
+            keys: ["R", "R"],
+            shown: force,
+        },
+        Compared {
+            what: "next jump of the timeline",
+            row: "",
+            keys: [",", ";"],
+            shown: playhead,
+        },
     ];
 
     struct Options {
+        program: String,
         runs: usize,
         plays: bool,
+        /// True if only keys over SSH are measured, beside the same keys in a local terminal.
+        is_over_ssh: bool,
         scene: &'static str,
     }
 
@@ -109,27 +177,52 @@ mod measure {
         fn from_arguments() -> Self {
             let arguments: Vec<String> = std::env::args().skip(1).collect();
             let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
+            let program = value_behind(&arguments, "--program").unwrap_or(ASPERITY);
+            let program = program.to_owned();
             if has("--test") || !has("--bench") {
                 return Options {
+                    program,
                     runs: 2,
                     plays: false,
+                    is_over_ssh: false,
                     scene: SMALL,
                 };
             }
             let quick = has("--quick");
-            let place = arguments.iter().position(|argument| argument == "--runs");
-            let runs = place.and_then(|place| arguments.get(place + 1)?.parse().ok());
+            let runs = value_behind(&arguments, "--runs").and_then(|runs| runs.parse().ok());
             let runs: usize = runs.unwrap_or(if quick { 8 } else { 40 });
             Options {
+                program,
                 runs: runs.max(2),
-                plays: !quick,
+                plays: !quick && !has("--ssh"),
+                is_over_ssh: has("--ssh"),
                 scene: SPRINGS,
             }
         }
     }
 
+    /// Returns the argument behind a flag.
+    fn value_behind<'a>(arguments: &'a [String], flag: &str) -> Option<&'a str> {
+        let place = arguments.iter().position(|argument| argument == flag)?;
+        Some(arguments.get(place + 1)?)
+    }
+
     pub fn main() {
         let options = Options::from_arguments();
+        if !options.is_over_ssh {
+            measure_keys(&options);
+            println!();
+        }
+        compare(&options);
+        if options.plays {
+            println!();
+            play(Program::new(&options.program), "locally");
+            play(remote(&options.program), "over SSH");
+        }
+    }
+
+    /// Prints the times from keys to the frames with their effects.
+    fn measure_keys(options: &Options) {
         println!(
             "{}, 120 x 40, paused; {} keys each; ms from the key to the end of the frame",
             options.scene, options.runs
@@ -138,7 +231,7 @@ mod measure {
             "{:<36} {:>8} {:>8} {:>8} {:>6}",
             "key", "p50", "p99", "max", "bar"
         );
-        let mut terminal = opened(options.scene);
+        let mut terminal = opened(Program::new(&options.program).argument(options.scene));
         report(
             "selecting: the key is seen",
             &echoes(&mut terminal, options.runs),
@@ -154,22 +247,104 @@ mod measure {
             report(case.what, &done, case.bar);
             report("  the key is seen", &echo, ECHO);
         }
+        leave(terminal);
+    }
+
+    fn remote(program: &str) -> Program {
+        let (name, value) = CONNECTION;
+        Program::new(program).env(name, value)
+    }
+
+    /// Leaves an explorer with unsaved changes.
+    fn leave(mut terminal: Terminal) {
         terminal.send("q");
         terminal.wait_for("unsaved changes");
         terminal.send("q");
         terminal.wait_end();
-        if options.plays {
-            println!();
-            play(None);
-            play(Some(("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22")));
+    }
+
+    /// Prints the times from keys to their answers over SSH and in a local terminal, and the median
+    /// and the largest number of frames of a key over SSH. Both explorers get the same keys in turn, so that a load of the
+    /// machine slows down both.
+    fn compare(options: &Options) {
+        println!(
+            "{SMALL}, 120 x 40; {} keys each; ms from the key to the end of the frame with its answer",
+            options.runs
+        );
+        println!(
+            "{:<36} {:>17} {:>17} {:>6} {:>13}",
+            "", "local terminal", "over SSH", "", "frames of SSH"
+        );
+        println!(
+            "{:<36} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6}",
+            "key", "p50", "p90", "p50", "p90", "bar", "p50", "most"
+        );
+        let mut local = opened(Program::new(&options.program).argument(SMALL));
+        let mut over_ssh = opened(remote(&options.program).argument(SMALL));
+        for key in &COMPARED {
+            let mut times = [Vec::new(), Vec::new()];
+            let mut frames = [Vec::new(), Vec::new()];
+            for terminal in [&mut local, &mut over_ssh] {
+                if !key.row.is_empty() {
+                    select(terminal, key.row);
+                }
+            }
+            for run in 0..options.runs {
+                let is_back = run >= options.runs / 2;
+                let pressed = key.keys[usize::from(is_back)];
+                for (place, terminal) in [&mut local, &mut over_ssh].into_iter().enumerate() {
+                    terminal.settle_for(REST);
+                    let first = terminal.frames().len();
+                    let before = (key.shown)(&terminal.rows());
+                    times[place].push(time(terminal, pressed, |rows| {
+                        (key.shown)(rows) != before && !is_computing(rows)
+                    }));
+                    terminal.wait_without("± …");
+                    terminal.settle_for(REST);
+                    frames[place].push((terminal.frames().len() - first) as f64);
+                }
+            }
+            report_compared(key.what, &times, &frames[1]);
         }
+        leave(local);
+        leave(over_ssh);
+    }
+
+    fn report_compared(what: &str, times: &[Vec<f64>; 2], frames: &[f64]) {
+        let [local, over_ssh] = times.each_ref().map(|times| sorted(times));
+        let frames = sorted(frames);
+        let bar = quantile(&local, 0.5) + MORE_OVER_SSH;
+        let (median, most) = (quantile(&frames, 0.5), quantile(&frames, 1.0));
+        let holds = if quantile(&over_ssh, 0.5) <= bar && most <= MOST_FRAMES {
+            "holds"
+        } else {
+            "does NOT hold"
+        };
+        println!(
+            "{what:<36} {:>8.1} {:>8.1} {:>8.1} {:>8.1} {bar:>6.0} {median:>6.0} {most:>6.0}  {holds}",
+            quantile(&local, 0.5),
+            quantile(&local, 0.9),
+            quantile(&over_ssh, 0.5),
+            quantile(&over_ssh, 0.9),
+        );
+    }
+
+    /// Returns the pull-off force of the shown profile and the preload.
+    fn force(rows: &[String]) -> Option<String> {
+        headline(rows).map(|texts| texts.concat())
+    }
+
+    /// Returns the indentation and the force at the playhead.
+    fn playhead(rows: &[String]) -> Option<String> {
+        let row = rows.iter().find(|row| row.contains("◆ d "))?;
+        Some(row.split_once("◆ d ")?.1.to_owned())
     }
 
     /// The explorer after it has computed a scene, with its animation paused.
-    fn opened(scene: &str) -> Terminal {
-        let mut terminal = Program::new(ASPERITY).argument(scene).start();
+    fn opened(program: Program) -> Terminal {
+        let mut terminal = program.start();
         terminal.wait_for("F_a ");
-        terminal.send(".");
+        terminal.send("!");
         terminal.settle_for(2 * QUIET);
         terminal
     }
@@ -192,7 +367,7 @@ mod measure {
         select(terminal, "work of adhesion");
         let mut times = Vec::new();
         while times.len() < runs {
-            terminal.send("e");
+            terminal.send("\r");
             terminal.settle_for(QUIET);
             let mut typed = ": ".to_owned();
             for digit in VALUE.split_inclusive(|_: char| true) {
@@ -263,25 +438,27 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// Pull-off force of the shown profile and adhesion coefficient in the status line, one of
-    /// which each edit changes.
+    /// Pull-off force of the shown profile in the status line, and preload at its mark on the curve,
+    /// at least one of which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
         let row = rows
             .iter()
             .rev()
             .find(|row| row.contains("F_a ") && row.contains(" · "))?;
-        let behind = |name: &str| {
-            Some(
-                row.split(name)
-                    .nth(1)?
-                    .split([',', '·'])
-                    .next()?
-                    .trim()
-                    .to_owned(),
-            )
-        };
-        let force = behind("this profile ").or_else(|| behind("F_a "))?;
-        Some([force, behind("F_a/F_n ").unwrap_or_default()])
+        let force = text_behind(row, "this profile ").or_else(|| text_behind(row, "F_a "))?;
+        let preload = rows.iter().find_map(|row| {
+            let text = text_behind(row, "preload ")?;
+            text.starts_with(|sign: char| sign.is_ascii_digit())
+                .then_some(text)
+        });
+        Some([force, preload.unwrap_or_default()])
+    }
+
+    /// Returns the text behind a name in a row, up to the next sign that separates results.
+    fn text_behind(row: &str, name: &str) -> Option<String> {
+        let (_, text) = row.split_once(name)?;
+        let text = text.split([',', '·', '▲']).next()?;
+        Some(text.trim().to_owned())
     }
 
     /// Selects a parameter by its name, by keys.
@@ -325,18 +502,14 @@ mod measure {
     }
 
     /// Plays a whole loop of the default scene and prints the bytes written for it.
-    fn play(connection: Option<(&str, &str)>) {
-        let mut program = Program::new(ASPERITY);
-        if let Some((name, value)) = connection {
-            program = program.env(name, value);
-        }
+    fn play(program: Program, place: &str) {
         let mut terminal = program.start();
         terminal.wait_for("F_a ");
-        terminal.send(".");
+        terminal.send("!");
         terminal.settle_for(2 * QUIET);
         let (start, first) = (terminal.written().len(), terminal.frames().len());
         let begun = Instant::now();
-        terminal.send("r");
+        terminal.send(" ");
         terminal.settle_for(Duration::from_millis(1500));
         let frames: Vec<Frame> = terminal.frames()[first..].to_vec();
         let bytes = terminal.written().len() - start;
@@ -353,13 +526,8 @@ mod measure {
                 .collect::<Vec<_>>(),
         );
         println!(
-            "approach and retraction of {SMALL}, {}: {} frames in {seconds:.1} s ({:.1}/s); bytes in a frame: \
+            "approach and retraction of {SMALL}, {place}: {} frames in {seconds:.1} s ({:.1}/s); bytes in a frame: \
              median {:.0}, p99 {:.0}, max {:.0}; {:.0} B/s",
-            if connection.is_some() {
-                "over SSH"
-            } else {
-                "locally"
-            },
             frames.len(),
             frames.len() as f64 / seconds,
             quantile(&sizes, 0.5),

@@ -13,9 +13,9 @@ use super::parameters::{Parameter, Setting};
 use super::player::{Player, indentations};
 use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, LineView, SnapshotRequest};
+use super::scene_title::SceneTitle;
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
-use super::text::on_one_line;
 use super::text_line::TextLine;
 use super::theme::{Appearance, Meaning};
 use asperity_contact::{Mark, StageRecord};
@@ -25,7 +25,6 @@ use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::{Ensemble, Quantity};
 use ratatui::style::Style;
-use ratatui::text::Span;
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,41 +105,6 @@ pub struct View {
     pub demo: Option<&'static str>,
 }
 
-/// Texts of the title line.
-pub struct SceneTitle {
-    /// Title of the scene or, if it has none, its name.
-    pub name: String,
-    pub is_changed: bool,
-    /// Notes on the scene; empty if there are none.
-    pub notice: String,
-    /// True if the scene has changed since the notice was written, so that it may be wrong now.
-    pub is_notice_hidden: bool,
-}
-
-impl SceneTitle {
-    /// Returns the sign for unsaved changes, with a blank before it; empty without changes.
-    pub fn sign(&self) -> &'static str {
-        if self.is_changed { " [changed]" } else { "" }
-    }
-
-    /// Returns the notice with blanks before it; empty if there is none or if it is hidden.
-    pub fn notice_apart(&self) -> String {
-        if self.notice.is_empty() || self.is_notice_hidden {
-            String::new()
-        } else {
-            format!("  {}", self.notice)
-        }
-    }
-
-    /// Returns the number of columns of the whole title on one line. A hidden notice counts too: if
-    /// its line were left out, the first change of a scene would move all panes, and over a slow
-    /// line its answer would take twice as long.
-    pub fn columns(&self) -> usize {
-        let title = format!("{}{}  {}", self.name, self.sign(), self.notice);
-        Span::raw(title.trim_end()).width()
-    }
-}
-
 /// State of the contact for which the screen waits.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Awaited {
@@ -174,6 +138,8 @@ pub struct App {
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
+    /// Offer at the start, such as to restore unsaved changes, which disappears with the next key.
+    pub offer: Option<String>,
     pub config: Config,
     /// Command that runs next, because the user has chosen it in the list of commands; otherwise
     /// `None`.
@@ -272,34 +238,9 @@ impl App {
         }
     }
 
-    /// Returns what the title line shows. If the scene has changed and its notice has not, the
-    /// notice is hidden, because it may be wrong now.
+    /// Returns what the title line shows.
     pub fn title(&self) -> SceneTitle {
-        let document = &self.edit.document;
-        let scene = document.scene();
-        let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
-        let name = if has_title {
-            &scene.title
-        } else {
-            document.name()
-        };
-        let is_changed = self.edit.is_unsaved();
-        let saved = self.edit.saved.get(document.name());
-        let saved_notice = saved.map_or("", |saved| &saved.scene().notice);
-        // A change of a built-in scene removes its notice.
-        let is_notice_hidden =
-            is_changed && (scene.notice.is_empty() || scene.notice == saved_notice);
-        let notice = if is_notice_hidden {
-            saved_notice
-        } else {
-            &scene.notice
-        };
-        SceneTitle {
-            name: name.to_owned(),
-            is_changed,
-            notice: on_one_line(notice),
-            is_notice_hidden,
-        }
+        SceneTitle::new(&self.edit)
     }
 
     pub fn is_refused(&self) -> bool {
@@ -480,10 +421,17 @@ impl App {
 
     /// Shows a pane and selects it. A large pane takes the main place on the screen.
     pub fn show(&mut self, pane: Pane) {
-        let large = if pane.is_large() {
-            Some(pane)
-        } else {
-            self.view.large
+        match pane {
+            // The list of events and the results may have the same place.
+            Pane::Events => self.view.lists_events = true,
+            Pane::Result => self.view.lists_events = false,
+            _ => {}
+        }
+        let large = match pane {
+            _ if pane.is_large() => Some(pane),
+            // A pane in the main place hides these.
+            Pane::Timeline | Pane::Profile | Pane::CloseUp => None,
+            _ => self.view.large,
         };
         self.show_large(large, pane);
     }

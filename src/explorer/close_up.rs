@@ -149,3 +149,18 @@ fn distance(patch: Patch, spring: usize) -> usize {
     let after = spring.saturating_sub(patch.last);
     before.max(after)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_close_up_shows_a_part_of_a_patch_over_the_whole_profile() {
+        let patch = |first: usize, last: usize| Some(Patch { first, last });
+        assert_eq!(shown(1024, 300, patch(0, 1023), None), 172..428);
+        assert_eq!(shown(1024, 0, patch(5, 1000), None), 0..256);
+        // A smaller patch is shown as a whole, and the number of springs may be chosen.
+        assert_eq!(shown(1024, 300, patch(256, 355), None), 240..368);
+        assert_eq!(shown(1024, 300, patch(0, 1023), Some(1024)), 0..1024);
+    }
+}

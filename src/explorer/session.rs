@@ -10,6 +10,7 @@ use super::config::Config;
 use super::editor::Editor;
 use super::manual_path::ManualPath;
 use super::opening::Opening;
+use super::pacing::{Content, Pacing};
 use super::pen::remove_ink_of_blanks;
 use super::runtime::{Engine, Runtime};
 use super::signals::{SystemSignal, watch_for_signals};
@@ -34,18 +35,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::time::{Duration, Instant};
-
-/// Largest frame rate over SSH in 1/s. It is low because each frame has to be transmitted.
-const REMOTE_FRAMES: u32 = 12;
-
-/// Longest time for which a frame over SSH is delayed to include an answer of the solver and the
-/// events that the solver lists after it.
-const ANSWER_TIME: Duration = Duration::from_millis(30);
-
-/// Shortest time between two frames that show only progress of the studies, and the same over SSH.
-/// The last results of the studies are shown without this delay.
-const STUDY_TIME: Duration = Duration::from_millis(100);
-const REMOTE_STUDY_TIME: Duration = Duration::from_secs(1);
 
 /// Time without input after which unsaved changes are written to a file. While the explorer writes,
 /// it waits for the disk, which takes longer than a frame if the home folder is on another
@@ -146,9 +135,13 @@ pub fn open(
     let autosave = options
         .unsaved
         .map(|folder| Autosave::new(&folder, options.restored));
-    let remote = is_remote();
     let now = Instant::now();
-    let frame_time = shortest_frame_time(&app.config, remote);
+    let first_frame = if asks_background {
+        now + BACKGROUND_TIME
+    } else {
+        now
+    };
+    let pacing = Pacing::new(is_remote(), app.config.frame_rate, first_frame);
     let mut session = Session {
         runtime: Runtime {
             app,
@@ -160,15 +153,8 @@ pub fn open(
         guard,
         redraw: true,
         draw,
-        remote,
-        frame_time,
+        pacing,
         change: Change::Other,
-        shown: now,
-        due: if asks_background {
-            now + BACKGROUND_TIME
-        } else {
-            now
-        },
         asks_background,
         asked: None,
         moved: now,
@@ -203,15 +189,6 @@ fn first_state(
     );
     app.state_beside(options.warning.clone(), offer);
     app
-}
-
-/// Returns the shortest time between two frames.
-fn shortest_frame_time(config: &Config, is_remote: bool) -> Duration {
-    let mut frame_rate = config.frame_rate;
-    if is_remote {
-        frame_rate = frame_rate.min(REMOTE_FRAMES);
-    }
-    Duration::from_secs(1) / frame_rate
 }
 
 /// Continues with the unsaved changes of another session (`restored`). If there are none, returns a
@@ -307,16 +284,9 @@ struct Session<'a> {
     /// True if the content of the screen is unknown, so that the next frame must draw all cells.
     redraw: bool,
     draw: Draw,
-    remote: bool,
-    /// Shortest time between two frames.
-    frame_time: Duration,
+    pacing: Pacing,
     /// What has changed since the last frame.
     change: Change,
-    /// Time of the last frame.
-    shown: Instant,
-    /// Earliest time of the next frame. Without this limit, a held key or a dragged mouse would
-    /// fill a connection over SSH with frames that are outdated before they arrive.
-    due: Instant,
     /// True until the terminal has stated its background, if it was asked.
     asks_background: bool,
     /// Time of the request that the solver has not answered yet; `None` if there is none.
@@ -395,10 +365,7 @@ impl Session<'_> {
             if self.change != Change::Nothing && Instant::now() >= self.next_frame() {
                 self.show()?;
                 self.change = Change::Nothing;
-                self.shown = Instant::now();
-                if self.remote {
-                    self.due = self.shown + self.frame_time;
-                }
+                self.pacing.note_frame(Instant::now());
             }
             let playing = self.runtime.app.is_playing();
             if !playing {
@@ -410,10 +377,11 @@ impl Session<'_> {
                 Some(Interruption::Signal(signal)) => return Ok(Some(signal)),
                 None => {}
             }
-            if playing && self.moved.elapsed() >= self.frame_time {
+            let frame_time = self.pacing.frame_time();
+            if playing && self.moved.elapsed() >= frame_time {
                 // No frame is due yet, because elapsed time alone changes nothing on the screen. A
                 // frame is drawn when the snapshot for the new position arrives.
-                let elapsed = self.moved.elapsed().min(4 * self.frame_time);
+                let elapsed = self.moved.elapsed().min(4 * frame_time);
                 self.moved = Instant::now();
                 self.act(Action::Elapse(elapsed))?;
             }
@@ -439,23 +407,16 @@ impl Session<'_> {
         }
     }
 
-    /// Returns the earliest time of the next frame. Over SSH, a frame after a key is delayed a
-    /// little to include the answer of the solver. A frame without the answer would cost as many
-    /// bytes, and would delay the answer until the next frame is due. Frames that show only the
-    /// progress of the studies have more time between them.
+    /// Returns the earliest time of the next frame.
     fn next_frame(&self) -> Instant {
-        if self.change == Change::Studies && !self.runtime.app.studies.are_all_done() {
-            let time = if self.remote {
-                REMOTE_STUDY_TIME
-            } else {
-                STUDY_TIME
-            };
-            return self.due.max(self.shown + time);
-        }
-        match self.asked {
-            Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
-            _ => self.due,
-        }
+        let is_progress =
+            self.change == Change::Studies && !self.runtime.app.studies.are_all_done();
+        let content = match self.asked {
+            _ if is_progress => Content::Progress,
+            Some(asked) => Content::Unanswered(asked),
+            None => Content::Complete,
+        };
+        self.pacing.next_frame(content)
     }
 
     /// Waits for input or a result, and returns it. Returns `None` if before that a step of the
@@ -463,7 +424,7 @@ impl Session<'_> {
     fn wait(&mut self, playing: bool) -> Option<Incoming> {
         let mut deadlines = Vec::new();
         if playing {
-            deadlines.push(self.moved + self.frame_time);
+            deadlines.push(self.moved + self.pacing.frame_time());
         }
         if self.change != Change::Nothing {
             deadlines.push(self.next_frame());
@@ -540,7 +501,7 @@ impl Session<'_> {
             look.theme = Theme::for_background(background);
         }
         // The first frame needs to wait no longer.
-        self.due = Instant::now();
+        self.pacing.hurry(Instant::now());
         self.change = Change::Other;
     }
 

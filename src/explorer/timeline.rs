@@ -2,7 +2,7 @@
 //! playhead (the position of the animation) are, and how high the tick of each jump is.
 
 use super::player::{At, Course, Player};
-use asperity_contact::{Direction, Event, StageRecord};
+use asperity_contact::{Direction, Event, Mark, StageRecord};
 use asperity_data::format_rounded;
 use std::ops::Range;
 
@@ -200,6 +200,21 @@ fn has_passed(records: &[StageRecord], event: &Event, player: Player) -> bool {
         (true, Some(_)) => event.indentation > indentation,
         (true, None) => event.indentation >= indentation,
     }
+}
+
+/// Returns the index of the event that the list selects at a position of the animation: the last
+/// event passed or, at the pull-off, the event with its mark, although the jump of this event comes
+/// after the shown state.
+pub fn selected(records: &[StageRecord], events: &[Event], player: Player) -> Option<usize> {
+    if player.at == At::PullOff {
+        let pull_off = events
+            .iter()
+            .position(|event| event.stage == player.stage && event.mark == Some(Mark::PullOff));
+        if pull_off.is_some() {
+            return pull_off;
+        }
+    }
+    passed(records, events, player).checked_sub(1)
 }
 
 /// Returns the index of the next event after a position of the animation.

@@ -56,7 +56,6 @@ struct Counted {
     writer: CellWriter<Received>,
     received: Received,
     shown: Buffer,
-    name: String,
 }
 
 impl Counted {
@@ -76,7 +75,6 @@ impl Counted {
             writer,
             received,
             shown: Buffer::empty(Rect::new(0, 0, COLUMNS, ROWS)),
-            name: String::new(),
         };
         counted.frames();
         counted
@@ -88,27 +86,6 @@ impl Counted {
         let mut screen = draw(&self.driver.app);
         remove_ink_of_blanks(&mut screen);
         let changed = self.shown.diff(&screen);
-        if std::env::var("MAPS").is_ok_and(|name| self.name == name) {
-            println!("--- {} {} cells", self.name, changed.len());
-            let mut map = vec![vec![' '; COLUMNS as usize]; ROWS as usize];
-            for (x, y, cell) in &changed {
-                let old = self.shown[(*x, *y)].symbol();
-                map[*y as usize][*x as usize] = if cell.symbol() == old {
-                    '='
-                } else if cell.symbol() == " " {
-                    '~'
-                } else {
-                    cell.symbol().chars().next().unwrap()
-                };
-            }
-            for row in map {
-                println!("|{}|", row.into_iter().collect::<String>());
-            }
-            println!("screen");
-            for row in screen.content.chunks(COLUMNS as usize) {
-                println!("|{}|", row.iter().map(|c| c.symbol()).collect::<String>());
-            }
-        }
         self.writer.draw(changed.into_iter()).unwrap();
         self.shown = screen;
         self.received.0.borrow().len() - before + MARKS
@@ -168,9 +145,7 @@ impl Counted {
             self.frames();
             for key in ["l", "h"] {
                 let generation = self.driver.app.edit.generation;
-                self.name = format!("{path} {key}");
                 let bytes = self.cost_of(key);
-                self.name.clear();
                 let is_edit = self.driver.app.edit.generation != generation
                     && self.shape_of_value().as_ref() == Some(&shape)
                     && self.driver.app.solved.is_some();

@@ -12,6 +12,7 @@ mod common {
 }
 mod bytes;
 mod path;
+mod places;
 mod random;
 mod random_bytes;
 mod screen;

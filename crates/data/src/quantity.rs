@@ -336,6 +336,7 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
 ///
 /// assert_eq!(format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
 /// assert_eq!(format_range((2.31e-3, 2.33e-3), 2, "N"), "2.31 to 2.33 mN");
+/// assert_eq!(format_range((2.31e-3, 2.31e-3), 2, "N"), "2.3 mN");
 /// ```
 pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
     /// Largest number of further digits.

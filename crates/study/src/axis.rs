@@ -386,6 +386,10 @@ fn nearest_path(path: &str) -> String {
     if let Some(parameter) = RoughnessParameter::named(path) {
         return format!("; did you mean {}?", parameter.path());
     }
+    let [first, second] = [".0", ".1"].map(|end| format!("{path}{end}"));
+    if number(&first).is_some() && number(&second).is_some() {
+        return format!("; did you mean {first} or {second}?");
+    }
     let mut numbers = Vec::new();
     for field in FIELDS {
         for end in ENDS {

@@ -338,3 +338,21 @@ pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Opt
 fn first_beside(free: &[usize], axis: Option<usize>) -> Option<usize> {
     free.iter().copied().find(|other| Some(*other) != axis)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_of_zero_changes_no_scale_of_colours() {
+        let small = [1.0, 0.9, 1e-3, 1e-4, 1e-5];
+        let zero = [1.0, 0.9, 1e-3, 0.0, 0.0];
+        assert_eq!(scale_of_colours(&small), AxisScale::Logarithmic);
+        assert_eq!(scale_of_colours(&zero), AxisScale::Logarithmic);
+        // Curves cannot show zero on a logarithmic scale.
+        assert_eq!(scale_of(&zero), AxisScale::Linear);
+        for linear in [&[1.0, 0.5, 0.4][..], &[0.0, 0.0], &[-1.0, 0.0, 1.0], &[]] {
+            assert_eq!(scale_of_colours(linear), AxisScale::Linear, "{linear:?}");
+        }
+    }
+}

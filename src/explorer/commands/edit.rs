@@ -56,8 +56,20 @@ pub fn open(app: &mut App, document: Document) {
     adopt_all(app, opened);
     app.play_of_path = None;
     app.edit.set_saved();
+    close_other_map(app);
     // The results before the change would be those of another scene.
     app.studies.forget_former();
+}
+
+/// Closes a map that the present scene does not have, for example because it lacks the number of an
+/// axis.
+fn close_other_map(app: &mut App) {
+    if app.map.plan(app.edit.document.scene()).is_err() {
+        app.map.chosen = None;
+        if app.view.large == Some(Pane::Map) {
+            app.show_force_curve();
+        }
+    }
 }
 
 /// Opens the editor for the value of the selected parameter. If the user has begun to type with the

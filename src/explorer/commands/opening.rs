@@ -49,7 +49,6 @@ pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
             edit::open(app, opening.document);
-            leave_map(app);
             if let Some(study_map) = opening.study_map {
                 // The curve was measured on another contact than the scenes of the study.
                 close_measured(app);
@@ -62,18 +61,6 @@ pub fn open(app: &mut App, opened: Opened) {
             app.ask_again(Purpose::Curve(*question), "", &reason);
         }
         Opened::Surface(path) => set_roughness(app, &path),
-    }
-}
-
-/// Closes the live map if the opened scene has none over its axes. The scene then has a map over H
-/// and κ or, if it lacks these numbers, the force curve.
-fn leave_map(app: &mut App) {
-    let has_map = |app: &App| app.map.plan(app.edit.document.scene()).is_ok();
-    if !has_map(app) {
-        app.map.chosen = None;
-    }
-    if app.view.large == Some(Pane::Map) && app.map.shown_study().is_none() && !has_map(app) {
-        app.show_force_curve();
     }
 }
 

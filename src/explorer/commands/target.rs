@@ -12,6 +12,7 @@ use crate::explorer::text::wrapped;
 use asperity_contact::Move;
 use asperity_data::{Remedied, format_rounded};
 use asperity_report::{found_briefly, found_in_words, percent};
+use asperity_scene::fields::Range;
 use asperity_scene::text::ron_float;
 use asperity_study::{Ensemble, Found, Quantity, Question};
 use ratatui::text::Line;
@@ -51,11 +52,19 @@ fn sought(parameter: &Parameter) -> Option<&str> {
         parameter.setting,
         Setting::Heading | Setting::CurveOption(_) | Setting::Profiles
     );
-    if is_value && parameter.takes_number() {
+    if is_value && parameter.takes_number() && !is_pair(parameter) {
         Some(&parameter.path)
     } else {
         None
     }
+}
+
+/// Returns true if the value of a parameter consists of two numbers.
+fn is_pair(parameter: &Parameter) -> bool {
+    matches!(
+        parameter.field.range,
+        Range::Band(..) | Range::Wavelengths(..)
+    )
 }
 
 /// Returns the name of the number that an inverse question seeks. This is the preload if a row of
@@ -131,8 +140,13 @@ pub fn ask(app: &mut App) {
         return;
     };
     if sought(parameter).is_none() {
+        let found = if is_pair(parameter) {
+            "two numbers"
+        } else {
+            "no number to find"
+        };
         let why = format!(
-            "{} has no number to find; select a row with a number, or a loading stage",
+            "{} has {found}; select a row with a number, or a loading stage",
             parameter.name()
         );
         return app.set_error(why);
@@ -330,7 +344,16 @@ pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
         Some(Err(why)) => return Err(why.clone()),
         None => return Err("the value is still being found".to_owned()),
     };
-    let median = value(known).ok_or_else(|| found_in_words(known))?;
+    let Some(median) = value(known) else {
+        let answer = found_in_words(known);
+        if known.quantile(0.5).is_none() {
+            return Err(answer);
+        }
+        // Every preload reaches the target, so there is nothing to set.
+        app.prompt = None;
+        app.set_done(answer);
+        return Ok(());
+    };
     let is_preload = known.question.is_of_preload();
     let has_profiles = known.answers.len() > 1;
     let quantity = known.question.quantity;

@@ -8,7 +8,7 @@ use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::text::fitted;
 use crate::explorer::theme::Meaning;
-use crate::explorer::timeline::passed;
+use crate::explorer::timeline::selected;
 use asperity_contact::{Event, Events};
 use asperity_data::{counted, format_range, format_rounded, grouped};
 use asperity_report::{EventsReport, event_words, jumps_of_instrument, signed_energy};
@@ -65,7 +65,7 @@ fn panel(app: &App, size: Size) -> Panel {
             "nothing happens at once: no jump and no mark on this loading",
         );
     }
-    let selected = passed(app.played_stages(), &listed.list, app.playhead()).checked_sub(1);
+    let selected = selected(app.played_stages(), &listed.list, app.playhead());
     let mut rows = Vec::new();
     for (index, event) in listed.list.iter().enumerate() {
         rows.push(row(app, event, selected == Some(index), size.width));

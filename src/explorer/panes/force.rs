@@ -84,7 +84,7 @@ fn panel(app: &App, size: Size) -> Panel {
         } else {
             "no curve"
         };
-        return Panel::of_text(title(app, None), reason);
+        return Panel::of_text(title(app, None, size.width), reason);
     };
     let mut names = Vec::new();
     if app.is_current() {
@@ -98,7 +98,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let mut panel = Panel {
         head: lines_of_ghosts(app, size),
         edge: edge(app),
-        ..Panel::of_chart(title(app, Some(&chart.y)), chart)
+        ..Panel::of_chart(title(app, Some(&chart.y), size.width), chart)
     };
     if let Body::Chart(plot) = &mut panel.body {
         plot.names = names;
@@ -124,7 +124,8 @@ fn names_of_marks(app: &App) -> Vec<Name> {
         let force = units.force_in_words(app.without_rounding(marked.point.force));
         names.push(Name {
             at: units.place_of_mark(&marked).into_iter().collect(),
-            texts: vec![format!("{name} {force}"), force, name.to_owned()],
+            // A force alone might belong to any of several marks beside it.
+            texts: vec![format!("{name} {force}"), name.to_owned()],
             ink: Ink::Text,
         });
     }
@@ -233,9 +234,13 @@ fn state(app: &App) -> Vec<String> {
     parts
 }
 
+/// Smallest width in columns at which the title has room for the words *manual loading* beside the
+/// indentation and the force.
+const WITH_MANUAL: u16 = 56;
+
 /// Returns the title: the name and the unit of the vertical quantity, and the event at the shown
-/// state.
-fn title(app: &App, y: Option<&ChartAxis>) -> String {
+/// state. `width` is the width of the pane in columns.
+fn title(app: &App, y: Option<&ChartAxis>, width: u16) -> String {
     let name = match quantities(app) {
         LoopQuantities::ForceIndentation
         | LoopQuantities::ForceDisplacement
@@ -247,8 +252,14 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
         Some(axis) => format!("{name} {}", axis.symbol_with_unit()),
         None => name.to_owned(),
     };
+    let is_stopped = app
+        .followed()
+        .is_some_and(|followed| followed.stopped.is_some());
+    let leaves_out_manual = width < WITH_MANUAL && app.drive() == Drive::Manual && !is_stopped;
     let event = match caption(app) {
         _ if app.is_computing() => " · computing".to_owned(),
+        // The user pulls until the force has a wanted value, which matters more than these words.
+        _ if leaves_out_manual => String::new(),
         Some(event) => format!(" · {event}"),
         None => String::new(),
     };
@@ -266,7 +277,8 @@ fn name_of_loss(app: &App) -> Option<Name> {
     let energy = format_rounded(energy, 3, "J");
     Some(Name {
         at,
-        texts: vec![format!("ΔW {energy}"), energy],
+        // An energy alone might be taken for a value of the mark beside it.
+        texts: vec![format!("ΔW {energy}")],
         ink: Ink::Text,
     })
 }

@@ -14,7 +14,7 @@ mod result;
 pub mod row;
 mod section;
 mod sensitivity;
-mod spectrum;
+pub mod spectrum;
 mod timeline;
 pub mod trust;
 

@@ -3,6 +3,7 @@
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
+use crate::explorer::pane::Pane;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -21,13 +22,12 @@ use std::sync::Arc;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    studies: |app, computed| {
+    studies: |_, computed| {
         let solved = Arc::clone(computed);
         let spectra = Study::new(computed.generation, false, move |simulation, _| {
             SceneSpectra::new(&solved.scene, &solved.outcome, simulation)
         });
-        let profiles = is_sampled(&computed.scene).then(|| profiles(app, computed));
-        [spectra].into_iter().chain(profiles).collect()
+        vec![spectra]
     },
     help: &[(
         "Spectrum",
@@ -146,21 +146,32 @@ fn is_sampled(scene: &Scene) -> bool {
 }
 
 /// Returns the study (background computation) that computes the pull-off force of those random
-/// profiles that have not been computed yet.
-fn profiles(app: &App, computed: &SolvedScene) -> Study {
+/// profiles of a measured surface that have not been computed yet. From them follows the error due
+/// to the uncertainty of the spectrum, which the results and the pane of accuracy state as well.
+/// `None` for other scenes, and for many springs unless the pane of spectra is shown.
+pub fn measured_adhesion(app: &App, computed: &SolvedScene) -> Option<Study> {
+    let is_quick = computed.scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
+    let is_wanted = is_quick || app.view.large == Some(Pane::Spectrum);
+    if !is_wanted || !is_sampled(&computed.scene) {
+        return None;
+    }
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);
-    Study::new(computed.generation, false, move |_, mut control| {
-        let faces = read_faces(&scene.measured_paths(Path::new("")))?;
-        let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
-        let first = scene.seed().unwrap_or(0);
-        while found.profiles.len() < PROFILES {
-            let seed = first.wrapping_add(found.profiles.len() as u64);
-            let profile = ProfileAdhesion::solve(&scene, &line, seed, control.stop())?;
-            found.profiles.push(profile);
-            control.report(&found);
-        }
-        Ok::<_, RunError>(found)
-    })
+    Some(Study::new(
+        computed.generation,
+        false,
+        move |_, mut control| {
+            let faces = read_faces(&scene.measured_paths(Path::new("")))?;
+            let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+            let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
+            let first = scene.seed().unwrap_or(0);
+            while found.profiles.len() < PROFILES {
+                let seed = first.wrapping_add(found.profiles.len() as u64);
+                let profile = ProfileAdhesion::solve(&scene, &line, seed, control.stop())?;
+                found.profiles.push(profile);
+                control.report(&found);
+            }
+            Ok::<_, RunError>(found)
+        },
+    ))
 }

@@ -12,7 +12,7 @@ use crate::explorer::panel::{Body, Panel, title_line};
 use crate::explorer::player::At;
 use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
-use crate::explorer::timeline::{Tick, Timeline, passed, speed_in_words};
+use crate::explorer::timeline::{Tick, Timeline, passed, selected, speed_in_words};
 use asperity_contact::{Direction, Mark, Move, StageRecord};
 use asperity_data::grouped;
 use asperity_plot::Ink;
@@ -96,8 +96,8 @@ fn title(app: &App) -> String {
     format!("Timeline  {playing} {speed}{repeat}{end}")
 }
 
-/// Returns the event that the animation has passed last, with the energy of its jump; without an
-/// event, the name of the present part of the loading.
+/// Returns the event that the animation has passed last, or at the pull-off the jump that follows,
+/// with the energy of the jump; without an event, the name of the present part of the loading.
 fn event(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     let listed = match app.listed_events() {
@@ -106,14 +106,22 @@ fn event(app: &App) -> Vec<Part> {
         Some(Ok(listed)) => listed,
     };
     let records = app.played_stages();
-    let last = passed(records, &listed.list, app.playhead()).checked_sub(1);
-    match last.map(|index| &listed.list[index]) {
-        Some(event) => {
-            let mut words = event_words(event);
-            if event.mark == Some(Mark::PullOff) && event.jump.is_some() {
-                // The shown state is the one after the jump, and the pull-off is the one before it.
-                words = format!("after {words}");
-            }
+    let passed = passed(records, &listed.list, app.playhead());
+    let selected = selected(records, &listed.list, app.playhead());
+    match selected {
+        Some(index) => {
+            let event = &listed.list[index];
+            let is_jump_of_pull_off = event.mark == Some(Mark::PullOff) && event.jump.is_some();
+            // The pull-off is the state before the jump.
+            let words = if is_jump_of_pull_off && index >= passed {
+                let mut jump = *event;
+                jump.mark = None;
+                format!("next: {}", event_words(&jump))
+            } else if is_jump_of_pull_off {
+                format!("after {}", event_words(event))
+            } else {
+                event_words(event)
+            };
             parts.push(vec![Span::raw(words)]);
             if let Some(jump) = event.jump {
                 let palette = app.view.appearance.palette();
@@ -123,8 +131,10 @@ fn event(app: &App) -> Vec<Part> {
         }
         None => parts.extend(caption(app).map(|text| vec![Span::raw(text)])),
     }
-    let shown = listed.list[..last.map_or(0, |index| index + 1)].iter();
-    let number = shown.filter(|event| event.jump.is_some()).count();
+    let number = listed.list[..passed]
+        .iter()
+        .filter(|event| event.jump.is_some())
+        .count();
     if listed.listed_jumps > 0 {
         let count = grouped(listed.listed_jumps as u64);
         let text = format!("jump {} of {count}", grouped(number as u64));

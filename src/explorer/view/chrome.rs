@@ -10,7 +10,7 @@ use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
 use crate::explorer::pane::Pane;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text::{Part, filled, wrapped_within};
+use crate::explorer::text::{Part, filled, fitted, wrapped_within};
 use crate::explorer::theme::Meaning;
 use crate::explorer::timeline::passed;
 use crate::explorer::typed;
@@ -294,7 +294,7 @@ fn event_of_animation(app: &App) -> Option<String> {
         .rfind(|event| event.mark.is_some() || event.instrument.is_some())?;
     let mut without_patches = *named;
     without_patches.jump = None;
-    Some(format!("▶ {}", event_words(&without_patches)))
+    Some(format!("▶ passed {}", event_words(&without_patches)))
 }
 
 /// Returns the main results of the loop for a line of this width, the most important first.

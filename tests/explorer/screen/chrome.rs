@@ -175,7 +175,7 @@ fn the_title_has_a_second_line_only_for_a_long_notice() {
 fn a_message_that_leaves_no_room_for_the_results_takes_the_row_of_the_keys() {
     let mut driver = pressed("");
     driver.resize((60, 20));
-    let offer = "unsaved changes of a scene are kept: asperity --restore";
+    let offer = "asperity --restore opens the unsaved changes of a scene";
     driver.app.message = Some(Message::Done(offer.to_owned()));
     let rows = driver.rows();
     let [message, results] = [&rows[rows.len() - 2], &rows[rows.len() - 1]];

@@ -63,7 +63,12 @@ fn the_status_line_names_marks_and_rests_while_the_animation_plays() {
             }
         }
     }
-    for event in ["jump-in", "rest for 2 s", "preload", "pull-off"] {
+    for event in [
+        "passed jump-in",
+        "rest for 2 s",
+        "passed preload",
+        "passed pull-off",
+    ] {
         assert!(named.iter().any(|name| name == event), "{event}: {named:?}");
     }
     assert!(!driver.app.play.playing);

@@ -38,3 +38,33 @@ fn bars_show_the_changes_and_the_table_has_them_all() {
     driver.press("Y");
     assert!(driver.app.is_shown(Pane::Profile));
 }
+
+/// Each number is on a page, with both of its changes, and the range over the profiles is on the
+/// last page.
+#[test]
+fn a_small_window_has_the_further_numbers_on_further_pages() {
+    let mut driver = computed_sensitivity(rough());
+    driver.resize((80, 24));
+    driver.shows("Sensitivity: each number ±10 % · 1/");
+    let mut rows = Vec::new();
+    loop {
+        let before = driver.text();
+        rows.extend(driver.rows());
+        driver.press("PageDown");
+        if driver.text() == before {
+            break;
+        }
+    }
+    let sensitivity = driver.app.studies.value::<Sensitivity>().unwrap();
+    assert!(sensitivity.influences.len() > 4);
+    for influence in &sensitivity.influences {
+        let name = format!("{} ", influence.axis.symbol_or_name());
+        let count = rows.iter().filter(|row| row.starts_with(&name)).count();
+        assert_eq!(count, 1, "{name}\n{}", rows.join("\n"));
+    }
+    let of_profiles = rows
+        .iter()
+        .filter(|row| row.starts_with("profiles "))
+        .count();
+    assert_eq!(of_profiles, sensitivity.range.iter().len());
+}

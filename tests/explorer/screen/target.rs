@@ -214,3 +214,34 @@ fn an_answer_has_one_line_in_a_small_window_and_a_strip_in_a_large_one() {
         );
     }
 }
+
+#[test]
+fn a_row_with_two_numbers_has_no_number_to_find() {
+    for document in [rough(), open("pressure-sensitive").unwrap()] {
+        let mut driver = Driver::start(document);
+        for path in ["roughness.modes", "roughness.wavelengths"] {
+            if driver.document().value(path).is_none() {
+                continue;
+            }
+            driver.select(path);
+            driver.press("f");
+            driver.states("has two numbers; select a row with a number");
+            assert!(driver.app.prompt.is_none());
+        }
+    }
+}
+
+#[test]
+fn enter_closes_the_question_if_every_preload_reaches_the_target() {
+    let mut driver = asked(changed(
+        &rough(),
+        &[("adhesion", "(work: 1.0)"), ("numerics.points", "1024")],
+    ));
+    driver.select("loading");
+    driver.press("f Ctrl+u `F_a/F_a,max = 1 %`");
+    driver.shows("any");
+    driver.press("Enter");
+    assert!(driver.app.prompt.is_none(), "{}", driver.text());
+    assert!(!driver.status().starts_with('!'), "{}", driver.status());
+    assert_eq!(driver.app.edit.past.len(), 0);
+}

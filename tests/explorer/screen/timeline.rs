@@ -4,7 +4,7 @@ use super::*;
 use asperity::explorer::events::MOST_LISTED;
 use asperity::explorer::player::{At, Player};
 use asperity::explorer::theme::Marker;
-use asperity_contact::{Direction, Event, StageRecord};
+use asperity_contact::{Direction, Event, Mark, StageRecord};
 
 fn listed(driver: &Driver) -> Vec<Event> {
     match driver.app.listed_events() {
@@ -404,4 +404,58 @@ fn a_narrow_list_of_events_says_what_happens() {
         rows.contains("spreads") || rows.contains("touches"),
         "{rows}"
     );
+}
+
+#[test]
+fn at_the_pull_off_the_list_selects_it_and_the_caption_names_the_jump_that_follows() {
+    for name in ["pressure-sensitive", "profile-hurst-075"] {
+        let mut driver = Driver::start(open(name).unwrap());
+        driver.resize((160, 45));
+        driver.press("! e");
+        let events = listed(&driver);
+        let pull_off = events
+            .iter()
+            .find(|event| event.mark == Some(Mark::PullOff))
+            .unwrap();
+        driver.shows("end, at the pull-off");
+        assert!(pull_off.jump.is_some());
+        driver.shows("next: patch");
+        let rows = driver.rows();
+        let row = rows.iter().find(|row| row.contains("▼ pull-off"));
+        assert!(row.is_some_and(|row| row.contains('›')), "{rows:#?}");
+        // The next event is this jump, and the one before is that before it.
+        let place = events.iter().position(|event| event == pull_off).unwrap();
+        driver.press(";");
+        driver.shows("after pull-off");
+        assert_eq!(driver.point().patches, pull_off.jump.unwrap().patches[1]);
+        driver.press("! ,");
+        let before = events[place - 1].indentation;
+        assert!((driver.point().indentation - before).abs() <= 1e-9 * before.abs());
+    }
+}
+
+#[test]
+fn a_pane_chosen_in_the_list_of_commands_is_shown() {
+    for size in [
+        (160, 45),
+        (120, 36),
+        (100, 30),
+        (80, 24),
+        (60, 20),
+        (40, 12),
+    ] {
+        for large in ["", "Q", "m", "A", "e"] {
+            for pane in Pane::ALL {
+                let mut driver = pressed(large);
+                driver.resize(size);
+                driver.app.show(*pane);
+                let area = Layout::of(&driver.app).pane(*pane);
+                assert!(area.is_some(), "{size:?} {large:?} {pane:?}");
+            }
+        }
+    }
+    let mut driver = pressed("");
+    driver.resize((120, 36));
+    driver.press(": `events` Enter");
+    driver.shows("▸ Events");
 }

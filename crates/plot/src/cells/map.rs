@@ -335,6 +335,11 @@ mod tests {
         };
         assert_eq!(colours(0), ("▀".to_owned(), band(0.5), band(0.0)));
         assert_eq!(colours(1), ("▀".to_owned(), band(1.0), band(0.5)));
+        // The legend of a value has its colour.
+        for value in [0.0, 0.5, 1.0] {
+            let (_, style) = shade_of(&map(), value, Palette::DARK);
+            assert_eq!(style.bg, Some(band(value)));
+        }
         // Without colours a cell has one character for one value.
         let buffer = drawn(map(), Palette::PLAIN);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);

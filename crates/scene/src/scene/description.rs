@@ -20,15 +20,17 @@ use super::typed::with_typed;
 /// Returns true if a scene, as it was opened, has the values of a built-in scene. Its text may
 /// differ from the built-in text, for example in a table of results.
 fn is_built_in(opened: &Scene) -> bool {
-    static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
-    BUILT_IN.get_or_init(built_in_scenes).contains(opened)
+    built_in_scenes().contains(opened)
 }
 
-fn built_in_scenes() -> Vec<Scene> {
-    presets()
-        .iter()
-        .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
-        .collect()
+fn built_in_scenes() -> &'static [Scene] {
+    static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
+    BUILT_IN.get_or_init(|| {
+        presets()
+            .iter()
+            .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
+            .collect()
+    })
 }
 
 /// Returns true if the computation of two scenes gives the same solution.
@@ -110,6 +112,14 @@ impl Document {
     /// Returns true if the title states that this is a changed built-in scene.
     pub fn is_changed_built_in(&self) -> bool {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
+    }
+
+    /// Returns true if the scene has the title of a built-in scene. If it is this scene, a change of
+    /// its values replaces the title.
+    pub fn has_built_in_title(&self) -> bool {
+        built_in_scenes()
+            .iter()
+            .any(|scene| scene.title == self.scene().title)
     }
 
     /// Returns the text of the scene for a file of the user. If the scene is a changed built-in

@@ -170,10 +170,15 @@ fn every_tick_below_a_plot_has_its_number() {
                 let line: String = (place.plot.x..place.plot.right())
                     .map(|x| buffer[(x, place.plot.bottom())].symbol())
                     .collect();
-                assert_eq!(line.matches('┬').count(), scale.numbers.len(), "{row}\n{line}");
+                assert_eq!(
+                    line.matches('┬').count(),
+                    scale.numbers.len(),
+                    "{row}\n{line}"
+                );
             }
             let last = scale.numbers.last().unwrap();
-            between += usize::from(!place.has_label_row && i32::from(scale.label_start) < last.start);
+            between +=
+                usize::from(!place.has_label_row && i32::from(scale.label_start) < last.start);
         }
     }
     assert!(between > 0, "a label is before the last number");
