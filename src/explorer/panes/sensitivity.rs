@@ -91,6 +91,12 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
     let rows_of_plot = usize::from(CellPlot::within(room, &whole).plot.height);
     // The two bars of a number are on one page.
     let bars_of_page = (rows_of_plot / 2 * 2).max(2);
+    // The number of the page needs room in the title.
+    let title = if bars > bars_of_page {
+        "Sensitivity to ±10 %".to_owned()
+    } else {
+        title
+    };
     let mut pages = Vec::new();
     for first in (0..bars).step_by(bars_of_page) {
         let shown = first..bars.min(first + bars_of_page);

@@ -118,7 +118,7 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
         let nothing = Line::styled(nothing_yet(app), app.style(Meaning::Quiet));
         let nothing = wrapped(&nothing, size.width);
         let texts = [warnings, nothing, words.all()].concat();
-        return numbered(pages_of_text(texts, size.height));
+        return numbered(pages_of_text(TITLE_OF_ERRORS, texts, size.height));
     };
     let entries = entries(&chart, app.view.appearance);
     let legend = filled(entries, "  ", size.width.into()).len();
@@ -138,11 +138,15 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
             foot,
             ..Panel::of_chart(title, chart)
         }];
-        pages.extend(pages_of_text(words.theories, size.height));
+        pages.extend(pages_of_text(
+            "Trust: theories",
+            words.theories,
+            size.height,
+        ));
         return numbered(pages);
     }
     let texts = [warnings, words.errors, words.theories].concat();
-    let mut pages = pages_of_text(texts, size.height);
+    let mut pages = pages_of_text(TITLE_OF_ERRORS, texts, size.height);
     // Below the chart are the texts that state what its curves mean for the scene.
     let room = usize::from(size.height).saturating_sub(legend + LEAST_CHART);
     let mut foot = words.cost;
@@ -154,13 +158,15 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
     numbered(pages)
 }
 
-/// Returns lines of text as pages of this height.
-fn pages_of_text(lines: Vec<Line<'static>>, rows: u16) -> Vec<Panel> {
+const TITLE_OF_ERRORS: &str = "Trust: errors of F_a";
+
+/// Returns lines of text as pages of this height with a title.
+fn pages_of_text(title: &str, lines: Vec<Line<'static>>, rows: u16) -> Vec<Panel> {
     let mut pages = Vec::new();
     for lines in lines.chunks(usize::from(rows).max(1)) {
         pages.push(Panel {
             head: lines.to_vec(),
-            ..Panel::of_text("Trust: errors of F_a".to_owned(), "")
+            ..Panel::of_text(title.to_owned(), "")
         });
     }
     pages

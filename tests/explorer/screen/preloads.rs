@@ -48,7 +48,11 @@ fn shown(document: Document, profiles: usize) -> Driver {
 fn adhesion_against_preload_is_shown_beside_the_curve() {
     for profiles in [PreloadCurve::PROFILES, 3] {
         let mut driver = shown(rough(), profiles);
-        for size in [(120, 40), (80, 24)] {
+        // A low pane has room for more rows of the chart, since its legend has fewer words.
+        for (size, turned) in [
+            ((120, 40), "F_a(d=0) 10.2 nN, turned at first touch"),
+            ((80, 24), "F_a(d=0) 10.2 nN"),
+        ] {
             driver.resize(size);
             driver.shows_all([
                 "Pull-off force F_a (",
@@ -59,7 +63,7 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
             assert_eq!(driver.text().contains("3 of 16 profiles"), profiles == 3);
             driver.shows(format!("range of {profiles} profiles"));
             // The status line and the crosshair.
-            driver.sees("*", "turned at first touch");
+            driver.sees("*", turned);
             driver.shows_all(["F_n ", "this profile ", "median ", "quartiles ", "mean "]);
             driver.press("*");
         }

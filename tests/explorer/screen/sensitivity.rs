@@ -45,7 +45,7 @@ fn bars_show_the_changes_and_the_table_has_them_all() {
 fn a_small_window_has_the_further_numbers_on_further_pages() {
     let mut driver = computed_sensitivity(rough());
     driver.resize((80, 24));
-    driver.shows("Sensitivity: each number ±10 % · 1/");
+    driver.shows("Sensitivity to ±10 % · 1/3 PageDown");
     let mut rows = Vec::new();
     loop {
         let before = driver.text();
@@ -58,7 +58,8 @@ fn a_small_window_has_the_further_numbers_on_further_pages() {
     let sensitivity = driver.app.studies.value::<Sensitivity>().unwrap();
     assert!(sensitivity.influences.len() > 4);
     for influence in &sensitivity.influences {
-        let name = format!("{} ", influence.axis.symbol_or_name());
+        let name = influence.axis.symbol_or_name().replace("force of ", "");
+        let name = format!("{name} ");
         let count = rows.iter().filter(|row| row.starts_with(&name)).count();
         assert_eq!(count, 1, "{name}\n{}", rows.join("\n"));
     }
