@@ -27,14 +27,17 @@ const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that gets points at both of its ends.
 const NOTABLE: f64 = 2.0;
-/// Largest error of the forces of a body that relaxes, as a share of the largest force: at most,
-/// and if the forces have low accuracy. The steps of the computation follow from it.
+/// Largest error of the forces of a body that relaxes, as a share of the largest force. It
+/// determines the steps of the computation. `COARSE_ERROR_OF_STEPS` is the error of forces with low
+/// accuracy.
 const ERROR_OF_STEPS: f64 = 1e-3;
 const COARSE_ERROR_OF_STEPS: f64 = 5e-3;
-/// Such an error as a share of the noise. The errors of neighbouring points are alike, so that they
-/// count more than noise does.
+/// Error of the forces of a body that relaxes, as a share of the noise. It has to be much smaller
+/// than the noise, because the errors of neighbouring points are alike and do not average out as
+/// noise does.
 const OF_NOISE: f64 = 0.1;
-/// Smallest such error. Steps for less take longer than they improve a fit.
+/// Smallest error of the forces of a body that relaxes, as a share of the largest force. A smaller
+/// error would take more computing time without improving a fit.
 const LEAST_ERROR_OF_STEPS: f64 = 1e-5;
 /// Number of further points on each side of a fold, a place at which the displacement of the
 /// instrument turns back over the indentation. Each point is half as far from the fold as the
@@ -161,8 +164,9 @@ impl<'a> Model<'a> {
     }
 
     /// Computes the forces in N at all points of the measured curve, for the given values of the
-    /// parameters. They include the change of the drag, which was subtracted from the curve as if
-    /// the contact began where the points without contact end.
+    /// parameters. When the curve was read, a drag was subtracted as if the contact began where the
+    /// points without contact end. The forces include the difference to the drag for the first
+    /// touch in `values`.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow the values, or if its force curve cannot be
@@ -634,8 +638,8 @@ impl Sampling {
     }
 
     /// Returns the ascending indentations in m of further points near folds. At a fold the
-    /// displacement turns back, so that the body becomes unstable on the instrument. A fold may be
-    /// close before a jump of the contact. `points` ascend in indentation.
+    /// displacement turns back, so that the body becomes unstable on the instrument. A fold may lie
+    /// shortly before a jump of the contact. `points` ascend in indentation.
     fn indentations_at_folds(self, points: &[CurvePoint], direction: Direction) -> Vec<f64> {
         let mut in_time = points.to_vec();
         let sign = match direction {
@@ -687,7 +691,8 @@ mod tests {
     fn rests(made: &Made) -> [Vec<f64>; 2] {
         let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
         curve.noise = made.noise;
-        let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
+        let [work, modulus] =
+            [Parameter::Work, Parameter::Modulus].map(|parameter| truth(made, parameter));
         let radius = radius_of(&made.scene).unwrap();
         let stiffness = stiffness(&made.scene);
         let values = [

@@ -25,8 +25,8 @@ const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
 /// Difference between the first seeds of two scenes whose seeds differ by 1. No table has so many
 /// profiles, so the tables of two scenes have no profile in common.
 const SEEDS_OF_SCENE: u64 = 1 << 32;
-/// Smallest force at the turning point of a computed curve, divided by the preload, whatever the
-/// noise.
+/// Smallest force at the turning point of a computed curve, divided by the measured preload. The
+/// random error of the preload lowers the force no further.
 const LEAST_TURN: f64 = 0.5;
 
 /// Scene, instrument and preloads of the computed curves, and the function that stops their
@@ -351,7 +351,7 @@ mod tests {
             for (index, name) in NAMES.into_iter().enumerate() {
                 let pairs = computed.iter().zip(&measured.summaries);
                 let differences: Vec<f64> = pairs
-                    .map(|(one, other)| other[index] - one[index])
+                    .map(|(first, second)| second[index] - first[index])
                     .collect();
                 let values: Vec<f64> = computed.iter().map(|summaries| summaries[index]).collect();
                 let scatter = standard_deviation(&values, mean(&values));
