@@ -5,7 +5,7 @@ use super::summary::{Branches, Point, Protocol, Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::fit::model::Sampling;
 use asperity_contact::motion::{Body, MovingBody};
-use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
+use asperity_contact::{ContactError, ForcePoint, Modulus, Move};
 use asperity_data::on_threads;
 use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{CheckedScene, Simulation};
@@ -231,7 +231,7 @@ impl ForceLoop<'_> {
             points: SAMPLES,
             least_jump: NOTABLE * protocol.noise / self.scale,
         };
-        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
+        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(ForcePoint::default()))?;
         let pulled = sampling.pull(&retraction, turn)?;
         let top = match pressed.points().last() {
             Some(point) => point.displacement,
