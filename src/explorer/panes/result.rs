@@ -329,16 +329,34 @@ fn line_of_result(app: &App, result: &ResultLine, width: u16) -> Line<'static> {
         Span::styled(name, app.style(Meaning::Title)),
         Span::raw(shortened(&result.value, room)),
     ]);
-    let taken = line.width() + result.range.chars().count() + 1;
-    if !result.range.is_empty() && taken <= usize::from(width) {
-        let blanks = usize::from(width) - taken + 1;
+    let room = usize::from(width).saturating_sub(line.width() + 1);
+    let range = range_within(result, room);
+    if !range.is_empty() {
+        let blanks = room - range.chars().count() + 1;
         line.push_span(Span::raw(" ".repeat(blanks)));
-        line.push_span(Span::styled(
-            result.range.clone(),
-            app.style(Meaning::Quiet),
-        ));
+        line.push_span(Span::styled(range.to_owned(), app.style(Meaning::Quiet)));
     }
     fitted(line, width)
+}
+
+/// Returns the range of a result in at most `columns` columns: if necessary without its unit, which
+/// is then that of the value. Empty if there is not enough room, or no range.
+fn range_within(result: &ResultLine, columns: usize) -> &str {
+    let range = result.range.as_str();
+    let unit_of = |text: &str| text.rsplit_once(' ').map(|(_, unit)| unit.to_owned());
+    let has_same_unit = unit_of(&result.value) == unit_of(range);
+    // A first end with its own unit differs from the second one.
+    let has_one_unit = range
+        .split_once(" to ")
+        .is_some_and(|(low, _)| !low.contains(' '));
+    let bare = match range.rsplit_once(' ') {
+        Some((numbers, _)) if has_same_unit && has_one_unit => numbers,
+        _ => range,
+    };
+    let mut texts = [range, bare].into_iter();
+    texts
+        .find(|text| text.chars().count() <= columns)
+        .unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -347,6 +365,22 @@ mod tests {
 
     /// Columns of a value in a window of 80 columns.
     const ROOM: usize = 19;
+
+    #[test]
+    fn a_range_loses_its_unit_before_it_is_left_out() {
+        let result = |value: &str, range: &str| ResultLine {
+            name: "F_a",
+            value: value.to_owned(),
+            range: range.to_owned(),
+        };
+        let same = result("2.11 mN", "2.05 to 2.15 mN");
+        for (columns, shown) in [(15, "2.05 to 2.15 mN"), (14, "2.05 to 2.15"), (11, "")] {
+            assert_eq!(range_within(&same, columns), shown);
+        }
+        let other = result("2.11 mN", "998 µN to 2.15 mN");
+        assert_eq!(range_within(&other, 14), "");
+        assert_eq!(range_within(&result("67.6 %", "66 to 69"), 8), "66 to 69");
+    }
 
     #[test]
     fn no_regime_is_cut_in_a_window_of_80_columns() {

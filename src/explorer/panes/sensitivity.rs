@@ -72,19 +72,17 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
     }
     let mut rows = sensitivity_table(sensitivity);
     let present = rows.remove(1);
-    let mut head = filled(results(&rows[0], &present), "  ", size.width.into());
+    let results = filled(results(&rows[0], &present), "  ", size.width.into());
     for row in &mut rows {
         if row[SINGLE_PROFILES] == NOT_ALLOWED {
             row[RESULTS[0]] = NOT_ALLOWED.to_owned();
         }
     }
-    let labels = labels_within(&rows, usize::from(3 * size.width / 4));
-    if let Some(labels) = &labels {
-        head.push(Line::raw(labels[0].clone()));
-    }
-    let bars = rows.len() - 1;
+    let heading = rows.remove(0);
+    let bars = rows.len();
+    // The heading of the table has one row.
     let room = Rect {
-        height: size.height.saturating_sub(head.len() as u16),
+        height: size.height.saturating_sub(results.len() as u16 + 1),
         ..Rect::from(size)
     };
     let whole = sensitivity_chart(sensitivity, 0, 0..bars);
@@ -101,15 +99,18 @@ fn pages(app: &App, size: Size) -> Vec<Panel> {
     for first in (0..bars).step_by(bars_of_page) {
         let shown = first..bars.min(first + bars_of_page);
         let mut chart = sensitivity_chart(sensitivity, 0, shown.clone());
-        if let Some(labels) = &labels {
-            let names = labels[1..][shown].iter().rev();
+        let mut head = results.clone();
+        let listed = [std::slice::from_ref(&heading), &rows[shown]].concat();
+        if let Some(labels) = labels_within(&listed, usize::from(3 * size.width / 4)) {
+            head.push(Line::raw(labels[0].clone()));
+            let names = labels[1..].iter().rev();
             chart.y.names = names.map(|label| Label::plain(label)).collect();
         }
         // Each bar has one row, and the rows that remain are below the bars.
         let blank = rows_of_plot.saturating_sub(chart.y.names.len());
         chart.y.span.low -= blank as f64;
         pages.push(Panel {
-            head: head.clone(),
+            head,
             ..Panel::of_chart(title.clone(), chart)
         });
     }

@@ -89,6 +89,25 @@ fn moves_in_a_row_are_one_edit() {
     assert_eq!(driver.app.grid(), map.as_ref());
 }
 
+/// In a low pane the text on the mark has less detail, and its end is shown.
+#[test]
+fn the_text_on_the_mark_is_not_cut() {
+    let mut driver = mapped(rough());
+    driver.resize((160, 45));
+    driver.shows("(3 of 4 profiles)");
+    for size in [(120, 36), (100, 30), (80, 24)] {
+        driver.resize(size);
+        let rows = driver.rows();
+        let first = rows.iter().position(|row| row.starts_with("◆ ")).unwrap();
+        let below = rows
+            .iter()
+            .position(|row| row.contains("─ Force F"))
+            .unwrap();
+        let text = rows[first..below].concat();
+        assert!(text.contains("F_a/F_n"), "{text}");
+    }
+}
+
 #[test]
 fn the_mouse_moves_the_mark() {
     let mut driver = mapped(rough());
