@@ -77,7 +77,7 @@ pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
-pub use trust::{error_rows, theories_briefly, theory_rows};
+pub use trust::{SPECTRUM_NOT_COMPUTED, error_rows, theories_briefly, theory_rows};
 pub use warnings::{
     counted_record_texts, counted_section, counted_texts, outcome_warnings, warning_texts,
     warnings_section,

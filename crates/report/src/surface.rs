@@ -36,8 +36,11 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
         .pull_off_force()
         .filter(|forces| forces.count >= 2)?;
     let fit = match computed.fit_interval() {
-        Some(interval) => format!("fit error {}", format_range(interval, 2, "N")),
-        None => "fit error not known".to_owned(),
+        Some(interval) => format!(
+            "standard error of the fit {}",
+            format_range(interval, 2, "N")
+        ),
+        None => "standard error of the fit not known".to_owned(),
     };
     let profiles = forces.count;
     let words = forces.words("N");
@@ -109,7 +112,7 @@ impl Report for SurfaceReport {
             };
             add_face(&mut sheet, heading, face);
         }
-        sheet.heading("Equivalent line");
+        sheet.heading("Equivalent line, with standard errors");
         // The user may have typed the modulus and the work of adhesion without units. Therefore the
         // report states them with their units.
         sheet.quantity("effective modulus E*", self.modulus, "Pa");
@@ -380,7 +383,7 @@ fn add_face(sheet: &mut Sheet, heading: &str, face: &MeasuredFace) {
     sheet.row("kurtosis", format!("{kurtosis} (3: normal)"));
     let cutoff = face.analysis.reliability_cutoff;
     sheet.quantity("reliability cut-off", cutoff, "m");
-    sheet.heading("Self-affine fit");
+    sheet.heading("Self-affine fit, with standard errors");
     add_self_affine_fit(sheet, &face.analysis);
 }
 

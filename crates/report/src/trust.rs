@@ -174,6 +174,10 @@ fn sample_in_words(scene: &Scene, budget: &Budget, ensemble: Option<&Ensemble>) 
     }
 }
 
+/// Error of a measured surface of whose spectrum the uncertainty is not computed, or not yet.
+pub const SPECTRUM_NOT_COMPUTED: &str =
+    "not known: the uncertainty of the spectrum is not computed";
+
 /// Returns in words the error due to the measured surface.
 fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
     if let Some(error) = budget.surface.map(error_in_words) {
@@ -182,7 +186,7 @@ fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
     let words = if scene.measured().is_none() {
         "none: the scene states the surface"
     } else if scene.seed().is_some() {
-        "not known: the uncertainty of the spectrum is not computed"
+        SPECTRUM_NOT_COMPUTED
     } else {
         "not known: the measured profile counts as exact"
     };

@@ -9,7 +9,9 @@ use super::quantity::Quantity;
 use asperity_contact::Edges;
 use asperity_data::round_to;
 use asperity_scene::RoughnessParameter::Kappa;
-use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use asperity_scene::{
+    Adhesion, Governing, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, SceneErrors, Solver,
+};
 
 /// Quantities recorded in each [cell](crate::Plan) of a [`LiveMap`](crate::maps::LiveMap).
 pub const MAP_RECORD: [Quantity; 6] = [
@@ -238,6 +240,45 @@ impl Plan {
         } else {
             Err(StudyError::Plan(wrong))
         }
+    }
+
+    /// Returns the plan of a live map of `scene` for a file. The plan of a live map does not depend
+    /// on what the map does not show; the scene of the returned plan is `scene` again in these
+    /// respects: its values on the axes, its title and notes, its observers and the number of
+    /// points of its force curve. `computed` are the governing parameters of the computed scene,
+    /// see [`Axis::value_in`].
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow a value.
+    ///
+    /// ```
+    /// use asperity_study::Plan;
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?;
+    /// let map = Plan::of_map(scene.scene())?;
+    /// let plan = map.for_scene(scene.scene(), None)?;
+    /// assert_eq!(plan.scene.title, scene.scene().title);
+    /// assert_eq!(plan.scene.numerics.samples, scene.scene().numerics.samples);
+    /// assert_eq!(plan.axes[0].value_in(&plan.scene, None), Some(6.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn for_scene(
+        self,
+        scene: &Scene,
+        computed: Option<&Governing>,
+    ) -> Result<Plan, SceneErrors> {
+        let mut values = Vec::new();
+        for axis in &self.axes {
+            if let Some(value) = axis.value_in(scene, computed) {
+                values.push((axis, value));
+            }
+        }
+        let mut own = scene_with(&self.scene, values.iter().copied())?;
+        own.title.clone_from(&scene.title);
+        own.notice.clone_from(&scene.notice);
+        own.observe.clone_from(&scene.observe);
+        own.numerics.samples = scene.numerics.samples;
+        Ok(Plan { scene: own, ..self })
     }
 }
 

@@ -6,8 +6,7 @@ use super::{edit, measured, target};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
-use crate::explorer::panes;
-use crate::explorer::panes::spectrum;
+use crate::explorer::panes::{self, spectrum};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Study, ensemble_key, profiles_key};
@@ -57,8 +56,8 @@ pub fn studies(app: &mut App) -> Vec<Study> {
                     known.ok_or("the error cannot be estimated")
                 },
             ));
+            wanted.extend(spectrum::profiles(app, &computed, is_long));
             wanted.extend(measured::study(app));
-            wanted.extend(spectrum::measured_adhesion(app, &computed));
             wanted.extend(
                 app.view
                     .large

@@ -342,7 +342,7 @@ pub fn next_row(app: &mut App) {
     edit::edit_line(app, |line| *line = TextLine::new(&text));
 }
 
-/// Returns the plan of a study of the cells of the live map, with the springs of the scene and
+/// Returns the plan of a study of the cells of the live map, with the scene as it is and
 /// `profiles` random profiles.
 ///
 /// # Errors
@@ -355,12 +355,11 @@ pub fn plan(app: &App, profiles: u64) -> Result<Plan, String> {
         path.to_string_lossy().into_owned()
     });
     let plan = app.map.plan(&scene).map_err(|error| error.to_string())?;
-    let mut of_study = plan.scene.clone();
-    // Who opens the study gets its scene, whose curve should have all its points.
-    of_study.numerics.samples = scene.numerics.samples;
+    let plan = plan.for_scene(&scene, app.governing().as_ref());
+    let mut plan = plan.map_err(|error| error.to_string())?;
     let is_axis = plan.axes.iter().any(|axis| axis.path == "numerics.points");
     if !is_axis {
-        of_study.numerics.points = scene.numerics.points;
+        plan.scene.numerics.points = scene.numerics.points;
     }
     // The axis across comes first.
     let axes: Vec<&str> = plan
@@ -369,17 +368,12 @@ pub fn plan(app: &App, profiles: u64) -> Result<Plan, String> {
         .rev()
         .map(|axis| axis.symbol_or_name())
         .collect();
-    let title = format!(
+    plan.title = format!(
         "{} over {}",
         app.map.quantity.symbol_or_name(),
         axes.join(" × ")
     );
-    let mut plan = Plan {
-        title,
-        lines: if plan.lines > 1 { profiles } else { 1 },
-        scene: of_study,
-        ..plan
-    };
+    plan.lines = if plan.lines > 1 { profiles } else { 1 };
     if let Some(chosen) = &app.map.chosen {
         // The figure of a study has its first axis across, and draws what it records.
         plan.axes.reverse();

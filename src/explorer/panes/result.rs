@@ -10,7 +10,7 @@ use crate::explorer::shown_ensemble::ShownEnsemble;
 use crate::explorer::text::{fitted, range_in_words};
 use crate::explorer::theme::Meaning;
 use asperity_data::{counted, format_rounded, grouped};
-use asperity_report::{percent, theories_briefly};
+use asperity_report::{SPECTRUM_NOT_COMPUTED, percent, theories_briefly};
 use asperity_scene::Outcome;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::layout::Size;
@@ -252,30 +252,23 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
 }
 
 /// Returns the source of the largest error and the error in words. `rows` are the errors from all
-/// sources; the last row names the source of the largest one. If the error of a measured surface is
-/// not known, it may be larger, so the text says so.
+/// sources; the last row names the source of the largest one. As long as the error of a measured
+/// surface is not computed, which is often the largest one, the text says so.
 fn largest_error(rows: &[(&str, String)]) -> Option<String> {
     let ((_, largest), sources) = rows.split_last()?;
+    if sources.contains(&("surface", SPECTRUM_NOT_COMPUTED.to_owned())) {
+        return Some("surface not computed".to_owned());
+    }
     let source = largest.split(':').next().unwrap_or(largest);
     let words = sources.iter().find(|(name, _)| *name == source);
-    let text = match words {
+    Some(match words {
         Some((_, words)) => {
-            // The number of profiles is in the title of the pane.
-            let (error, _) = words
-                .split_once(" of the median")
-                .or_else(|| words.split_once(", by "))
-                .unwrap_or((words, ""));
-            format!("{source} {error}")
+            // The card names the number of profiles in its title.
+            let words = words.split(" of the median").next().unwrap_or(words);
+            let words = words.split(", by the ").next().unwrap_or(words);
+            format!("{source} {words}")
         }
         None => largest.clone(),
-    };
-    let is_surface_known = !sources
-        .iter()
-        .any(|(name, words)| *name == "surface" && words.starts_with("not known"));
-    Some(if is_surface_known {
-        text
-    } else {
-        format!("{text}, surface not known")
     })
 }
 
@@ -296,10 +289,9 @@ fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
 }
 
 /// Shorter wordings of results, in the order in which they are used.
-const SHORTER: [[&str; 2]; 10] = [
+const SHORTER: [[&str; 2]; 9] = [
     [": a premise does not hold", ": see the premises"],
     ["sample of profiles", "sample"],
-    ["not known", "unknown"],
     ["insensitive", "insens."],
     ["sensitive", "sens."],
     ["more than ", "> "],

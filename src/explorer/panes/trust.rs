@@ -387,7 +387,9 @@ fn present_in_words(app: &App) -> Vec<String> {
         Some(Estimate {
             near_step: true, ..
         }) => "near a step of F_a(F_n)".to_owned(),
-        Some(estimate) => format!("± {}", per_cent(estimate.error)),
+        // The sign states that the true error is rarely larger: the estimate may exceed the error
+        // that the measurement below finds.
+        Some(estimate) => format!("error ± {}", per_cent(estimate.error)),
     };
     let scene = app.edit.document.scene();
     let Some(table) = cost_table(app) else {
@@ -402,8 +404,10 @@ fn present_in_words(app: &App) -> Vec<String> {
     }
     vec![
         format!("{error} at this load in {time}"),
-        // A measured error may be smaller than the estimate, which is a bound.
-        format!("measured: up to {} at half to twice", per_cent(largest)),
+        format!(
+            "measured up to {} at half to twice the load",
+            per_cent(largest)
+        ),
     ]
 }
 

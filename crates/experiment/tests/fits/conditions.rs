@@ -225,24 +225,27 @@ fn assert_held(seeds: Vec<u64>) {
     assert_eq!([at_end, wrong_jumps], [0, 0], "ends of ranges, wrong jumps");
 }
 
+/// Number of curves that are fitted in every run of the tests. The slow tests fit others.
+const QUICK: u64 = 10;
+
 #[test]
 fn curves_of_all_conditions_are_held() {
-    assert_held((first_seed()..first_seed() + 10).collect());
+    assert_held((first_seed()..first_seed() + QUICK).collect());
 }
 
-/// 25 curves, times `TEST_EFFORT`, and at most 200.
+/// 25 curves, times `TEST_EFFORT`, and at most 200, with the curves of the test above.
 #[test]
 #[ignore = "fits of many curves take a minute or more"]
 fn most_curves_of_all_conditions_are_held() {
-    assert_held((first_seed()..first_seed() + cases(25, 200)).collect());
+    assert_held((first_seed() + QUICK..first_seed() + cases(25, 200)).collect());
 }
 
-/// 25 curves with drag, times `TEST_EFFORT`. The intervals hold the truth only if the drag in
-/// contact is that of the first touch of the model.
+/// 25 curves with drag, times `TEST_EFFORT`, with the curves of the first test. The intervals hold
+/// the truth only if the drag in contact is that of the first touch of the model.
 #[test]
 #[ignore = "fits of many curves take a minute or more"]
 fn most_curves_with_drag_are_held() {
-    let all = first_seed()..first_seed() + 5 * cases(25, u64::MAX);
+    let all = first_seed() + QUICK..first_seed() + 5 * cases(25, u64::MAX);
     let has_drag = |seed: &u64| CONDITIONS[*seed as usize % CONDITIONS.len()] == Condition::Drag;
     assert_held(all.filter(has_drag).collect());
 }

@@ -3,7 +3,7 @@
 use super::words::{omitted_waves, ratio};
 use crate::status::duration;
 use crate::words::whole_percent;
-use asperity_data::{counted, memory_size};
+use asperity_data::{counted, memory_size, per_cent};
 use asperity_study::half_space::{ReferenceEvent, SquareLoops};
 use std::time::{Duration, Instant};
 
@@ -136,7 +136,14 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
         return format!("three dimensions: 0 of {surfaces} squares, {share}");
     };
     let symbol = if is_adhesive { "F_a" } else { "d" };
-    let ratio = ratio(&compared);
+    let mut ratio = ratio(&compared);
+    // Without random surfaces the ratio has no interval. The error that is left is that of the grid.
+    if compared.error.is_none()
+        && let Some(reference) = &loops.reference
+        && let Some(error) = reference.budget.grid
+    {
+        ratio = format!("{ratio}, grid ± {}", per_cent(error));
+    }
     let squares = match &loops.reference {
         Some(reference) => omitted_waves(reference),
         None => format!(", {} of {surfaces} squares", loops.curves.len()),
@@ -147,6 +154,18 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
+    use asperity_scene::{Simulation, open};
+
+    /// The profile of a punch is exact, so that the difference from three dimensions is an error of
+    /// the grid.
+    #[test]
+    fn a_ratio_without_an_interval_has_the_error_of_the_grid() {
+        let scene = open("kendall-punch").unwrap().scene().clone();
+        let loops = SquareLoops::of(&scene, &mut Simulation::default(), Control::default());
+        let words = square_loops_words(&loops.unwrap(), true);
+        assert!(words.contains(", grid ± 15 %"), "{words}");
+    }
 
     #[test]
     fn there_is_progress_before_the_first_square() {
