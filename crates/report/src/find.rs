@@ -96,6 +96,10 @@ pub fn found_briefly(found: &Found) -> Vec<AnswerPart> {
         _ if with_value == 0 => {
             let text = format!("{} never", words.target);
             parts.push(AnswerPart::new(text, format!("{values}, {searched}")));
+            if let Some(reason) = &found.refused {
+                let text = format!("other values of {name} are not allowed");
+                parts.push(AnswerPart::new(text, reason.clone()));
+            }
             return parts;
         }
         None => {
@@ -202,9 +206,11 @@ struct SearchWords {
     /// Name of the number that is sought, such as the preload.
     name: String,
     quantity: String,
-    /// Wanted value of the quantity: `F_a/F_a,max = 80 %`.
+    /// Wanted value of the quantity: `80 %`.
+    wanted: String,
+    /// The quantity with its wanted value: `F_a/F_a,max = 80 %`.
     target: String,
-    /// Range of the searched numbers.
+    /// Range of the searched numbers for which the answers hold.
     searched: String,
     /// Range of the values of the quantity in the searched range; empty if the quantity has no
     /// value there.
@@ -218,13 +224,14 @@ impl SearchWords {
     fn new(found: &Found) -> Self {
         let question = &found.question;
         let quantity = question.quantity.symbol_or_name();
-        let target = rounded(question.quantity, question.target, 4);
+        let wanted = rounded(question.quantity, question.target, 4);
         SearchWords {
             of: question.quantity,
             name: question.axis.symbol_or_name().to_owned(),
-            target: format!("{quantity} = {target}"),
+            target: format!("{quantity} = {wanted}"),
+            wanted,
             quantity: quantity.to_owned(),
-            searched: format_range(question.searched, 4, question.axis.unit),
+            searched: format_range(found.answered_range(), 4, question.axis.unit),
             reachable: match found.reachable() {
                 Some(ends) => values_in_words(question.quantity, ends),
                 None => String::new(),
@@ -249,11 +256,12 @@ impl SearchWords {
         )
     }
 
-    /// Returns the answer for the case that the quantity reaches the target on no profile.
+    /// Returns the answer for the case that the quantity crosses the target on no profile.
     fn nowhere(&self, found: &Found) -> String {
         let SearchWords {
             name,
             quantity,
+            wanted,
             target,
             searched,
             reachable,
@@ -266,9 +274,18 @@ impl SearchWords {
         } else {
             "reached at none of the computed values"
         };
-        format!(
-            "{target} is {never} with {name} from {searched}: {quantity} is {reachable}.{missed}"
-        )
+        let only = if found.refused.is_some() {
+            ", beyond which the scene allows no value"
+        } else {
+            ""
+        };
+        let range = format!("{name} from {searched}{only}");
+        if found.answers.iter().all(reaches_everywhere) {
+            return format!(
+                "{quantity} is always above {wanted} with {range}: it is {reachable}.{missed}"
+            );
+        }
+        format!("{target} is {never} with {range}: {quantity} is {reachable}.{missed}")
     }
 
     /// Returns the answer for the case that the quantity reaches the target on less than half of
@@ -656,5 +673,54 @@ impl<'a> FindJson<'a> {
             searched: question.searched,
             answer: found_in_words(found),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_data::Control;
+    use asperity_scene::{Simulation, open};
+    use asperity_study::Question;
+
+    fn asked(condition: &str) -> Found {
+        let fields = [
+            ("length", "3.2e-4"),
+            (
+                "roughness",
+                "SelfAffine(hurst: 0.75, rms_height: 8.0e-7, wavelengths: (8.0e-5, 1.6e-6), seed: 1)",
+            ),
+            ("numerics.points", "1024"),
+        ];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive")
+            .unwrap()
+            .set_all(&fields)
+            .unwrap();
+        let condition = Question::parse_condition(condition).unwrap();
+        let simulation = &mut Simulation::default();
+        let question = Question::new(document.scene(), "length", condition, 2, simulation).unwrap();
+        Found::of(question, simulation, Control::default()).unwrap()
+    }
+
+    /// On longer profiles the springs carry no short waves. An answer holds only for the lengths that
+    /// the scene allows.
+    #[test]
+    fn an_answer_holds_for_the_values_that_the_scene_allows() {
+        let never = asked("F_a/F_a,max = 99.99 %");
+        let (from, to) = never.answered_range();
+        assert!(from >= 8e-5 && to <= 8.2e-4, "{from:e} to {to:e}");
+        assert!(never.question.searched.1 > 1e-2);
+        let words = found_in_words(&never);
+        let range = format_range((from, to), 4, "m");
+        let part = format!("with L from {range}, beyond which the scene allows no value: ");
+        assert!(words.contains(&part), "{words}");
+        let parts = found_briefly(&never);
+        let limit = parts.last().unwrap();
+        assert_eq!(limit.text, "other values of L are not allowed");
+        assert!(limit.detail.contains("springs carry no shorter wave"));
+
+        let always = found_in_words(&asked("F_a/F_a,max = 1e-6 %"));
+        assert!(always.contains("is always above "), "{always}");
     }
 }

@@ -37,6 +37,13 @@ pub struct Found {
     pub warnings: Vec<CountedWarning>,
 }
 
+/// Returns the smallest range that contains all given ranges; `None` if no range is given.
+fn enclosing(ranges: impl Iterator<Item = Option<(f64, f64)>>) -> Option<(f64, f64)> {
+    ranges
+        .flatten()
+        .reduce(|all, next| (all.0.min(next.0), all.1.max(next.1)))
+}
+
 impl Found {
     /// Answers a question on all its random profiles. `control` reports the number of finished
     /// profiles.
@@ -189,12 +196,17 @@ impl Found {
     /// all profiles and all tried values of the sought number. `None` if the quantity has no value
     /// on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
-        let mut reachable: Option<(f64, f64)> = None;
-        for (low, high) in self.answers.iter().filter_map(|answer| answer.reachable) {
-            let (least, most) = reachable.unwrap_or((low, high));
-            reachable = Some((least.min(low), most.max(high)));
+        enclosing(self.answers.iter().map(|answer| answer.reachable))
+    }
+
+    /// Returns the range of values of the number for which the answers hold. It is the searched
+    /// range, or only its computed part where the scene does not allow all searched values.
+    pub fn answered_range(&self) -> (f64, f64) {
+        let computed = enclosing(self.answers.iter().map(|answer| answer.computed));
+        match computed {
+            Some(range) if self.refused.is_some() => range,
+            _ => self.question.searched,
         }
-        reachable
     }
 
     /// Returns the value of the number on each profile, in ascending order. A profile without a

@@ -88,6 +88,10 @@ pub struct Answer {
     pub is_proven: bool,
     /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
+    /// Smallest and largest value of the sought number at which the quantity has a value; `None` if
+    /// there is none. The range is narrower than [`Question::searched`] where the scene does not
+    /// allow all searched values.
+    pub computed: Option<(f64, f64)>,
     /// For the smallest and for the largest tried number: true if the quantity is at least the
     /// target there. Numbers at which the quantity has no value are ignored.
     pub reached: [bool; 2],

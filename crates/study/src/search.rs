@@ -100,6 +100,9 @@ impl Search<'_> {
         let least = with_value.iter().map(|tried| tried.value).reduce(f64::min);
         let most = with_value.iter().map(|tried| tried.value).reduce(f64::max);
         answer.reachable = least.zip(most);
+        let first = with_value.first().map(|tried| tried.number);
+        let last = with_value.last().map(|tried| tried.number);
+        answer.computed = first.zip(last);
         answer.tried = self.known.len() as u64;
         answer.crossings.dedup();
         answer.step = answer
