@@ -4,11 +4,11 @@
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
 use asperity_contact::Relaxation;
-use asperity_data::{Remedy, Warning, Wording, per_cent};
+use asperity_data::{Remedy, Warning, Wording, format_range, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
-use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, Criterion, criteria};
+use asperity_study::{Ensemble, Quantity};
 
 /// Adds what criteria of other theories state about adhesion without a preload, and the error of
 /// the pull-off force from each source.
@@ -162,15 +162,19 @@ fn steps_in_words(error: f64) -> String {
     format!("{error}, by steps with up to {of_largest} of the largest force")
 }
 
-/// Returns in words the error due to the finite number of random profiles.
+/// Returns in words the error due to the finite number of random profiles: half of the width of the
+/// confidence interval of the median, and this interval, which may lie mostly on one side.
 fn sample_in_words(scene: &Scene, budget: &Budget, ensemble: Option<&Ensemble>) -> String {
-    match budget.sample.map(error_in_words) {
-        Some(error) => {
+    let statistics = ensemble.and_then(|ensemble| ensemble.statistics(Quantity::PullOffForce));
+    let interval = statistics.and_then(|statistics| statistics.median_interval);
+    match (budget.sample.map(error_in_words), interval) {
+        (Some(error), Some(interval)) => {
+            let interval = format_range(interval, 3, "N");
             let profiles = ensemble.map_or(1, Ensemble::computed);
-            format!("{error} of the median of {profiles} profiles")
+            format!("{error} of the median of {profiles} profiles: {interval}")
         }
-        None if scene.seed().is_some() => "not known: too few profiles".to_owned(),
-        None => "none: the profile is fixed".to_owned(),
+        _ if scene.seed().is_some() => "not known: too few profiles".to_owned(),
+        _ => "none: the profile is fixed".to_owned(),
     }
 }
 
@@ -397,7 +401,7 @@ mod tests {
         );
         let among = words(rows(Some(&ensemble)));
         assert!(
-            among[1].starts_with("± ") && among[1].ends_with(" of the median of 6 profiles"),
+            among[1].starts_with("± ") && among[1].contains(" of the median of 6 profiles: "),
             "{among:?}"
         );
         assert!(among[4].starts_with("sample of profiles"), "{among:?}");

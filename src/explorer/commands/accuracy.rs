@@ -56,8 +56,8 @@ pub fn studies(app: &mut App) -> Vec<Study> {
                     known.ok_or("the error cannot be estimated")
                 },
             ));
-            wanted.extend(spectrum::profiles(app, &computed, is_long));
             wanted.extend(measured::study(app));
+            wanted.extend(spectrum::measured_adhesion(app, &computed));
             wanted.extend(
                 app.view
                     .large

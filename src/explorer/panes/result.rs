@@ -253,22 +253,27 @@ fn results(app: &App, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Res
 
 /// Returns the source of the largest error and the error in words. `rows` are the errors from all
 /// sources; the last row names the source of the largest one. As long as the error of a measured
-/// surface is not computed, which is often the largest one, the text says so.
+/// surface is not computed, which may be larger, the text says so.
 fn largest_error(rows: &[(&str, String)]) -> Option<String> {
     let ((_, largest), sources) = rows.split_last()?;
-    if sources.contains(&("surface", SPECTRUM_NOT_COMPUTED.to_owned())) {
-        return Some("surface not computed".to_owned());
-    }
     let source = largest.split(':').next().unwrap_or(largest);
     let words = sources.iter().find(|(name, _)| *name == source);
-    Some(match words {
+    let text = match words {
         Some((_, words)) => {
-            // The card names the number of profiles in its title.
-            let words = words.split(" of the median").next().unwrap_or(words);
-            let words = words.split(", by the ").next().unwrap_or(words);
-            format!("{source} {words}")
+            // The number of profiles is in the title of the pane.
+            let (error, _) = words
+                .split_once(" of the median")
+                .or_else(|| words.split_once(", by "))
+                .unwrap_or((words, ""));
+            format!("{source} {error}")
         }
         None => largest.clone(),
+    };
+    let not_computed = ("surface", SPECTRUM_NOT_COMPUTED.to_owned());
+    Some(if sources.contains(&not_computed) {
+        format!("{text}, surface not known")
+    } else {
+        text
     })
 }
 
@@ -289,9 +294,10 @@ fn range_in_unit(low: f64, high: f64, unit: &str) -> String {
 }
 
 /// Shorter wordings of results, in the order in which they are used.
-const SHORTER: [[&str; 2]; 9] = [
+const SHORTER: [[&str; 2]; 10] = [
     [": a premise does not hold", ": see the premises"],
     ["sample of profiles", "sample"],
+    ["not known", "unknown"],
     ["insensitive", "insens."],
     ["sensitive", "sens."],
     ["more than ", "> "],

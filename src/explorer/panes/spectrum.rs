@@ -3,6 +3,7 @@
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
+use crate::explorer::pane::Pane;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -145,18 +146,20 @@ fn is_sampled(scene: &Scene) -> bool {
 }
 
 /// Returns the study (background computation) that computes the pull-off force of those random
-/// profiles that have not been computed yet. The error of the pull-off force by the uncertainty of
-/// the measured spectrum follows from it. `None` if the profile of the scene is not the equivalent
-/// line of a measured surface. `is_long` is true if demos leave the study out.
-pub fn profiles(app: &App, computed: &SolvedScene, is_long: bool) -> Option<Study> {
-    if !is_sampled(&computed.scene) {
+/// profiles of a measured surface that have not been computed yet. From them follows the error due
+/// to the uncertainty of the spectrum, which the results and the pane of accuracy state as well.
+/// `None` for other scenes, and for many springs unless the pane of spectra is shown.
+pub fn measured_adhesion(app: &App, computed: &SolvedScene) -> Option<Study> {
+    let is_quick = computed.scene.numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
+    let is_wanted = is_quick || app.view.large == Some(Pane::Spectrum);
+    if !is_wanted || !is_sampled(&computed.scene) {
         return None;
     }
     let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);
     Some(Study::new(
         computed.generation,
-        is_long,
+        false,
         move |_, mut control| {
             let faces = read_faces(&scene.measured_paths(Path::new("")))?;
             let line = EquivalentLine::new(&faces, &scene.measured_options())?;

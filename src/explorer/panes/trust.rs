@@ -387,9 +387,7 @@ fn present_in_words(app: &App) -> Vec<String> {
         Some(Estimate {
             near_step: true, ..
         }) => "near a step of F_a(F_n)".to_owned(),
-        // The sign states that the true error is rarely larger: the estimate may exceed the error
-        // that the measurement below finds.
-        Some(estimate) => format!("error ± {}", per_cent(estimate.error)),
+        Some(estimate) => format!("± {}", per_cent(estimate.error)),
     };
     let scene = app.edit.document.scene();
     let Some(table) = cost_table(app) else {
@@ -404,10 +402,8 @@ fn present_in_words(app: &App) -> Vec<String> {
     }
     vec![
         format!("{error} at this load in {time}"),
-        format!(
-            "measured up to {} at half to twice the load",
-            per_cent(largest)
-        ),
+        // A measured error may be smaller than the estimate, which is a bound.
+        format!("measured: up to {} at half to twice", per_cent(largest)),
     ]
 }
 

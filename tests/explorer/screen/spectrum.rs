@@ -1,6 +1,7 @@
 //! The pane of spectra.
 
 use super::*;
+use asperity::study::Ensemble;
 use asperity::study::trust::MeasuredAdhesion;
 use asperity_report::SceneSpectra;
 
@@ -152,16 +153,20 @@ fn the_path_of_a_measured_surface_is_completed_beside_the_scene() {
 /// The error by the uncertainty of the measured spectrum is computed whatever pane is shown. The
 /// card names it as the largest error, or says that it is not computed.
 #[test]
-fn the_error_of_a_measured_surface_is_known_without_its_pane() {
+fn the_results_have_the_error_of_a_measured_surface_without_its_pane() {
     let folder = tempfile::tempdir().unwrap();
     let document = measured(&folder.path().join("stylus.txt"));
-    let waits = |study: &Study| !study.is::<MeasuredAdhesion>();
-    let mut driver = Driver::open_with(document.clone(), Simulation::run, waits);
+    let mut without = Driver::open_with(document.clone(), Simulation::run, Study::is::<Ensemble>);
+    without.perform(vec![Task::Ask]);
+    without.resize((160, 45));
+    without.shows("surface not known");
+    let performs = |study: &Study| study.is::<Ensemble>() || study.is::<MeasuredAdhesion>();
+    let mut driver = Driver::open_with(document, Simulation::run, performs);
     driver.perform(vec![Task::Ask]);
-    driver.shows_all(["surface not computed"]);
-    let mut driver = Driver::open_with(document, Simulation::run, |study| !study.is_long);
-    driver.perform(vec![Task::Ask]);
-    driver.shows_all(["error       surface ± "]);
+    driver.hides("surface not known");
+    driver.shows("error       surface ± ");
+    let found = driver.app.studies.value::<MeasuredAdhesion>().unwrap();
+    assert!(found.fit_deviation().is_some() && found.profiles.len() == 16);
     driver.press("A z");
     driver.shows_all([
         "by the uncertainty of the measured spectrum",
