@@ -182,7 +182,7 @@ impl Body {
     }
 
     fn point_of(&self, state: ContactState) -> CurvePoint {
-        state.point(self.stage.contact().foundation)
+        state.point(self.stage.contact())
     }
 
     /// Returns the stage of a motion in this direction: the present stage if it has this direction,
@@ -340,7 +340,7 @@ impl Body {
         let loosest = motion
             .stage
             .least_displaced(&sampled.states, &mut self.work)?;
-        Ok(Some(loosest.point(contact.foundation)))
+        Ok(Some(loosest.point(contact)))
     }
 
     /// Returns the contact at the end of a motion. If the body separates, the motion ends at the

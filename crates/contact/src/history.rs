@@ -483,7 +483,50 @@ impl CurvePoint {
     /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
     /// at this point of the force curve. k = `stiffness` is the stiffness of the instrument in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
+        ForcePoint::from(self).displacement(stiffness)
+    }
+}
+
+/// One point of a force curve without the stored energy.
+///
+/// ```
+/// use asperity_contact::ForcePoint;
+///
+/// let pressed = ForcePoint { indentation: 1.0e-7, force: 2.0e-6, springs: 1 };
+/// // A cantilever of 20 N/m is bent by 100 nm.
+/// assert!((pressed.displacement(20.0) - 2.0e-7).abs() < 1e-20);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForcePoint {
+    /// Indentation d in m; 0 at first touch.
+    pub indentation: f64,
+    /// Force F in N; compression is positive.
+    pub force: f64,
+    /// Number of springs in contact.
+    pub springs: u64,
+}
+
+impl ForcePoint {
+    /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
+    /// at this point of the force curve. k = `stiffness` is the stiffness of the instrument in N/m.
+    pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
+    }
+}
+
+impl From<&ForcePoint> for ForcePoint {
+    fn from(point: &ForcePoint) -> Self {
+        *point
+    }
+}
+
+impl From<&CurvePoint> for ForcePoint {
+    fn from(point: &CurvePoint) -> Self {
+        ForcePoint {
+            indentation: point.indentation,
+            force: point.force,
+            springs: point.springs,
+        }
     }
 }
 

@@ -382,7 +382,8 @@ impl<R: DetachmentRule> Interval<R> {
     /// dx minus the sum of the squared stretches with which springs attach at the moving edges).
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
-        let squares = self.steady(from, high).squares - self.steady(from, low).squares;
+        let squares_at = |indentation| self.steady(from, indentation).squares(&self.scale);
+        let squares = squares_at(high) - squares_at(low);
         let surface = self.surface(high) - self.surface(low);
         let instrument = self.instrument * (high - low) * (high + low);
         0.5 * (squares - surface + instrument)

@@ -76,7 +76,7 @@ pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
 pub use events::{Event, Events};
 pub use figures::{Figures, Mark, MarkedPoint};
-pub use history::{CurvePoint, Direction, History, Patch, StageRecord, Work};
+pub use history::{CurvePoint, Direction, ForcePoint, History, Patch, StageRecord, Work};
 pub use modulus::Modulus;
 pub use nominal_form::NominalForm;
 pub use profile::Profile;

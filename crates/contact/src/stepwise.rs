@@ -209,7 +209,7 @@ impl<'a> Stepwise<'a> {
         let scale = self.contact.profile.springs.scale();
         let edges = EdgeCells::default();
         let state = ContactState::new(false, self.indentation, totals, edges, &scale);
-        state.point(self.contact.foundation)
+        state.point(&self.contact)
     }
 
     /// Returns an error if a motion certainly needs more steps than allowed. The solver calls this

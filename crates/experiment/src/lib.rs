@@ -6,8 +6,9 @@
 //!
 //! * Reading a curve: [`MeasuredCurve::read`] reads a file. [`CurveOptions`] state how to treat
 //!   drift ([`Drift`]), tilt ([`Tilt`]) and signs ([`Negate`]).
-//! * Reading several curves: [`CurveSource::all`] finds those of folders and of files with several
-//!   ([`SeveralCurves`]), and reads each of them with its place ([`PlacedCurve`]).
+//! * Reading several curves: [`CurveSource::all`] finds the curves in folders and in files with
+//!   several curves ([`SeveralCurves`]). [`CurveSource::read`] reads each of them with its place
+//!   ([`PlacedCurve`]).
 //! * Fitting one curve: [`Fit`] searches the [`Free`] parameters of a scene. A [`FitResult`] has a
 //!   [`FittedParameter`] for each free parameter, a [`RelaxedModulus`] if the half-space relaxes,
 //!   and a [`Reason`] if the model does not describe the curve. [`ParameterRow`] has name and unit

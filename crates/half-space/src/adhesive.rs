@@ -112,7 +112,7 @@ impl AdhesiveSquare {
         let mut grid = Grid::new(ringed, Boundary::Free)?;
         let highest = highest(square)?;
         for index in 0..ringed * ringed {
-            // The ring of cells around the body has the heights of the nearest cells of the body.
+            // Each cell of the ring around the body has the height of the nearest cell of the body.
             let row = (index / ringed).clamp(1, cells) - 1;
             let column = (index % ringed).clamp(1, cells) - 1;
             grid.depths[index] = (highest - heights[row * cells + column]) / side_with_ring;
@@ -400,7 +400,7 @@ mod tests {
                     "{critical}: {mean} of {found:?}"
                 );
                 assert!(
-                    found.iter().all(|[_, one]| (one - 1.0).abs() < of_one),
+                    found.iter().all(|[_, force]| (force - 1.0).abs() < of_one),
                     "{critical}: {found:?}"
                 );
             }
@@ -529,7 +529,7 @@ mod tests {
     }
 
     /// Rough squares of two Hurst exponents, from weakly to strongly adhesive, are pressed and
-    /// pulled off. Each loop ends in separation and dissipates energy. With an effort of 175 there
+    /// pulled off. Each loop ends in separation and dissipates energy. With `TEST_EFFORT=175` there
     /// are seven hundred loops.
     #[test]
     fn loops_of_rough_squares_end() {
@@ -562,7 +562,7 @@ mod tests {
                 let waves = (-8..=8_i32)
                     .flat_map(|x| (-8..=8_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
                 let waves: Vec<f64> = waves.filter(|k| *k > 0.0 && *k <= 8.0).collect();
-                let sum = |of: &dyn Fn(f64) -> f64| waves.iter().map(|k| of(*k)).sum::<f64>();
+                let sum = |term: &dyn Fn(f64) -> f64| waves.iter().map(|k| term(*k)).sum::<f64>();
                 let energy = 0.25 * rms_height.powi(2) * sum(&|k| 2.0 * PI * k * power(k))
                     / sum(&|k| power(k));
                 let work = energy / ratio;

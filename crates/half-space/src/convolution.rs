@@ -38,13 +38,11 @@ pub struct Convolution<T> {
     scratch: Vec<Complex<T>>,
 }
 
-/// Planned transforms of a row.
 struct PlannedRows<T> {
     forward: Arc<dyn RealToComplex<T>>,
     inverse: Arc<dyn ComplexToReal<T>>,
 }
 
-/// Planned transforms of a column.
 struct PlannedColumns<T> {
     forward: Arc<dyn Fft<T>>,
     inverse: Arc<dyn Fft<T>>,

@@ -468,8 +468,8 @@ mod tests {
     #[test]
     fn turned_squares_have_turned_pressures() {
         let (cells, heights) = (64, rough(64, 0.8, 3));
-        let turn = |at: usize| (cells - 1 - at % cells) * cells + at / cells;
-        let turned: Vec<f64> = (0..cells * cells).map(|at| heights[turn(at)]).collect();
+        let turn = |cell: usize| (cells - 1 - cell % cells) * cells + cell / cells;
+        let turned: Vec<f64> = (0..cells * cells).map(|cell| heights[turn(cell)]).collect();
         let mut half_space = HalfSpace::new(cells, Boundary::Free).unwrap();
         let [one, other] = [&heights, &turned].map(|heights| {
             let square = Square {

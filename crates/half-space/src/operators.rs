@@ -60,9 +60,9 @@ impl Operators {
                 displacement_by_cell(x as f64, y as f64) / cells as f64
             })?,
         };
-        // For the mean pressure, the inverse uses the value of the longest wave. This value need
-        // not be exact: under a force the mean is subtracted later, and under an indentation the
-        // inverse is only an approximation.
+        // For the mean pressure, the inverse uses the value of a wave that is twice as long as the
+        // padded grid. This value need not be exact: under a force the mean is subtracted later,
+        // and under an indentation the inverse is only an approximation.
         let length = padded.stiffness as f64 / cells as f64;
         let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
         Ok(Operators {
@@ -310,8 +310,9 @@ impl PaddedSides {
     }
 }
 
-/// Returns the displacement at the distance (x, y) from a cell by a pressure of E* on this cell
-/// (Love 1929). The distances are in cells, and the displacement is in units of the side of a cell.
+/// Returns the displacement that a pressure of E* on a cell causes at the distance (x, y) from the
+/// middle of this cell (Love 1929). The distances are in cells, and the displacement is in units of
+/// the side of a cell.
 fn displacement_by_cell(x: f64, y: f64) -> f64 {
     let left = x - 0.5;
     let right = x + 0.5;
@@ -343,7 +344,7 @@ mod tests {
     #[test]
     fn a_cell_displaces_by_the_integral_over_it() {
         assert!((displacement_by_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
-        // The expected value is the sum of the displacements by small parts of the cell.
+        // The expected value is the sum of the displacements that small parts of the cell cause.
         let parts = 200;
         for (x, y) in [(1.0, 0.0), (3.0, 2.0), (0.0, 7.0), (40.0, 9.0)] {
             let mut sum = 0.0;
@@ -358,10 +359,11 @@ mod tests {
         }
     }
 
-    fn scalar_product(one: &[f32], other: &[f32]) -> f64 {
-        one.iter()
-            .zip(other)
-            .map(|(one, other)| f64::from(*one) * f64::from(*other))
+    fn scalar_product(first: &[f32], second: &[f32]) -> f64 {
+        first
+            .iter()
+            .zip(second)
+            .map(|(first, second)| f64::from(*first) * f64::from(*second))
             .sum()
     }
 

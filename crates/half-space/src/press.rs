@@ -103,7 +103,7 @@ struct Step {
 struct GradientSums {
     /// Scalar product of gradient and residual.
     with_residual: f64,
-    /// Scalar product of gradient and the residual before the last step.
+    /// Scalar product of the gradient and the residual before the last step.
     with_former_residual: f64,
     total: f64,
 }
@@ -119,7 +119,7 @@ struct DirectionSums {
     image_on_contact: f64,
 }
 
-/// Rows that are borrowed while the displacements by a direction are computed.
+/// Search direction, its image and the sums of both, while the image is computed row by row.
 struct DirectionRows<'a> {
     direction: &'a mut [f64],
     image: &'a mut [f64],
@@ -322,7 +322,7 @@ impl Grid {
         }
     }
 
-    /// Removes the cells from the contact whose pressure is not positive, and adds the cells that
+    /// Removes from the contact the cells whose pressure is not positive, and adds the cells that
     /// penetrate. Returns true if a negative pressure was set to zero.
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
@@ -426,7 +426,7 @@ impl Grid {
     }
 
     /// Makes one step of the conjugate gradients on the present contact. `last_product` is the
-    /// product in the [`Step`] before; `None` for the first step.
+    /// product of the previous [`Step`]; `None` for the first step.
     fn step(&mut self, given: Given, last_product: Option<f64>) -> Step {
         let gradient = self.find_gradient();
         let product = gradient.with_residual;
@@ -493,8 +493,9 @@ impl Grid {
         }
     }
 
-    /// Computes the direction of a step and the displacements by this direction. The direction is
-    /// the gradient minus `mean` on the contact, plus `carried` times the former direction.
+    /// Computes the direction of a step and the displacements that this direction causes. The
+    /// direction is the gradient minus `mean` on the contact, plus `carried` times the former
+    /// direction.
     fn find_direction(&mut self, mean: f64, carried: f64) -> DirectionSums {
         let Grid {
             cells,

@@ -312,7 +312,7 @@ impl Axis {
     /// Returns the indices of the values of this axis, sorted so that the values ascend.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
-        places.sort_by(|one, other| self.values[*one].total_cmp(&self.values[*other]));
+        places.sort_by(|first, second| self.values[*first].total_cmp(&self.values[*second]));
         places
     }
 

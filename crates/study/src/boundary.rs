@@ -131,7 +131,7 @@ fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve
             common.extend(shares[line]);
         }
     }
-    curve.sort_by(|one, other| one.0.total_cmp(&other.0));
+    curve.sort_by(|first, second| first.0.total_cmp(&second.0));
     curve
 }
 

@@ -132,8 +132,8 @@ mod tests {
     fn a_ratio_has_its_errors() {
         let found = compared(&[2.0; 40], &[1.0, 2.0, 3.0], &[1.5, 2.0, 3.1]).unwrap();
         assert_eq!(found.ratio, 1.0);
-        // All lines have the same value, so their mean has no error. The squares have two degrees
-        // of freedom, and their mean of 2 has the standard error 1/√3.
+        // All profiles have the same value, so their mean has no error. The square surfaces have
+        // two degrees of freedom, and their mean of 2 has the standard error 1/√3.
         let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
         assert!(
             (found.error.unwrap() / expected - 1.0).abs() < 1e-9,
@@ -152,17 +152,18 @@ mod tests {
         assert_eq!(both.grid, None);
     }
 
-    /// If the squares by chance scatter less than the lines, the scatter of the lines keeps the
-    /// confidence interval wide.
+    /// If the square surfaces by chance scatter less than the profiles, the scatter of the profiles
+    /// keeps the confidence interval wide.
     #[test]
     fn the_scatter_of_the_lines_counts_for_few_squares() {
         let lines: Vec<f64> = (0..100).map(|line| 1.0 + f64::from(line % 2)).collect();
         let wide = compared(&lines, &[2.0, 2.01], &[]).unwrap().error.unwrap();
-        // The relative standard deviation of the lines is 1/3. It replaces that of the two squares.
-        // The standard error of the mean of the lines is negligible.
+        // The relative standard deviation of the profiles is 1/3. It replaces that of the two
+        // square surfaces. The standard error of the mean over the profiles is negligible.
         let of_squares = 1.0 / 3.0 / 2.0_f64.sqrt();
         assert!(wide > 1.9 * 0.75 * of_squares, "{wide}");
-        // If the squares scatter more than the lines, the scatter of the squares is used.
+        // If the square surfaces scatter more than the profiles, the scatter of the square surfaces
+        // is used.
         let own = compared(&lines, &[1.0, 9.0], &[]).unwrap();
         let narrow = compared(&[1.5; 100], &[1.0, 9.0], &[]).unwrap();
         assert!(

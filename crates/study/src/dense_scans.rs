@@ -14,8 +14,8 @@ use rand::{RngExt, SeedableRng};
 
 /// Number of scenes that a dense scan computes.
 const RUNS: usize = 400;
-/// Relative distance below and above a crossing at which the quantity is computed. It must be on
-/// different sides of the target there.
+/// Relative distance below and above a crossing at which the quantity is computed. The quantity
+/// must be on different sides of the target at these two numbers.
 const BESIDE: f64 = 4e-9;
 
 const SCENES: [&str; 9] = [
@@ -162,7 +162,7 @@ impl Case {
         }
         numbers.retain(|number| *number >= from * (1.0 - 1e-12) && *number <= to * (1.0 + 1e-12));
         numbers.sort_by(f64::total_cmp);
-        numbers.dedup_by(|one, other| (*one / *other - 1.0).abs() < 1e-12);
+        numbers.dedup_by(|first, second| (*first / *second - 1.0).abs() < 1e-12);
         numbers
     }
 }
@@ -171,8 +171,8 @@ impl Case {
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     questions: usize,
-    /// Number of answers that are proven. `may_miss` is the number of answers that state that
-    /// crossings may be missed.
+    /// Number of answers that are proven to miss no crossing. `may_miss` is the number of answers
+    /// that state that crossings may be missed.
     proven: usize,
     may_miss: usize,
     /// Number of questions for which the quantity crosses the target in the dense scan.

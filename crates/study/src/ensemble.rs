@@ -100,7 +100,8 @@ impl Ensemble {
     /// in other processes. The arguments are those of [`Ensemble::of`].
     ///
     /// # Errors
-    /// Returns an error if zero profiles are requested, or several of a fixed profile.
+    /// Returns an error if zero profiles are requested, or if several are requested although the
+    /// profile of the scene is fixed.
     pub fn plan(scene: &Scene, further: &[Quantity], profiles: u64) -> Result<Plan, StudyError> {
         StudyError::check_profiles(scene, profiles)?;
         let record = Ensemble::recorded(further);
@@ -214,21 +215,22 @@ mod tests {
         };
         assert_eq!(
             found.values(Quantity::PullOffForce),
-            of(|one| one.figures.pull_off_force)
+            of(|outcome| outcome.figures.pull_off_force)
         );
         assert_eq!(
             found.values(Quantity::FirstTouchPullOffForce),
-            of(|one| one.first_touch_pull_off_force)
+            of(|outcome| outcome.first_touch_pull_off_force)
         );
         assert_eq!(
             found.values(Quantity::ZeroForcePullOffForce),
-            of(|one| one.zero_force_pull_off_force)
+            of(|outcome| outcome.zero_force_pull_off_force)
         );
         assert_eq!(
             found.values(Quantity::DissipatedEnergy),
-            of(|one| one.figures.dissipated_energy)
+            of(|outcome| outcome.figures.dissipated_energy)
         );
-        let share = of(|one| Some(one.figures.pull_off_force? / one.ideal_pull_off_force?));
+        let share =
+            of(|outcome| Some(outcome.figures.pull_off_force? / outcome.ideal_pull_off_force?));
         assert_eq!(found.values(Quantity::AdhesionShare), share);
         let mut shares: Vec<f64> = share.into_iter().flatten().collect();
         shares.sort_by(f64::total_cmp);
@@ -237,7 +239,7 @@ mod tests {
             (all.range, all.quartiles[1]),
             ((shares[0], shares[5]), f64::midpoint(shares[2], shares[3]))
         );
-        let regimes = RegimeCounts::of(outcomes.iter().map(|one| one.regime));
+        let regimes = RegimeCounts::of(outcomes.iter().map(|outcome| outcome.regime));
         assert_eq!(found.regimes()[0], regimes);
     }
 

@@ -454,7 +454,7 @@ mod tests {
                 assert_eq!(answer.step, None);
                 continue;
             }
-            // Most of the steps of the staircase pass over the target.
+            // At most crossings the pull-off force jumps from below the target to above it.
             if let Some([below, at]) = answer.step {
                 assert!(below < target, "{seed}");
                 assert!((at / force(value) - 1.0).abs() < 1e-9, "{seed}");

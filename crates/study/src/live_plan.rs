@@ -242,11 +242,11 @@ impl Plan {
         }
     }
 
-    /// Returns the plan of a live map of `scene` for a file. The plan of a live map does not depend
-    /// on what the map does not show; the scene of the returned plan is `scene` again in these
-    /// respects: its values on the axes, its title and notes, its observers and the number of
-    /// points of its force curve. `computed` are the governing parameters of the computed scene,
-    /// see [`Axis::value_in`].
+    /// Returns this plan of a live map in the form in which it is written to a file. The scene in
+    /// the plan of a live map lacks what the map does not show. The scene in the returned plan has
+    /// these properties of `scene` again: its values on the axes, its title and notice, its
+    /// observers and the number of points of its force curve. `computed` are the governing
+    /// parameters of the computed scene, see [`Axis::value_in`].
     ///
     /// # Errors
     /// Returns an error if the scene does not allow a value.

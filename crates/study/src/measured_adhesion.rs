@@ -17,9 +17,10 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-/// Share of a change of the spectrum, drawn at random, by which the spectrum is changed. The errors
-/// of the fit are valid to first order, so the change must be small. The longest waves are nearly
-/// unknown, and a full drawn change could alter their power by a factor of several powers of ten.
+/// The spectrum is changed by this share of a change that is drawn at random from the uncertainty
+/// of the fit. The errors of the fit are valid to first order, so the change must be small. The
+/// longest waves are nearly unknown, and a full drawn change could alter their power by a factor of
+/// several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile with the spectrum of a measured surface.
@@ -380,7 +381,7 @@ mod tests {
         assert_eq!(
             found
                 .regimes()
-                .map(|of| of.present().map(|(_, count)| count).sum::<usize>()),
+                .map(|counts| counts.present().map(|(_, count)| count).sum::<usize>()),
             [6; 2]
         );
     }
@@ -473,8 +474,9 @@ mod tests {
             .run(&scene, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
-        let with_work =
-            |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
+        let with_work = |scene: &mut Scene| {
+            scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work))
+        };
         let scene = scene.with(with_work).unwrap();
         assert_eq!(
             MeasuredAdhesion::of_line(&scene, &line, 2, Control::default().on_threads(1)).unwrap(),

@@ -107,8 +107,8 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-/// Returns the number of elements of the list in which a path is, as the end of a message; empty
-/// for a path outside lists.
+/// Returns the end of an error message about a path in a list, which says how many elements the
+/// list has; empty for a path outside lists.
 fn counted(scene: &Scene, path: &str) -> String {
     let spheres = scene.form.as_ref().map_or(0, |form| form.spheres().len());
     if path.starts_with("loading.") {
@@ -121,8 +121,8 @@ fn counted(scene: &Scene, path: &str) -> String {
     }
 }
 
-/// Returns the turn at which the quantity of an axis is set in a scene: 0 comes first. Quantities
-/// with the same turn are set in the order of the axes.
+/// Returns the position of an axis in the order in which quantities are set in a scene; 0 comes
+/// first. Quantities with the same position are set in the order of the axes.
 fn turn(axis: &Axis) -> usize {
     match (axis.target, axis.path.as_str()) {
         // The number of springs per wave comes after the number of springs, because the last mode

@@ -462,16 +462,16 @@ mod tests {
                     Axis { values, ..axis }
                 })
                 .collect();
-            for (index, one) in axes.iter().enumerate() {
-                for other in &axes[..index] {
-                    // The axis once has all its seven values, and then fewer values around the
-                    // value of the scene.
+            for (index, first) in axes.iter().enumerate() {
+                for second in &axes[..index] {
+                    // First both axes have all their seven values, and then fewer values around the
+                    // values of the scene.
                     for range in [0..7, 1..6, 2..5] {
                         let part = |axis: &Axis| Axis {
                             values: axis.values[range.clone()].to_vec(),
                             ..axis.clone()
                         };
-                        let axes = vec![part(one), part(other)];
+                        let axes = vec![part(first), part(second)];
                         let plan = Plan {
                             axes,
                             ..Plan::of_scene(scene, 1, &[Quantity::Regime])

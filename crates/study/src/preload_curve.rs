@@ -48,9 +48,9 @@ impl PreloadCurve {
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no adhesion or no stage
-    /// that presses the bodies together, or if the solver of the scene is not [`Solver::Exact`]. It
-    /// is also an error if a profile or its contact cannot be computed, or if `control` stops the
-    /// computation.
+    /// that presses the bodies together, if the solver of the scene is not [`Solver::Exact`], or if
+    /// its half-space relaxes. It is also an error if a profile or its contact cannot be computed,
+    /// or if `control` stops the computation.
     pub fn of(
         scene: &CheckedScene,
         outcome: &Outcome,
@@ -165,7 +165,7 @@ fn preload_of(scene: &CheckedScene, outcome: &Outcome) -> Result<f64, StudyError
     })
 }
 
-/// Returns the force at first touch, N.
+/// Returns the force at first touch in N.
 fn force_at_touch(
     scene: &CheckedScene,
     simulation: &mut Simulation,

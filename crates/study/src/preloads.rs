@@ -217,7 +217,7 @@ impl Staircase {
             }
             staircase
                 .forces
-                .sort_by(|one, other| one.0.total_cmp(&other.0));
+                .sort_by(|first, second| first.0.total_cmp(&second.0));
             control.report(&staircase);
             missing = staircase.halves();
         }
@@ -265,9 +265,9 @@ impl Staircase {
 /// Force at a turning point of the loading, and pull-off force of the unloading from this point.
 #[derive(Clone, Copy, Default)]
 struct Turned {
-    /// Force at the turning point, N.
+    /// Force at the turning point in N.
     force: f64,
-    /// Pull-off force of the unloading, N; 0 if the force is never negative.
+    /// Pull-off force of the unloading in N; 0 if the force is never negative.
     pull_off_force: f64,
 }
 
@@ -413,7 +413,7 @@ mod tests {
         let means: Vec<f64> = results
             .spread_of_adhesion()
             .iter()
-            .map(|(_, one)| one.mean)
+            .map(|(_, statistics)| statistics.mean)
             .collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
         // With twice the preload, the mean pull-off force is about twice as large.

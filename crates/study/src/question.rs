@@ -150,7 +150,7 @@ impl Question {
         let (least, most) = quantity.bounds();
         if target < least || target > most {
             let [found, least, end] =
-                [target, least, most].map(|one| format_quantity(one, quantity.unit()));
+                [target, least, most].map(|value| format_quantity(value, quantity.unit()));
             let allowed = if most.is_finite() {
                 format!("from {least} to {end}")
             } else {
@@ -174,7 +174,7 @@ impl Question {
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
     /// profile of the scene is fixed. A preload is refused if the solver of the scene is not
-    /// [`Solver::Exact`].
+    /// [`Solver::Exact`], or if its half-space relaxes.
     pub fn new(
         scene: &CheckedScene,
         path: &str,
@@ -272,8 +272,8 @@ impl Question {
     }
 
     /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is
-    /// the pull-off force of a loop. With a larger work of adhesion more springs stay in contact at
-    /// each indentation, so this force never falls.
+    /// the pull-off force of a loop of an elastic body on a rigid instrument. With a larger work of
+    /// adhesion more springs stay in contact at each indentation, so this force never falls.
     fn is_adhesion_over_work(&self) -> bool {
         let is_work = matches!(self.axis.target, Target::Number(Field { path: WORK, .. }));
         let scene = &self.plan.scene;

@@ -1,10 +1,11 @@
 //! Comparison of random profiles with random square surfaces in three dimensions that have the same
 //! spectrum.
 //!
-//! A free rigid square of the side L on an elastic half-space is compared with a profile (line) of
-//! the length L. No constant is fitted. The heights of square and line are drawn independently, so
-//! only means over many squares and many lines are compared. At the same force the contact area of
-//! the line model is 1.1 to 4.2 times the contact area in three dimensions.
+//! A free rigid square surface of the side L on an elastic half-space is compared with a profile of
+//! the length L. No constant is fitted. The heights of square surface and profile are drawn
+//! independently, so only means over many square surfaces and many profiles are compared. At the
+//! same force the contact area of the profile model is 1.1 to 4.2 times the contact area in three
+//! dimensions.
 
 use super::compared::Compared;
 use super::ensemble::Ensemble;
@@ -56,7 +57,7 @@ pub struct Loaded {
     /// Stiffness of the contact in N/m at this force: the change of force divided by the change of
     /// indentation.
     pub stiffness: Compared,
-    /// Mean contact area of the square surfaces at this force, m².
+    /// Mean contact area of the square surfaces at this force in m².
     pub area: f64,
     /// Mean number of grid cells of a square surface that are in contact at this force.
     pub cells: f64,
@@ -78,7 +79,7 @@ impl Loaded {
 /// square surfaces are in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// Force on each square surface, N.
+    /// Force on each square surface in N.
     pub force: f64,
     /// Mean number of grid cells of a square surface in contact. It is less than the number
     /// [`Loaded::LEAST_CELLS`] that a comparison needs.
@@ -313,7 +314,7 @@ mod tests {
         assert!(budget.grid >= Some((force.ratio - 1.0).abs()), "{budget:?}");
     }
 
-    /// The line is not exact for a flat square, nor for a sphere with steep waves.
+    /// The profile model is not exact for a flat square, nor for a sphere with steep waves.
     #[test]
     fn only_the_line_of_a_rising_body_is_exact() {
         let sphere = open("jkr-sphere").unwrap();
@@ -337,8 +338,8 @@ mod tests {
         }
     }
 
-    /// The stiffness of lines of a rough body is close to the stiffness of squares, but not equal.
-    /// Nothing except the computing times depends on the number of threads.
+    /// For a rough body, the stiffness of profiles is close to the stiffness of square surfaces,
+    /// but not equal. Nothing except the computing times depends on the number of threads.
     #[test]
     fn a_rough_body_is_compared_in_the_mean() {
         let scene = open("pressure-sensitive").unwrap();
@@ -371,8 +372,8 @@ mod tests {
                 && found.budget.grid.is_some()
                 && found.budget.sample.is_some()
         );
-        // The squares have the rms height of the lines without adhesion, and the elastic energy of
-        // the lines with adhesion.
+        // In contacts without adhesion the square surfaces have the same rms height as the
+        // profiles, and in contacts with adhesion the same elastic energy.
         let roughness = found.roughness.unwrap();
         let line = roughness.line;
         assert!(
@@ -414,7 +415,8 @@ mod tests {
         assert!(less < loss, "{less:?} {loss:?}");
     }
 
-    /// Squares and lines turn at the same indentation, even if their forces there differ.
+    /// Square surfaces and profiles turn at the same indentation, even if their forces there
+    /// differ.
     #[test]
     fn an_indentation_is_the_same_for_all() {
         let document = coarse_square()
@@ -473,8 +475,8 @@ mod tests {
         assert!((line - 1.0).abs() < 1e-3, "{line}");
     }
 
-    /// Lines are compared at the exact forces of the comparison. The number of samples of the force
-    /// curve has no influence.
+    /// Profiles are computed exactly at the forces of the comparison, so the number of samples of
+    /// the force curve has no influence.
     #[test]
     fn samples_of_the_curve_change_nothing() {
         let document = coarse_square().set("numerics.samples", "2").unwrap();

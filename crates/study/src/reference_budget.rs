@@ -113,8 +113,8 @@ mod tests {
         line_is_exact: false,
     };
 
-    /// Returns a comparison with the ratio `lines`/2 and the error `error`. The mean over coarser
-    /// squares differs by the share `grid`.
+    /// Returns a comparison with the ratio `lines`/2 and the error `error`. On the coarser grid,
+    /// the mean over the square surfaces differs by the share `grid`.
     fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
         let values = Values {
             lines: vec![lines; 2],
@@ -136,8 +136,8 @@ mod tests {
         assert_eq!((within.model, within.largest), (Some(0.0), "sample"));
         let coarse = budget(compared(2.08, Some(0.05), Some(0.1)));
         assert_eq!((coarse.model, coarse.largest), (Some(0.0), "grid"));
-        // The ratio 8/2 exceeds 1 by 3. Of this, the error of the sample explains 1 and the error
-        // of the grid 4 · 0.1, so that 1.6 remains.
+        // The ratio 8/2 exceeds 1 by 3. The error of the sample explains 1 of this difference, and
+        // the error of the grid 4 · 0.1, so that 1.6 remains.
         let far = budget(compared(8.0, Some(1.0), Some(0.1)));
         assert!(
             (far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model",
@@ -167,8 +167,8 @@ mod tests {
         );
     }
 
-    /// For smooth bodies, a flat square and a line may differ although there is no error of a
-    /// sample. For a body of revolution the profile is exact.
+    /// For smooth bodies there is no error of a sample. A flat square and its profile may
+    /// nevertheless differ. For a body of revolution the profile model is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

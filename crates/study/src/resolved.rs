@@ -213,7 +213,7 @@ fn springs(last: u64) -> u64 {
 fn rises_everywhere(gaps: &[f64]) -> bool {
     let deepest = gaps.iter().copied().fold(0.0, f64::max);
     let summit = (0..gaps.len())
-        .min_by(|one, other| gaps[*one].total_cmp(&gaps[*other]))
+        .min_by(|first, second| gaps[*first].total_cmp(&gaps[*second]))
         .unwrap_or(0);
     let rounding = ROUNDING * deepest;
     let mut right = gaps[summit..].windows(2);

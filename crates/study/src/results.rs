@@ -83,13 +83,13 @@ impl std::fmt::Debug for Results {
 }
 
 /// Returns true if the values have the same bits. Any two NaN count as equal.
-fn same(one: &[f64], other: &[f64]) -> bool {
-    if one.len() != other.len() {
+fn same(first: &[f64], second: &[f64]) -> bool {
+    if first.len() != second.len() {
         return false;
     }
-    for (one, other) in one.iter().zip(other) {
-        let are_nan = one.is_nan() && other.is_nan();
-        if one.to_bits() != other.to_bits() && !are_nan {
+    for (first, second) in first.iter().zip(second) {
+        let are_nan = first.is_nan() && second.is_nan();
+        if first.to_bits() != second.to_bits() && !are_nan {
             return false;
         }
     }
@@ -111,10 +111,10 @@ fn has_record(folder: &Folder, file: &ShardFile, place: u64) -> bool {
     false
 }
 
-fn same_record(one: &Recorded, other: &Recorded) -> bool {
-    match (one, other) {
-        (Ok(one), Ok(other)) => same(one, other),
-        _ => one.is_err() && one == other,
+fn same_record(first: &Recorded, second: &Recorded) -> bool {
+    match (first, second) {
+        (Ok(first), Ok(second)) => same(first, second),
+        _ => first.is_err() && first == second,
     }
 }
 
@@ -173,8 +173,9 @@ impl Results {
     /// # Errors
     /// Returns an error if zero threads are requested, if `lines` is above 1 and the profile of the
     /// scene is fixed, or if `preloads` are given and the solver of the scene is not
-    /// [`Solver::Exact`]. It is also an error if the memory does not suffice, if a profile or its
-    /// contact cannot be computed, or if `control` stops the computation.
+    /// [`Solver::Exact`] or its half-space relaxes. It is also an error if the memory does not
+    /// suffice, if a profile or its contact cannot be computed, or if `control` stops the
+    /// computation.
     pub fn of_scene(
         scene: &Scene,
         record: &[Quantity],
@@ -581,13 +582,13 @@ mod tests {
     fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
         let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
         assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
-        for (one, other) in [
+        for (first, second) in [
             (1.0, 1.0_f64.next_up()),
             (0.0, -0.0),
             (f64::NAN, 1.0),
             (1.0, f64::NAN),
         ] {
-            assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
+            assert!(!same(&[2.0, first], &[2.0, second]), "{first} {second}");
         }
     }
 }

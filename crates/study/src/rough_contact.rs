@@ -69,8 +69,8 @@ impl RoughContact {
         ]
     }
 
-    /// Returns the rms mean curvature c of the surface in 1/m: half of its rms Laplacian, which is
-    /// the rms curvature of the profile.
+    /// Returns the rms mean curvature c of the surface in 1/m, which is half of its rms Laplacian.
+    /// The rms Laplacian of the surface equals the rms curvature of the profile.
     fn mean_curvature(&self) -> f64 {
         0.5 * self.amplitude.rms_curvature
     }
@@ -176,9 +176,9 @@ impl RoughContact {
 
 /// Summits of an isotropic surface with normally distributed heights.
 struct Summits {
-    /// Rms height σ of the summits around their mean, m.
+    /// Rms height σ of the summits about their mean in m.
     height: f64,
-    /// Number of summits per area, 1/m².
+    /// Number of summits per area in 1/m².
     density: f64,
 }
 

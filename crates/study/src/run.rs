@@ -27,7 +27,8 @@ use std::time::{Duration, Instant};
 /// this time, 12 s if each sync follows the previous one at once, and 190 s with a sync after each
 /// record. For cells of thousands of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
-/// Largest number of computed records that may wait until they are written to the file.
+/// Largest number of computed streaks whose records may wait until they are written to the file. A
+/// streak consists of all cells that differ only in the preload, on one profile.
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 

@@ -124,7 +124,7 @@ impl Scan {
             .map(|(&number, value)| Tried { number, value });
         self.tried.extend(tried);
         self.tried
-            .sort_by(|one, other| one.number.total_cmp(&other.number));
+            .sort_by(|first, second| first.number.total_cmp(&second.number));
         Ok(())
     }
 
@@ -134,9 +134,9 @@ impl Scan {
         let mut suspects = self.suspects();
         // Intervals below the first known crossing come first, because the first crossing is the
         // answer.
-        suspects.sort_by(|one, other| {
-            let by_urgency = other.urgency.total_cmp(&one.urgency);
-            one.is_beyond.cmp(&other.is_beyond).then(by_urgency)
+        suspects.sort_by(|first, second| {
+            let by_urgency = second.urgency.total_cmp(&first.urgency);
+            first.is_beyond.cmp(&second.is_beyond).then(by_urgency)
         });
         let mut numbers: Vec<f64> = suspects
             .iter()

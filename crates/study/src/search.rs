@@ -85,7 +85,7 @@ impl Search<'_> {
             }
         }
         self.known
-            .sort_by(|one, other| one.number.total_cmp(&other.number));
+            .sort_by(|first, second| first.number.total_cmp(&second.number));
         let with_value: Vec<&Tried> = self
             .known
             .iter()
@@ -117,12 +117,13 @@ impl Search<'_> {
     fn step_at(&self, crossing: f64) -> Option<[f64; 2]> {
         let place = self.known.partition_point(|tried| tried.number < crossing);
         let below = self.known.get(place.checked_sub(1)?)?;
-        let at = self.known.get(place)?;
-        let is_close = at.number - below.number <= NEIGHBOURS * crossing.abs();
+        let above = self.known.get(place)?;
+        let is_close = above.number - below.number <= NEIGHBOURS * crossing.abs();
         let target = self.question.target;
         let least = LEAST_STEP * target.abs();
-        let is_step = (at.value - target).abs() > least && (at.value - below.value).abs() > least;
-        (is_close && is_step).then_some([below.value, at.value])
+        let is_step =
+            (above.value - target).abs() > least && (above.value - below.value).abs() > least;
+        (is_close && is_step).then_some([below.value, above.value])
     }
 
     /// Searches a quantity that is monotonic in the number. If the ends of the range are on

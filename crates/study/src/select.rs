@@ -125,8 +125,8 @@ impl Selection {
             }
         };
         let mut scale = self.scale;
-        // The pull-off forces turned at first touch and at zero force share one scale, so that
-        // their panels can be compared.
+        // The pull-off forces of loops that turn at first touch and at zero force share one scale,
+        // so that their panels can be compared.
         let are_shares = quantities
             .iter()
             .all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));

@@ -230,9 +230,9 @@ impl Sensitivity {
     /// [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
-        ordered.sort_by(|one, other| {
-            let change = self.largest_change(one, result);
-            self.largest_change(other, result).total_cmp(&change)
+        ordered.sort_by(|first, second| {
+            let change = self.largest_change(first, result);
+            self.largest_change(second, result).total_cmp(&change)
         });
         ordered
     }
@@ -308,7 +308,7 @@ impl Variant {
     /// cannot be computed on this profile.
     ///
     /// # Errors
-    /// The unchanged scene cannot be computed, or `stop` returned true.
+    /// Returns an error if the unchanged scene cannot be computed, or if `stop` returned true.
     fn solve(
         &self,
         simulation: &mut Simulation,
@@ -539,7 +539,7 @@ mod tests {
             let influence = found
                 .influences
                 .iter()
-                .find(|one| one.axis.path == path)
+                .find(|influence| influence.axis.path == path)
                 .unwrap();
             let end = usize::from(path.ends_with(".1"));
             assert!(
@@ -579,7 +579,7 @@ mod tests {
             let stretched = found
                 .influences
                 .iter()
-                .find(|one| one.axis.path == "length")
+                .find(|influence| influence.axis.path == "length")
                 .unwrap();
             let of_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
             let of_modes = Sensitivity::of(
@@ -591,7 +591,7 @@ mod tests {
             let by_modes = of_modes
                 .influences
                 .iter()
-                .find(|one| one.axis.path == "length")
+                .find(|influence| influence.axis.path == "length")
                 .unwrap();
             assert_eq!(stretched, by_modes, "{waves}");
             assert!((stretched.step(1) - Sensitivity::STEP).abs() < 1e-12);

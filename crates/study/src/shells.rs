@@ -81,7 +81,7 @@ impl Spectrum {
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,
-    /// Side of the square, m.
+    /// Side of the square in m.
     side: f64,
     /// Numbers of the first and the last mode of the line.
     modes: (u64, u64),

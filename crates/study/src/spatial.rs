@@ -12,8 +12,8 @@ use asperity_surface::Form;
 /// Tolerance of the gap in contacts without adhesion, divided by the rms height, at which the
 /// solver stops.
 const TOLERANCE: f64 = 1e-8;
-/// Relative difference between two forces. The stiffness is a difference quotient between the
-/// indentations at these forces.
+/// Relative difference between the two forces from whose indentations the stiffness is computed as
+/// a difference quotient.
 const APART: f64 = 0.02;
 /// Largest allowed deviation, as a share of the target, with which a loop may turn before it has
 /// reached its target force or displacement.
@@ -37,7 +37,7 @@ pub(super) struct Body {
     pub side: f64,
     /// Effective modulus E* in Pa.
     pub modulus: f64,
-    /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
+    /// Works of adhesion on closing and on opening in J/m²; `None` without adhesion.
     pub works: Option<[f64; 2]>,
 }
 
@@ -51,9 +51,9 @@ pub(super) enum Turn {
     /// The loop turns at a displacement of the drive of an instrument. The displacement is d + F/k,
     /// with the indentation d, the force F and the stiffness k of the instrument.
     Displacement {
-        /// Displacement, m.
+        /// Displacement in m.
         displacement: f64,
-        /// Stiffness k of the instrument, N/m.
+        /// Stiffness k of the instrument in N/m.
         stiffness: f64,
     },
 }

@@ -120,7 +120,7 @@ type Curve = Vec<(f64, f64)>;
 /// Returns the index of the last point with the largest indentation.
 fn deepest(curve: &[(f64, f64)]) -> usize {
     (0..curve.len())
-        .max_by(|one, other| curve[*one].0.total_cmp(&curve[*other].0))
+        .max_by(|first, second| curve[*first].0.total_cmp(&curve[*second].0))
         .unwrap_or(0)
 }
 

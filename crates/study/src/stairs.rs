@@ -229,7 +229,7 @@ pub(super) fn step_crossings(
             halves(&open, &climb(&splits)?)
         };
     }
-    crossed.sort_by(|one, other| one[0].number.total_cmp(&other[0].number));
+    crossed.sort_by(|first, second| first[0].number.total_cmp(&second[0].number));
     Ok((crossed, may_miss))
 }
 

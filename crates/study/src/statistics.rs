@@ -348,7 +348,7 @@ impl RegimeCounts {
         // The sorting keeps the order of regimes with equal numbers of profiles, so the regime with
         // more adhesion remains first.
         counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-        counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
+        counts.map(|counted| Some(counted).filter(|(_, count)| *count > 0))
     }
 
     /// Returns the regimes that occur, each as its name and its number of profiles. Profiles of

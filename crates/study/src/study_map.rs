@@ -97,8 +97,8 @@ impl StudyMap {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
 
-    /// Returns the axes of the study that are not axes of the maps, each with the index of the
-    /// value of map `slice`.
+    /// Returns the axes of the study that are not axes of the maps. Each comes with the index of
+    /// the value that it has in map number `slice`.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others
@@ -140,10 +140,10 @@ impl StudyMap {
             });
         }
         scene.set_seed(plan.seed);
-        let at = self
+        let of_slice = self
             .at(slice)
             .map(|(axis, place)| (axis, axis.values[place]));
-        let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
+        let values: Vec<(&Axis, f64)> = of_slice.chain(over.iter().copied()).collect();
         scene = scene_with(&scene, values.iter().copied())?;
         let preload = values
             .iter()
@@ -215,16 +215,16 @@ fn place(scene: &Scene) -> Option<(f64, f64)> {
 
 /// Returns true if two scenes have the same κ and H except for rounding errors, or if one of the
 /// scenes does not state them.
-fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
-    let (Some((kappa, hurst)), Some((other_kappa, other_hurst))) = (one, other) else {
+fn is_close(first: Option<(f64, f64)>, second: Option<(f64, f64)>) -> bool {
+    let (Some((kappa, hurst)), Some((other_kappa, other_hurst))) = (first, second) else {
         return true;
     };
     is_equal(kappa, other_kappa) && is_equal(hurst, other_hurst)
 }
 
 /// Returns true if two numbers are equal except for rounding errors.
-fn is_equal(one: f64, other: f64) -> bool {
-    (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
+fn is_equal(first: f64, second: f64) -> bool {
+    (first - second).abs() <= 1e-9 * first.abs().max(second.abs())
 }
 
 #[cfg(test)]

@@ -487,7 +487,7 @@ proptest! {
             }
             let end = states[40_000];
             let squared_stretch = stage.along().squared_stretch(indentations[0], high);
-            let expected = 0.5 * (end.squares - squared_stretch);
+            let expected = 0.5 * (end.squares(&line.tree.scale) - squared_stretch);
             prop_assert!((work - expected).abs() <= variation + 1e-9, "{} against {}", work, expected);
         }
     }

@@ -5,7 +5,9 @@
 use crate::contact::Contact;
 use crate::contact_state::{ContactState, Grid};
 use crate::error::ContactError;
+use crate::relaxation::state::Load;
 use crate::stage::Stage;
+use crate::totals::GapScale;
 
 /// Number of intervals of the table.
 const INTERVALS: usize = 512;
@@ -74,35 +76,52 @@ impl Approach {
         largest
     }
 
-    /// Returns the contact of the elastic loading at an indentation in m.
+    /// Returns the sums over the springs of the elastic loading at an indentation in m, in which
+    /// nothing has relaxed yet.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
-    pub fn at(&self, indentation: f64) -> Result<ContactState, ContactError> {
+    pub fn load(&self, indentation: f64) -> Result<Load, ContactError> {
         let intervals = self.table.len().saturating_sub(1) as f64;
         let place = indentation / self.high * intervals;
         let is_inside = place > 1.0 && place < intervals - 2.0;
         if !is_inside {
-            return self.stage.state(indentation);
+            return self.exact_load(indentation);
         }
         let below = place as usize;
         let growth =
             |index: usize| self.table[index + 1].compression - self.table[index].compression;
         let expected = 0.5 * (growth(below - 1) + growth(below + 1));
         if (growth(below) - expected).abs() > JUMP * self.largest {
-            return self.stage.state(indentation);
+            return self.exact_load(indentation);
         }
-        let low = self.table[below];
-        let high = self.table[below + 1];
+        let low = &self.table[below];
+        let high = &self.table[below + 1];
         let share = (indentation - low.indentation) / (high.indentation - low.indentation);
         let between = |low: f64, high: f64| low + share * (high - low);
         let nearest = if share < 0.5 { low } else { high };
-        Ok(ContactState {
-            indentation,
-            totals: nearest.totals,
-            length: between(low.length, high.length),
-            compression: between(low.compression, high.compression),
-            squares: between(low.squares, high.squares),
-        })
+        let scale = self.scale();
+        Ok(Load::of_approach(
+            &nearest.totals,
+            between(low.length, high.length),
+            between(low.compression, high.compression),
+            between(low.squares(&scale), high.squares(&scale)),
+        ))
+    }
+
+    /// Does the same as [`Approach::load`] without interpolation.
+    fn exact_load(&self, indentation: f64) -> Result<Load, ContactError> {
+        let state = self.stage.state(indentation)?;
+        let squares = state.squares(&self.scale());
+        Ok(Load::of_approach(
+            &state.totals,
+            state.length,
+            state.compression,
+            squares,
+        ))
+    }
+
+    fn scale(&self) -> GapScale {
+        self.stage.contact().profile.springs.scale()
     }
 }

@@ -250,9 +250,8 @@ impl Drive {
 
     /// Computes the load of a body that is at its largest indentation so far.
     fn approach(&self, from: &State, ramp: &Ramp, state: &mut State) -> Result<(), ContactError> {
-        let contact = self.approach.at(state.deepest)?;
         let before = &from.load;
-        let mut load = Load::of_approach(&contact);
+        let mut load = self.approach.load(state.deepest)?;
         load.compression -= load.length * (state.deepest - state.indentation);
         state.jump = self.approach.bend(from.deepest, state.deepest);
         // While springs attach, the fresh part v of all compressions grows as the compressions do,

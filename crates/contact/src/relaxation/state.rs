@@ -3,9 +3,10 @@
 use super::field::{Field, Sums};
 use super::line::Line;
 use super::patch::StretchedPatch;
-use crate::contact_state::{ContactState, counted};
+use crate::contact_state::counted;
 use crate::foundation::Foundation;
 use crate::history::CurvePoint;
+use crate::totals::ContactTotals;
 use std::sync::Arc;
 
 /// Sums over the springs in contact. Forces are in m: they are divided by the stiffness of one
@@ -27,16 +28,22 @@ pub struct Load {
 }
 
 impl Load {
-    /// Returns the sums for a contact of the elastic loading, in which nothing has relaxed yet.
-    pub fn of_approach(state: &ContactState) -> Self {
+    /// Returns the sums for a contact of the elastic loading, in which nothing has relaxed yet. See
+    /// [`Load`] for the length, the compression and the squares.
+    pub fn of_approach(
+        totals: &ContactTotals,
+        length: f64,
+        compression: f64,
+        squares: f64,
+    ) -> Self {
         Load {
-            length: state.length,
-            compression: state.compression,
-            fresh: state.compression,
-            squares: state.squares,
-            fresh_squares: state.squares,
-            springs: counted(state.totals.springs),
-            patches: counted(state.totals.patches),
+            length,
+            compression,
+            fresh: compression,
+            squares,
+            fresh_squares: squares,
+            springs: counted(totals.springs),
+            patches: counted(totals.patches),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
 use crate::detachment::ContactRule;
 use crate::error::ContactError;
-use crate::history::{CurvePoint, Direction, Goal, StageRecord, Work};
+use crate::history::{CurvePoint, Direction, ForcePoint, Goal, StageRecord, Work};
 use crate::interval::{Interval, Intervals, Jumped};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
@@ -61,7 +61,7 @@ impl Stage {
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
-        Ok(self.state(indentation)?.point(self.contact.foundation))
+        Ok(self.state(indentation)?.point(&self.contact))
     }
 
     /// Returns the points of the force curve of this motion at ascending indentations in m.
@@ -73,10 +73,47 @@ impl Stage {
             return Ok(Vec::new());
         }
         let sampled = self.sample(Grid::at(indentations.to_vec()))?;
-        let foundation = self.contact.foundation;
         Ok(sampled
             .iter()
-            .map(|state| state.point(foundation))
+            .map(|state| state.point(&self.contact))
+            .collect())
+    }
+
+    /// Returns the point of the force curve of this motion at an indentation in m, without the
+    /// stored energy.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
+    pub fn force(&self, indentation: f64) -> Result<ForcePoint, ContactError> {
+        Ok(self.state(indentation)?.force_point(&self.contact))
+    }
+
+    /// Returns the points of the force curve of this motion at ascending indentations in m, without
+    /// the stored energy, whose computation takes about as long as that of the force.
+    ///
+    /// # Errors
+    /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
+    ///
+    /// ```
+    /// use asperity_contact::motion::Stage;
+    /// use asperity_contact::{Contact, ForcePoint, Modulus, Profile};
+    ///
+    /// let profile = Profile::from_heights(vec![0.0, -9.0e-8, -1.0e-8], 1.0e-6)?;
+    /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).build()?;
+    /// let loading = Stage::approach(&contact)?;
+    /// let forces = loading.forces(&[1.0e-8, 2.0e-8])?;
+    /// let curve = loading.curve(&[1.0e-8, 2.0e-8])?;
+    /// assert_eq!(forces[1], ForcePoint::from(&curve[1]));
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    pub fn forces(&self, indentations: &[f64]) -> Result<Vec<ForcePoint>, ContactError> {
+        if indentations.is_empty() {
+            return Ok(Vec::new());
+        }
+        let sampled = self.sample(Grid::at(indentations.to_vec()))?;
+        Ok(sampled
+            .iter()
+            .map(|state| state.force_point(&self.contact))
             .collect())
     }
 

@@ -405,7 +405,7 @@ impl Stage {
         let right_edge = springs.last as f64 + 0.5 + right_share;
 
         let state = ContactState::new(slides, indentation, totals, edge_cells, &scale);
-        let point = state.point(contact.foundation);
+        let point = state.point(contact);
         let opening = contact.rules().rule(Direction::Unloading);
         PatchState {
             springs,

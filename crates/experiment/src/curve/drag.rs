@@ -1,7 +1,8 @@
 //! Drag of a fluid on the body and the instrument, estimated from the points without contact. The
 //! drag resists the motion: it acts like a compression on the approach, and like a tension on the
 //! retraction. Close to the surface the fluid is squeezed out of a narrow gap, and the drag grows
-//! as c/(h + h₀), where h is the distance in m to first touch.
+//! as c/(h + h₀), where h is the distance in m to first touch, c a coefficient in N m and h₀ a
+//! length in m.
 
 use crate::curve::free_parts::{FEWEST, FreeParts, count_before_steep_part};
 use crate::curve::numerics::{
@@ -18,7 +19,8 @@ const RATIO: f64 = 1.3;
 /// Largest length h₀ that is tried, as a share of the way before contact. With a larger h₀, the
 /// drag could not be distinguished from a straight line over the displacement.
 const FARTHEST: f64 = 0.5;
-/// Largest number of points that are tried as the end of the part without contact.
+/// Number of steps into which the range of possible ends of the part without contact is divided.
+/// The ends at these steps are tried first.
 const ENDS: usize = 60;
 /// Largest root mean square residual, in units of the noise, up to which a drag describes a part of
 /// the curve. This value is for very many points; for fewer points, an allowance by [`BY_CHANCE`]
@@ -45,7 +47,8 @@ const ALIKE: [f64; 2] = [2.0, 3.0];
 const FOUND_FAR: f64 = 2.5;
 /// Number of parameters of the drag that a fit of a model refines.
 pub(crate) const COLUMNS: usize = 4;
-/// First and last step of the search for the length h₀ with a model, as exponents of [`RATIO`].
+/// First step of the search for the length h₀ with a model, as an exponent of [`RATIO`]. The search
+/// ends at the step `FINE_STEP`.
 const COARSE_STEP: f64 = 0.5;
 const FINE_STEP: f64 = 0.002;
 /// Smallest distance of first touch from the pole of the drag, as a share of the length h₀.
@@ -110,7 +113,8 @@ impl ForcesWithDrag {
         columns
     }
 
-    /// Returns the sum of the squared residuals of the fit of a drag with the lengths of this one.
+    /// Returns the sum of the squared residuals of a fit in which the drag has the pole and the
+    /// first touch of `drag`.
     fn squares(&self, drag: &Drag) -> f64 {
         let mut residuals = self.forces.clone();
         subtract_all(&mut residuals, &right_angled(&self.columns(drag)));
@@ -215,8 +219,8 @@ fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
 
 impl Drag {
     /// Finds the drag of a curve that has an approach and a retraction. Returns `None` if the
-    /// points without contact show no drag. The force of a drag has opposite signs on approach and
-    /// retraction, which distinguishes a drag from a tilt or a weak contact.
+    /// points without contact show no drag. A drag has opposite signs on approach and retraction,
+    /// unlike a tilt or a weak contact.
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();
@@ -240,7 +244,9 @@ impl Drag {
         let pole = pole.max(touch + RATIO.powi(-REACHES) * (touch - points.displacement[0]));
         let after = pulled.longest(free.after, |end| {
             // The pole has to lie beyond all points without contact, where the drag is finite.
-            pulled.displacements[..end].iter().all(|at| *at < pole)
+            pulled.displacements[..end]
+                .iter()
+                .all(|displacement| *displacement < pole)
                 && pulled.is_described(end, pole)
         })?;
         let both = BothSides {
@@ -494,7 +500,7 @@ mod tests {
         }
     }
 
-    /// The drag and its growth are together the drag of a body that touches elsewhere.
+    /// The sum of the drag and its growth is the drag of a body that touches elsewhere.
     #[test]
     fn the_drag_grows_until_first_touch() {
         let found = drag(-5e-8);
@@ -524,7 +530,10 @@ mod tests {
             .map(|index: i32| 1e-8 * f64::from(100 - (index - 200).abs()))
             .collect();
         let segments: Vec<usize> = (0..400).map(|index| index / 200).collect();
-        let tilt: Vec<f64> = displacements.iter().map(|at| 1e6 * at).collect();
+        let tilt: Vec<f64> = displacements
+            .iter()
+            .map(|displacement| 1e6 * displacement)
+            .collect();
         let mut forces = Vec::new();
         for (displacement, segment) in displacements.iter().zip(&segments) {
             let tilted = 3e-12 + 2e-5 * displacement;

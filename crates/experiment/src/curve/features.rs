@@ -56,8 +56,8 @@ impl ForceJump {
 #[non_exhaustive]
 pub struct CurveFeatures {
     /// Number of jumps of the force. A jump is a drop of the force while the body is pressed, or a
-    /// rise of the force while the body is pulled, within three points. It must be larger than 6
-    /// times the noise, and larger than 1 % of the range of the force.
+    /// rise of the force while the body is pulled, within three steps from point to point. It must
+    /// be larger than 6 times the noise, and larger than 1 % of the range of the force.
     pub jumps: usize,
     /// Largest number of jumps in one segment (a single loading or unloading). A sphere has at most
     /// one.
@@ -182,7 +182,7 @@ fn steepest_step(forces: &[f64], jump: usize) -> usize {
         .unwrap_or(jump)
 }
 
-/// Returns the means of the forces up to a jump and after it.
+/// Returns the mean of a few forces up to a jump, and the mean of a few forces after it.
 fn means_around(forces: &[f64], jump: usize) -> [f64; 2] {
     let before = mean(&forces[(jump + 1).saturating_sub(STEPS)..=jump]);
     let largest_gap = (0..STEPS)

@@ -41,9 +41,9 @@ const NOTABLE: f64 = 0.05;
 const HELD: f64 = 0.5;
 /// Tension at the end of a retraction, in units of the noise, up to which it counts as noise.
 const BEYOND_NOISE: f64 = 5.0;
-/// Bound of the ratio of two distances, below which the last points of a nearly straight tension
-/// are still in contact. The first distance is the length of this part of the curve. The second is
-/// the distance over which the tension came about.
+/// Ratio of two distances below which the last points, whose tension is nearly straight, are still
+/// in contact. The first distance is the length of this part of the curve. The second is the
+/// distance over which the tension grew before.
 const LONG: f64 = 1.0;
 
 /// Smallest gain of a parabola over a straight line, with which the last points of a retraction
@@ -162,7 +162,7 @@ fn range_of(forces: &[f64]) -> f64 {
 }
 
 /// Returns true if the force changes in the first `free` points at least half as fast as in
-/// contact.
+/// contact, and by a notable part of its range.
 fn begins_steep(forces: &[f64], free: usize) -> bool {
     let slope = Baseline::through(&forces[..free]).slope.abs();
     let slope_in_contact = range_of(&forces[free..]) / (forces.len() - free) as f64;
@@ -347,8 +347,8 @@ fn count_after_contact(points: &Points, least_noise: f64) -> usize {
     free_count_at_end(forces, least_noise).unwrap_or(0)
 }
 
-/// Returns the number of forces after contact at the end of a segment. A parabola there is a
-/// tension about its largest value.
+/// Returns the number of forces after contact at the end of a segment. If the last points lie on a
+/// parabola, they belong to a tension near its largest value, and an error is returned.
 fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let reversed: Vec<f64> = forces.iter().rev().copied().collect();
     let free = free_count(&reversed, least_noise)?;
@@ -366,9 +366,9 @@ fn free_count_at_end(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePa
 }
 
 /// Returns true if the last `after` points, which are nearly on a straight line, are no part
-/// without contact. Where a tension is largest, its curve is flat too, and a soft instrument or
-/// points at a falling speed make it straight. `before` points at the beginning have the zero of
-/// the force.
+/// without contact. The force is also flat where a tension is largest, and a soft instrument, or
+/// points that are taken at a falling speed, make it look straight. The first `before` points of
+/// the curve show the zero of the force.
 ///
 /// A drag of a fluid is a tension as well, but it lasts over a longer way than the contact.
 fn is_still_held(points: &Points, before: usize, after: usize, least_noise: f64) -> bool {

@@ -120,8 +120,9 @@ fn knots_of(passages: &[Passage], tolerance: f64) -> Vec<Passage> {
 mod tests {
     use super::*;
 
-    /// Passages every 10 nm of a motion to −1 µm and back to 0 with these speeds in m/s, each over
-    /// 250 nm, with a rest in s before the third one.
+    /// Returns passages every 10 nm over a motion of 1 µm that begins at 0. The motion has four
+    /// speeds in m/s, each over 250 nm, and rests for `rest` in s between the second and the third.
+    /// `sign` is the sign of the displacements.
     fn passages(speeds: [f64; 4], rest: f64, sign: f64) -> Vec<Passage> {
         let mut seconds = 0.0;
         let mut passages = Vec::new();
@@ -138,7 +139,7 @@ mod tests {
         passages
     }
 
-    /// Time in s at which pieces reach a displacement.
+    /// Returns the time in s at which pieces reach a displacement.
     fn time_at(pieces: &[Piece], displacement: f64) -> f64 {
         let mut seconds = 0.0;
         let mut from: f64 = 0.0;

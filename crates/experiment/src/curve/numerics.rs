@@ -299,8 +299,8 @@ pub(crate) mod tests {
 
     #[test]
     fn correlated_residuals_count_less() {
-        // `smooth` is a sine with 16 points in a period. The second test has the same values in an
-        // order without correlation.
+        // `smooth` is a sine with 16 points in a period. Below, the same values are also tried in
+        // an order without correlation.
         let sine = |index: usize| (std::f64::consts::TAU * index as f64 / 16.0).sin();
         let smooth: Vec<f64> = (0..480).map(sine).collect();
         let factor = correlated(&smooth);
@@ -322,8 +322,8 @@ pub(crate) mod tests {
     }
 
     /// Over many series of an autoregression, the mean factor is near the true one, and
-    /// uncorrelated residuals keep about 1. The sum over a few lags alone gives half of the true
-    /// factor.
+    /// uncorrelated residuals keep about 1. The sum over a few lags alone would give half of the
+    /// true factor.
     #[test]
     fn few_correlated_residuals_count_by_an_autoregression() {
         for (count, ratio, least, most) in [
@@ -343,7 +343,7 @@ pub(crate) mod tests {
                     series.push(value);
                 }
                 let middle = asperity_data::mean(&series[50..]);
-                let residuals: Vec<f64> = series[50..].iter().map(|one| one - middle).collect();
+                let residuals: Vec<f64> = series[50..].iter().map(|value| value - middle).collect();
                 sum += correlated_few(&residuals);
             }
             let expected = (1.0 + ratio) / (1.0 - ratio);

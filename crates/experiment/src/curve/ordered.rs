@@ -1,4 +1,5 @@
-//! Points in the order of time in which pressing is positive, out of the columns of a file.
+//! Conversion of the columns of a file to points in the order of time, with displacements and
+//! forces that are positive where the body is pressed.
 
 use crate::curve::free_parts::ends_free;
 use crate::curve::points::Points;

@@ -183,7 +183,7 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Returns true for enough displacements that hardly move back.
+/// Returns true if there are enough displacements and they hardly move back.
 fn is_steady(displacements: &[f64]) -> bool {
     let count = displacements.len();
     if count < FEWEST_STEADY {
@@ -194,8 +194,8 @@ fn is_steady(displacements: &[f64]) -> bool {
     way <= STEADY * (displacements[count - 1] - displacements[0]).abs()
 }
 
-/// Returns the index of the segment of each displacement, if it comes back by at least `least` m
-/// after each turning point.
+/// Returns the index of the segment of each displacement. A turning point counts if the
+/// displacement goes back by at least `least` m after it.
 fn by_turns_of(smooth: &[f64], least: f64) -> Vec<usize> {
     let mut numbers = vec![0; smooth.len()];
     if least <= 0.0 {
@@ -301,8 +301,8 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
 mod tests {
     use super::*;
 
-    /// An approach that is a small part of a long retraction is a segment, and a displacement that
-    /// moves back and forth by as much is not.
+    /// An approach is a segment even if it is much shorter than the retraction. A displacement that
+    /// moves back and forth by the same distance is no segment.
     #[test]
     fn points_that_are_dense_near_a_turn_are_no_pause() {
         let far: Vec<f64> = (0..100)
@@ -313,7 +313,8 @@ mod tests {
         moving.extend(dense.iter().rev().chain(far.iter().rev()));
         let segments = Segments::of(&moving, &[]);
         assert!(!segments.is_still.contains(&true));
-        // The same number of points that stay, with a little noise, or exactly.
+        // The same number of points that stay at one displacement, exactly or with a little noise,
+        // are a pause.
         for noise in [0.0, 1e-4, 2e-3] {
             let mut pausing = far.clone();
             let noisy = |index: usize| noise * ((7 * index) as f64).sin();

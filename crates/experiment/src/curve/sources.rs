@@ -1,5 +1,5 @@
-//! The measured curves that paths name: those of files, of folders and of files with several
-//! curves, such as maps.
+//! The measured curves that paths name. A path may name a file with one curve, a file with several
+//! curves, such as a map, or a folder.
 
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};

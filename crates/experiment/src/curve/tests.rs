@@ -71,7 +71,7 @@ fn chosen_segments_are_used_without_pauses() {
             .force
             .iter()
             .zip(&retraction.force)
-            .all(|(one, other)| (one - other).abs() < 5e-11)
+            .all(|(first, second)| (first - second).abs() < 5e-11)
     );
     assert!(
         (alone.touch - whole.touch).abs() < 2e-9,

@@ -54,7 +54,6 @@ pub(crate) struct Speeds {
     pub retraction: f64,
 }
 
-/// Point of a rest.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RestingPoint {
     pub displacement: f64,

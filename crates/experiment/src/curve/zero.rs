@@ -255,7 +255,7 @@ struct Lines<'a> {
     /// give these values.
     stated: Slopes,
     is_straight: bool,
-    /// Largest change of the force in N that does not count as a drift, tilt or step.
+    /// Largest change of the force in N that does not yet count as a drift, tilt or step.
     least_change: f64,
 }
 
@@ -515,11 +515,20 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
-    /// For a retraction alone, the contact point is where compression ends and the force passes
-    /// through zero. Here this is at the displacement 0.
+    /// For a retraction alone, the contact point is where the compression ends and the force passes
+    /// through zero. In this curve it is at the displacement 0.
     #[test]
     fn a_retraction_alone_touches_where_it_leaves_compression() {
-        let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
+        let pulled = |displacement: f64| {
+            (
+                displacement,
+                if displacement < -50.0 {
+                    0.0
+                } else {
+                    displacement
+                },
+            )
+        };
         let text = lines((0..300).map(|index| pulled(f64::from(100 - index))));
         let options = CurveOptions {
             zero: Some(0.0),
@@ -535,15 +544,15 @@ mod tests {
         let keep = |text: &str| {
             read(text, Drift::Keep, Tilt::Keep)
                 .remaining
-                .map(|one| (one * 1e9).round())
+                .map(|force| (force * 1e9).round())
         };
         assert_eq!(keep(&made(0.0, 0.0, 0.0)), [0.0; 3]);
         assert_eq!(keep(&made(0.0, 3.0, 0.0)), [0.0, 3.0, 0.0]);
         assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
         assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
-        // A force that oscillates with the displacement is neither drift nor tilt. A retraction
-        // alone has a zero offset from its own end.
+        // A force that oscillates with the displacement is neither drift nor tilt. For a retraction
+        // alone, the zero offset is determined at its own end.
         let waves = lines(
             of_spring(600)
                 .into_iter()
@@ -578,7 +587,7 @@ mod tests {
                 .force
                 .iter()
                 .zip(&plain.force)
-                .all(|(one, other)| (one - other).abs() < 1e-10)
+                .all(|(first, second)| (first - second).abs() < 1e-10)
         );
     }
 }

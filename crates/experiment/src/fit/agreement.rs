@@ -7,20 +7,20 @@ use asperity_data::format_rounded;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Largest robust root mean square of the residuals in contact, in units of the noise, with which a
-/// model describes the curve.
+/// Largest robust root mean square of the residuals in contact, in units of the noise, up to which
+/// a model describes the curve within its noise.
 pub(crate) const MISFIT: f64 = 1.5;
 /// Share of the largest force above which a residual is counted in
 /// [`Agreement::beyond_one_percent`].
 const NOTABLE: f64 = 0.01;
-/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// Largest root mean square of the residuals, as a share of the largest force, up to which a model
 /// describes a curve well.
 const WELL: f64 = 0.01;
-/// Largest root mean square of the residuals, as a share of the largest force, with which a model
+/// Largest root mean square of the residuals, as a share of the largest force, up to which a model
 /// describes a curve roughly.
 const ROUGHLY: f64 = 0.03;
-/// Largest share of the points in contact that may lie at jumps. If there are more, they are
-/// treated like all other points.
+/// Largest share of the points in contact that may lie at jumps; two points may lie there in any
+/// case. If there are more, they are treated like all other points.
 const MOST_AT_JUMPS: f64 = 0.1;
 
 /// Agreement of a model with a measured curve. All points count that are in contact in the

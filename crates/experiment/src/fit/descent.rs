@@ -80,7 +80,7 @@ pub(crate) fn descend<E>(
 fn farthest(corner: &Corner, other: &Corner) -> f64 {
     let coordinates = corner.place.iter().zip(&other.place);
     coordinates
-        .map(|(one, other)| (one - other).abs())
+        .map(|(first, second)| (first - second).abs())
         .fold(0.0, f64::max)
 }
 
@@ -115,7 +115,8 @@ mod tests {
     use super::*;
     use std::convert::Infallible;
 
-    /// The curved valley of Rosenbrock, and a single coordinate.
+    /// The minimum is found in the curved valley of Rosenbrock's function, and also along a single
+    /// coordinate.
     #[test]
     fn the_lowest_place_is_found() {
         let mut valley = |place: &[f64]| {
@@ -124,7 +125,9 @@ mod tests {
         };
         let Ok(found) = descend(&[-1.2, 1.0], 0.3, 400, &mut valley);
         assert!(
-            found.iter().all(|one| (one - 1.0).abs() < 1e-3),
+            found
+                .iter()
+                .all(|coordinate| (coordinate - 1.0).abs() < 1e-3),
             "{found:?}"
         );
         let mut kink = |place: &[f64]| Ok::<f64, Infallible>((place[0] - 3.0).abs() + 1e-6);

@@ -1,6 +1,7 @@
-//! Drag of a fluid, found again with a model of the contact. The points without contact determine
-//! the drag in contact only by extrapolation, and the parameters of the drag enter a fit as if the
-//! force were linear in them. So these parameters have to be near their best values.
+//! Drag of a fluid, which is fitted a second time together with a model of the contact. When the
+//! curve is read, the drag in contact is only extrapolated from the points without contact. A later
+//! fit of the model refines the parameters of the drag as if the force were linear in them, which
+//! is accurate only if they are already near their best values.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::drag::{COLUMNS, Drag, ForcesWithDrag};
@@ -72,8 +73,8 @@ pub(crate) fn with_drag_of_model(
     Ok(curve.map(|curve| CurveWithDrag { curve, evaluations }))
 }
 
-/// Returns the forces of a curve without those of a model, but with the drag that was subtracted.
-/// Points on the wrong side of a jump are left out.
+/// Returns the measured forces minus the forces of a model, plus the drag that was subtracted from
+/// the curve. Points on the wrong side of a jump are left out.
 fn forces_with_drag(
     curve: &MeasuredCurve,
     drag: &Drag,
@@ -114,7 +115,7 @@ fn forces_with_drag(
     forces
 }
 
-/// Returns a curve from which another drag is subtracted.
+/// Returns a copy of the curve from which the drag `other` is subtracted in place of `drag`.
 fn with_other_drag(curve: &MeasuredCurve, drag: &Drag, other: Drag) -> MeasuredCurve {
     let mut changed = curve.clone();
     for (index, force) in changed.force.iter_mut().enumerate() {

@@ -19,8 +19,8 @@ use std::f64::consts::PI;
 /// from the pull-off force.
 const ALLOWED_NOISE: f64 = 3.0;
 
-/// Returns the result of a fit, without the assumptions of its start. `searched` is the result of
-/// the search.
+/// Returns the result of a fit. Its assumptions lack the sentences on what was assumed before the
+/// search. `searched` is the result of the search.
 pub(crate) fn fit_result(
     document: &Document,
     simulation: &mut Simulation,
@@ -95,9 +95,9 @@ pub(crate) fn fit_result(
 
 /// Returns the largest work of adhesion in J/m² that agrees with the largest tension of the curve
 /// of a smooth sphere, by F = 1.5 π R γ (Johnson, Kendall and Roberts). The noise and the
-/// difference to the previous point are added to the tension, because the true tension may be
-/// larger than the measured one by so much. Returns `None` for another body, and for a curve that
-/// does not show the pull-off.
+/// difference to the previous point are added to the tension, because the true tension may exceed
+/// the measured one by this amount. Returns `None` for another body, and for a curve that does not
+/// show the pull-off.
 fn most_work_by_pull_off(curve: &MeasuredCurve, scene: &CheckedScene) -> Option<f64> {
     let radius = scene.form.as_ref()?.sphere_radius()?;
     if scene.roughness.is_some() || !curve.detaches {

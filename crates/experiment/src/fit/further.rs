@@ -5,7 +5,7 @@ use crate::fit::population::Member;
 use crate::fit::space::Space;
 use std::ops::Range;
 
-/// Curve that a search compares beside that of its space.
+/// Further curve that a search compares, in addition to the curve of its own space.
 pub(crate) struct FurtherCurve<'a> {
     /// Coordinates of the parameters of this curve alone. A coordinate is a free parameter on the
     /// scale of the search.

@@ -18,24 +18,25 @@ use asperity_data::{Note, format_rounded};
 /// likely than a wrong stiffness. The nominal stiffness of a cantilever may be off by a factor of
 /// 3.
 const FAR: f64 = 4.0;
-/// Difference of this ratio from 1 that is worth a sentence. It is below the error of usual
-/// calibrations.
+/// Smallest difference from 1 of the ratio of the fitted and the stated stiffness that a sentence
+/// reports. It is below the error of usual calibrations.
 const NOTABLE: f64 = 0.02;
-/// Slope of the contact divided by the stiffness of the instrument, from which on the specimen
-/// counts as hard. An error of E* by 10 % then changes the stiffness by less than 1 %.
+/// Smallest slope of the contact, divided by the stiffness of the instrument, for which the
+/// specimen counts as hard. An error of E* by 10 % then changes the stiffness by less than 1 %.
 const HARD: f64 = 10.0;
-/// Error of E* in the sentence about a specimen that is not hard.
+/// Relative error of E* that the sentence about a specimen that is not hard takes as an example.
 const ERROR_OF_MODULUS: f64 = 0.1;
 /// Exponent of E* in the slope of the contact of a sphere at a given force.
 const EXPONENT: f64 = 2.0 / 3.0;
 /// Largest slope of a curve, as a share of the slope of the contact, from which the initial
-/// stiffness is computed. A larger slope leaves too little for the instrument.
+/// stiffness is computed. With a larger slope, the deflection of the instrument is too small a part
+/// of the displacement.
 const MOST_OF_CONTACT: f64 = 0.9;
-/// Smallest and largest indentation in m among which that of a force is sought.
+/// Smallest and largest indentation in m between which the indentation at a given force is sought.
 const INDENTATIONS: (f64, f64) = (1e-15, 1.0);
-/// Number of bisections of this range, after which it is narrower than the rounding.
+/// Number of bisections of [`INDENTATIONS`], after which the range is narrower than the rounding.
 const BISECTIONS: usize = 60;
-/// Relative step of the indentation in the slope.
+/// Relative step of the indentation in the numerical derivative that gives the slope.
 const STEP: f64 = 1e-3;
 
 /// Returns the slope dF/dd in N/m of a contact without adhesion at a force in N. `modulus` is the
@@ -70,8 +71,9 @@ pub(crate) fn carried_force(curve: &MeasuredCurve) -> f64 {
     force.high.max(curve.noise) + 2.0 * pull_off
 }
 
-/// Returns the stiffness in N/m of the instrument with which the contact has the slope of the
-/// curve, if the modulus is known; `None` if the slope of the curve is that of the contact itself.
+/// Returns the stiffness of the instrument in N/m that follows from the slope of the curve, if the
+/// effective modulus `modulus` in Pa is known. Returns `None` if the slope of the curve is nearly
+/// that of the contact alone, so that it does not determine the stiffness.
 pub(crate) fn stiffness_by_slope(
     curve: &MeasuredCurve,
     contact: &Contact,

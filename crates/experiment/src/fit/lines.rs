@@ -24,7 +24,7 @@ pub(crate) struct Lines {
     /// points in contact.
     free_products: Vec<Vec<f64>>,
     contact_products: Vec<Vec<f64>>,
-    /// Lines of further curves, whose points follow those of this curve.
+    /// Lines of further curves, whose points follow the points of this curve.
     further: Vec<Lines>,
 }
 

@@ -135,8 +135,9 @@ impl<'a> Fit<'a> {
     /// # Errors
     /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene
     /// lacks a free parameter, such as the radius of its form. It also returns an error if
-    /// `numerics.solver` of the scene is `Stepwise`, if the curve turns before contact, if a
-    /// computation fails, or if `control` stops the fit.
+    /// `numerics.solver` of the scene is `Stepwise`, if a relaxation is fitted and neither the
+    /// scene nor the file states a speed, if the curve turns before contact, if a computation
+    /// fails, or if `control` stops the fit.
     pub fn run(
         &self,
         curve: &MeasuredCurve,
@@ -195,7 +196,8 @@ fn find(
         }
         searched.evaluations = computed;
         let mut result = fit_result(&document, simulation, &space, searched)?;
-        // The forces of the model are those of the curve as it was read.
+        // The drag may have been fitted again since the curve was read. The forces of the model are
+        // changed by as much, so that they can be compared with the curve as it was read.
         for (index, force) in result.model.iter_mut().enumerate() {
             *force += measured.force[index] - curve.force[index];
         }

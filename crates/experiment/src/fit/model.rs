@@ -10,7 +10,8 @@ use crate::fit::parameter::{Parameter, Values};
 use crate::fit::scene::pause_of;
 use asperity_contact::motion::{MovingBody, RelaxingBody, Stage};
 use asperity_contact::{
-    Contact, ContactError, CurvePoint, Direction, Modulus, Move, Relaxation, StageRecord,
+    Contact, ContactError, CurvePoint, Direction, ForcePoint, Modulus, Move, Relaxation,
+    StageRecord,
 };
 use asperity_data::between;
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
@@ -27,14 +28,17 @@ const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that gets points at both of its ends.
 const NOTABLE: f64 = 2.0;
-/// Largest error of the forces of a body that relaxes, as a share of the largest force: at most,
-/// and if the forces have low accuracy. The steps of the computation follow from it.
+/// Largest error of the forces of a body that relaxes, as a share of the largest force. It
+/// determines the steps of the computation. `COARSE_ERROR_OF_STEPS` is the error of forces with low
+/// accuracy.
 const ERROR_OF_STEPS: f64 = 1e-3;
 const COARSE_ERROR_OF_STEPS: f64 = 5e-3;
-/// Such an error as a share of the noise. The errors of neighbouring points are alike, so that they
-/// count more than noise does.
+/// Error of the forces of a body that relaxes, as a share of the noise. It has to be much smaller
+/// than the noise, because the errors of neighbouring points are alike and do not average out as
+/// noise does.
 const OF_NOISE: f64 = 0.1;
-/// Smallest such error. Steps for less take longer than they improve a fit.
+/// Smallest error of the forces of a body that relaxes, as a share of the largest force. A smaller
+/// error would take more computing time without improving a fit.
 const LEAST_ERROR_OF_STEPS: f64 = 1e-5;
 /// Number of further points on each side of a fold, a place at which the displacement of the
 /// instrument turns back over the indentation. Each point is half as far from the fold as the
@@ -161,8 +165,9 @@ impl<'a> Model<'a> {
     }
 
     /// Computes the forces in N at all points of the measured curve, for the given values of the
-    /// parameters. They include the change of the drag, which was subtracted from the curve as if
-    /// the contact began where the points without contact end.
+    /// parameters. When the curve was read, a drag was subtracted as if the contact began where the
+    /// points without contact end. The forces include the difference to the drag for the first
+    /// touch in `values`.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow the values, or if its force curve cannot be
@@ -316,7 +321,7 @@ impl<'a> Model<'a> {
                 Some(stage) if presses => sampling.press(stage, from, to)?,
                 Some(stage) => sampling.pull(stage, from.unwrap_or_default())?,
                 None => {
-                    DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness)
+                    DisplacementCurve::new(Direction::Loading, &[ForcePoint::default()], stiffness)
                 }
             };
             let end = segments.partition_point(|segment| *segment <= number);
@@ -541,10 +546,10 @@ impl Sampling {
         from: Option<f64>,
         to: f64,
     ) -> Result<DisplacementCurve, ContactError> {
-        let free = from.is_none().then(CurvePoint::default);
+        let free = from.is_none().then(ForcePoint::default);
         let from = from.unwrap_or_default();
         let displacement = |indentation: f64| -> Result<f64, ContactError> {
-            Ok(stage.point(indentation)?.displacement(self.stiffness))
+            Ok(stage.force(indentation)?.displacement(self.stiffness))
         };
         // The indentation at which the displacement reaches `to` is sought between `low` and
         // `high`. It differs from the displacement by the deflection of the instrument, which
@@ -576,9 +581,9 @@ impl Sampling {
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn pull(self, stage: &Stage, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = stage.end().min(from);
-        let separated = CurvePoint {
+        let separated = ForcePoint {
             indentation: end,
-            ..CurvePoint::default()
+            ..ForcePoint::default()
         };
         // The points are dense near separation, where the force may change like the square root of
         // the distance from it.
@@ -597,15 +602,15 @@ impl Sampling {
         stage: &Stage,
         range: [f64; 2],
         power: i32,
-        free: Option<CurvePoint>,
+        free: Option<ForcePoint>,
     ) -> Result<DisplacementCurve, ContactError> {
-        let mut points = stage.curve(&self.indentations(stage, range, power))?;
+        let mut points = stage.forces(&self.indentations(stage, range, power))?;
         let folds = self.indentations_at_folds(&points, stage.direction());
         if !folds.is_empty() {
-            points.extend(stage.curve(&folds)?);
+            points.extend(stage.forces(&folds)?);
             points.sort_by(|point, next| point.indentation.total_cmp(&next.indentation));
         }
-        let points: Vec<CurvePoint> = match stage.direction() {
+        let points: Vec<ForcePoint> = match stage.direction() {
             Direction::Loading => free.into_iter().chain(points).collect(),
             Direction::Unloading => points.into_iter().rev().chain(free).collect(),
         };
@@ -634,9 +639,9 @@ impl Sampling {
     }
 
     /// Returns the ascending indentations in m of further points near folds. At a fold the
-    /// displacement turns back, so that the body becomes unstable on the instrument. A fold may be
-    /// close before a jump of the contact. `points` ascend in indentation.
-    fn indentations_at_folds(self, points: &[CurvePoint], direction: Direction) -> Vec<f64> {
+    /// displacement turns back, so that the body becomes unstable on the instrument. A fold may lie
+    /// shortly before a jump of the contact. `points` ascend in indentation.
+    fn indentations_at_folds(self, points: &[ForcePoint], direction: Direction) -> Vec<f64> {
         let mut in_time = points.to_vec();
         let sign = match direction {
             Direction::Loading => 1.0,
@@ -650,7 +655,7 @@ impl Sampling {
         let mut reached = f64::NEG_INFINITY;
         for neighbours in in_time.windows(3) {
             let [before, fold, after] = [neighbours[0], neighbours[1], neighbours[2]];
-            let displacement = |point: CurvePoint| sign * point.displacement(self.stiffness);
+            let displacement = |point: ForcePoint| sign * point.displacement(self.stiffness);
             reached = reached.max(displacement(before));
             let at_fold = displacement(fold);
             if at_fold > reached && displacement(after) < at_fold {
@@ -687,7 +692,8 @@ mod tests {
     fn rests(made: &Made) -> [Vec<f64>; 2] {
         let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
         curve.noise = made.noise;
-        let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
+        let [work, modulus] =
+            [Parameter::Work, Parameter::Modulus].map(|parameter| truth(made, parameter));
         let radius = radius_of(&made.scene).unwrap();
         let stiffness = stiffness(&made.scene);
         let values = [

@@ -27,7 +27,7 @@ pub enum Parameter {
     Stiffness,
     /// Radius R in m of the form of the scene, such as a sphere.
     Radius,
-    /// Radius R₂ of the second of several spheres on one probe, m.
+    /// Radius R₂ in m of the second of several spheres on one probe.
     SecondRadius,
     /// Distance b in m between the apexes of the first two spheres on one probe, in the direction
     /// of motion. The apex of the second sphere is behind the apex of the first sphere.
@@ -158,7 +158,7 @@ impl Parameter {
         Some((factor * least, most))
     }
 
-    /// Returns true for a parameter that may be 0 and not below it.
+    /// Returns true for a parameter that may be 0 but not negative.
     fn may_be_zero(self) -> bool {
         matches!(
             self,
@@ -169,7 +169,7 @@ impl Parameter {
         )
     }
 
-    /// Returns true for a parameter whose coordinate is its value in a unit.
+    /// Returns true for a parameter whose coordinate is its value divided by [`Coordinate::unit`].
     fn is_linear(self) -> bool {
         self.is_signed() || self == Parameter::Behind
     }
@@ -277,7 +277,7 @@ impl Free {
     /// # Errors
     /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if
     /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative. Of the
-    /// other parameters only a work of adhesion can be 0.
+    /// other parameters only `Work`, `ClosingWork`, `Behind` and `RelaxationShare` can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range.0, range.1) {
             return Ok(Free {
@@ -355,21 +355,22 @@ fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// Coordinate in which a free parameter is searched. For the offset and the zero, the coordinate is
-/// the value divided by [`Coordinate::unit`]. For the work of adhesion on closing, it is the ratio
-/// of this work to the work of adhesion. For the work of adhesion and for the share that relaxes,
-/// it is linear up to `unit` and logarithmic above it, so that they can be 0. If a curve is short
-/// against the relaxation time, it determines only the ratio of share and time, and this ratio is
-/// straight in logarithms. For other parameters the coordinate is a logarithm.
+/// Coordinate in which a free parameter is searched. For the offset, the zero and the distance
+/// behind, the coordinate is the value divided by [`Coordinate::unit`]. For the work of adhesion on
+/// closing, it is the position from 0 to 1 of this work within its range, which ends at most at the
+/// work of adhesion. For the work of adhesion and for the share that relaxes, it is linear up to
+/// `unit` and logarithmic above it, so that these parameters can be 0. For the other parameters the
+/// coordinate is a logarithm. A curve that is short compared with the relaxation time determines
+/// only the ratio of the share to the relaxation time. In logarithmic coordinates the places with
+/// the same ratio lie on a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
     /// Scale of the coordinate, as a value of the parameter in its SI unit. For much smaller values
-    /// of the parameter, the coordinate is the value divided by this scale. The scale is used for a
-    /// parameter that may be positive or negative, for the work of adhesion, and for the share that
-    /// relaxes.
+    /// of the parameter, the coordinate is the value divided by this scale. The scale is used for
+    /// the offset, the zero, the distance behind, the work of adhesion, and the share that relaxes.
     pub unit: f64,
 }
 
@@ -468,11 +469,15 @@ mod tests {
                 1.0_f64.asinh(),
             ),
         ] {
-            let one = coordinate(parameter, range);
-            assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
-            assert!((one.value(at, &values) - value).abs() < 1e-12, "{one:?}");
+            let found = coordinate(parameter, range);
+            assert!((found.of(value, &values) - at).abs() < 1e-12, "{found:?}");
+            assert!(
+                (found.value(at, &values) - value).abs() < 1e-12,
+                "{found:?}"
+            );
         }
-        // The work of adhesion on closing is at most that on opening, also if that is 0.
+        // The work of adhesion on closing is at most the work of adhesion on opening, even if the
+        // latter is 0.
         let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
         assert_eq!(
             (closing.of(9.0, &values), closing.value(1.5, &values)),

@@ -72,7 +72,11 @@ impl Population {
         let count = self.members.first().map_or(0, |member| member.place.len());
         let mut extents = Vec::with_capacity(count);
         for index in 0..count {
-            let positions: Vec<f64> = self.members.iter().map(|one| one.place[index]).collect();
+            let positions: Vec<f64> = self
+                .members
+                .iter()
+                .map(|member| member.place[index])
+                .collect();
             let deviation = standard_deviation(&positions, mean(&positions));
             extents.push(deviation.max(f64::MIN_POSITIVE).ln());
         }

@@ -13,10 +13,11 @@ const CORRELATED: f64 = 0.95;
 /// Half the width of the 95 % interval of the logarithm of a parameter above which the parameter is
 /// undetermined.
 const FLAT: f64 = 1.0;
-/// Distance, in standard errors, above which another place that is as good is another solution.
+/// Distance from the best value, in standard errors, above which another value that describes the
+/// curve as well is a separate solution and widens the interval.
 const ELSEWHERE: f64 = 5.0;
-/// Factor of the half-width of intervals. Some 150 independent samples determine a deviation to 6
-/// %.
+/// Factor by which the half-width of intervals is increased, because about 150 independent samples
+/// determine a standard deviation only to 6 %.
 const OF_SAMPLES: f64 = 1.06;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
@@ -34,9 +35,9 @@ pub(crate) struct Posterior<'a> {
     /// Samples whose deviations from the mean are increased, because residuals that correlate along
     /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
-    /// The samples as they are shown. Here the coordinate of the relaxation is the whole share of
-    /// the modulus that relaxes. In the other samples it is the part that relaxes during the
-    /// contact.
+    /// The widened samples with another coordinate of the parameter `RelaxationShare`: the whole
+    /// share of the modulus that relaxes, as in the results. In `widened` this coordinate is the
+    /// part of the modulus that relaxes during the contact.
     shown: Vec<Vec<f64>>,
     /// Value of each parameter with which the model describes the curve best, in SI units.
     pub best: Values,

@@ -21,10 +21,10 @@ const EXPLAINS: f64 = 0.4;
 /// Smallest slope of the force over the displacement, divided by the stiffness of the instrument,
 /// that is impossible with this instrument. The excess over 1 allows for errors.
 const STEEPER: f64 = 1.03;
-/// Shares of the way between first touch and turning point, next to the turning point, over which
-/// this slope is measured.
+/// Lengths of the parts of a loading over which the slope of the force is measured, as shares of
+/// the way from first touch to the turning point. Each part ends at the turning point.
 const PRESSED: [f64; 2] = [0.2, 0.5];
-/// Smallest number of points from which this slope is measured.
+/// Smallest number of points from which the slope of the force is measured.
 const FEWEST: usize = 5;
 /// Smallest and largest hysteresis in compression, as a share of the loading, that results from a
 /// smaller work of adhesion on closing.
@@ -35,8 +35,8 @@ const RELAXES: f64 = 0.08;
 const FALLS: f64 = 0.02;
 /// Relative step of a parameter in a numerical derivative.
 const STEP: f64 = 1e-3;
-/// Change of the force in this step, divided by the range of the force, above which the force jumps
-/// and has no derivative.
+/// Change of the force over a step of [`STEP`], divided by the range of the force, above which the
+/// force jumps and has no derivative.
 const LEAPS: f64 = 0.02;
 /// Largest residual in units of the median magnitude. Larger residuals are reduced to this value,
 /// because such points are on the wrong side of a jump.
@@ -682,7 +682,8 @@ mod tests {
         assert!(
             matches!(found(pushed.into_iter(), &[]), Reason::Step(step) if (step - 1e-7).abs() < 1e-9)
         );
-        // A force that resists the motion is a drag, and was subtracted.
+        // A force that resists the motion is a drag. It is subtracted when the curve is read, so it
+        // is not the reason.
         let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
         assert_eq!(found(dragged.into_iter(), &[]), Reason::StiffnessOrForm);
         assert!(

@@ -13,21 +13,24 @@ use asperity_scene::{Document, Scene};
 /// Share of the modulus that relaxes at which a search begins, if neither the scene nor the curve
 /// shows one.
 const USUAL_SHARE: f64 = 0.2;
-/// Smallest and largest share at which a search begins. The curve may show less or more.
+/// Smallest and largest share of the modulus that relaxes at which a search begins, even if the
+/// curve shows a smaller or a larger share.
 const SHARES: (f64, f64) = (0.05, 0.8);
 /// Time in contact divided by the relaxation time at which a search begins.
 const RELAXATIONS: f64 = 10.0;
-/// Ratios of further relaxation times to this one.
+/// Further relaxation times at which descents begin, divided by the relaxation time at which the
+/// search begins.
 const OTHER_TIMES: [f64; 3] = [0.1, 10.0, 100.0];
-/// Relative difference between two speeds that is worth a sentence.
+/// Smallest relative difference between two speeds that a sentence reports.
 const OTHER_SPEED: f64 = 0.02;
 
 /// Returns the document with the speed and the rest of the instrument, which the times in the file
 /// state, and with a relaxation at which a search begins, if it is free.
 ///
 /// # Errors
-/// Returns an error if the relaxation is free or stated, and neither the scene nor the file states
-/// a speed, or the curve has further segments than an approach and a retraction.
+/// Returns an error for a scene with a relaxation, or for a fit that searches one, in two cases:
+/// neither the scene nor the file states a speed, or the curve has more segments than an approach
+/// and a retraction.
 pub(crate) fn with_relaxation(
     document: &Document,
     curve: &MeasuredCurve,
@@ -64,8 +67,9 @@ pub(crate) fn with_relaxation(
     document.set_all(&changes).map_err(wrong)
 }
 
-/// Returns the time in s of the motion in contact, and of the rest. Without times in the file both
-/// motions have the speed `speed` in m/s.
+/// Returns the time in s that the body spends in contact: the time of both motions, and the time
+/// `rest` of the rest between them. Without times in the file, both motions have the speed `speed`
+/// in m/s.
 fn seconds_of(curve: &MeasuredCurve, speed: f64, rest: f64) -> f64 {
     let way = curve.turns[0] - curve.touch;
     match curve.timing.speeds {
@@ -74,7 +78,8 @@ fn seconds_of(curve: &MeasuredCurve, speed: f64, rest: f64) -> f64 {
     }
 }
 
-/// Returns the time in s in contact of a scene that relaxes; `None` if it does not.
+/// Returns the time in s that the body spends in contact; `None` if the half-space of the scene
+/// does not relax.
 pub(crate) fn seconds_in_contact(curve: &MeasuredCurve, scene: &Scene) -> Option<f64> {
     scene.material.relaxation?;
     Some(seconds_of(curve, scene.loading_speed?, pause_of(scene)))
@@ -108,7 +113,7 @@ pub(crate) fn other_relaxations(base: &Values, is_free: impl Fn(Parameter) -> bo
 }
 
 /// Returns sentences on the speed and the rest that a fit with relaxation assumes. `scene` is the
-/// one that was given.
+/// scene as the user gave it.
 pub(crate) fn notes_on_time(curve: &MeasuredCurve, scene: &Scene) -> Vec<Note> {
     let timing = &curve.timing;
     let mut notes = Vec::new();
@@ -139,7 +144,7 @@ pub(crate) fn notes_on_time(curve: &MeasuredCurve, scene: &Scene) -> Vec<Note> {
     let points = grouped(timing.points.len() as u64);
     let rest = timing.rest.unwrap_or(pause_of(scene));
     if timing.rest.is_some() && timing.points.is_empty() {
-        // The instrument turns between two points.
+        // The times of the file show no rest: the instrument turns between two points.
     } else if rest > 0.0 {
         let source = if timing.rest.is_some() {
             "times of the file"

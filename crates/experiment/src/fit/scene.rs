@@ -53,11 +53,13 @@ pub(crate) fn pause_of(scene: &Scene) -> f64 {
     pause
 }
 
-/// Paths of the radius and of the distance behind of the second of several spheres.
+/// Paths, in a scene, of two fields of the second of several spheres: its radius, and the distance
+/// of its apex behind the apex of the first sphere.
 pub(crate) const SECOND_RADIUS: &str = "form.1.radius";
 pub(crate) const SECOND_BEHIND: &str = "form.1.behind";
 
-/// Returns the path of the radius of the form of a scene. Of several spheres it is the first one.
+/// Returns the path of the radius of the form of a scene. If the form has several spheres, this is
+/// the path of the radius of the first one.
 fn radius_path(scene: &Scene) -> &'static str {
     match scene.form {
         Some(Form::Spheres(_)) => "form.0.radius",
@@ -247,8 +249,8 @@ fn with_stiffness(document: &Document, value: String) -> Result<Document, SceneE
     document.set_all(&[("loading_stiffness".to_owned(), value)])
 }
 
-/// Returns the document with a rigid instrument, for a column of displacements of the body, and a
-/// sentence about it.
+/// Returns the document with a rigid instrument and a sentence about this change. It is used if the
+/// displacement of the curve, from the column `name`, is the displacement of the body.
 fn as_body_displacement(
     document: &Document,
     name: &str,
@@ -287,7 +289,8 @@ mod tests {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let document = on_rubber(1e-3, 2e6);
         let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6, 4e-6, 1e-7, 0.2, 10.0];
-        let of_sphere = |one: Parameter| !one.is_of_two_spheres() && !one.is_of_relaxation();
+        let of_sphere =
+            |parameter: Parameter| !parameter.is_of_two_spheres() && !parameter.is_of_relaxation();
         let all = with_values(&document, &values, of_sphere, &curve).unwrap();
         let scene = all.scene();
         let adhesion = scene.adhesion.unwrap();
@@ -322,23 +325,41 @@ mod tests {
         );
         let two = "Spheres([(radius: 7.5e-6), (radius: 7.5e-6), (radius: 1e-6)])";
         let two = document.set("form", two).unwrap();
-        let found = with_values(&two, &values, |one| !one.is_of_relaxation(), &curve).unwrap();
+        let found = with_values(
+            &two,
+            &values,
+            |parameter| !parameter.is_of_relaxation(),
+            &curve,
+        )
+        .unwrap();
         let sphere = |radius: f64, behind: f64| Sphere { radius, behind };
         let spheres = [sphere(6e-6, 0.0), sphere(4e-6, 1e-7), sphere(1e-6, 0.0)];
         assert_eq!(found.scene().form, Some(Form::Spheres(spheres.to_vec())));
-        // The modulus of a material by Young's modulus and Poisson's ratio.
+        // The scene states the modulus by Young's modulus and Poisson's ratio.
         let plane = [(
             "material".to_owned(),
             "(youngs_modulus: 1e6, poisson_ratio: 0.5)".to_owned(),
         )];
         let plane = document.set_all(&plane).unwrap();
-        let found = with_values(&plane, &values, |one| one == Parameter::Modulus, &curve).unwrap();
+        let found = with_values(
+            &plane,
+            &values,
+            |parameter| parameter == Parameter::Modulus,
+            &curve,
+        )
+        .unwrap();
         assert!((found.scene().material.modulus_in_pascals() / 3e6 - 1.0).abs() < 1e-12);
         // The work on closing in the scene changes with the work of adhesion.
         let closing = document
             .set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())])
             .unwrap();
-        let found = with_values(&closing, &values, |one| one == Parameter::Work, &curve).unwrap();
+        let found = with_values(
+            &closing,
+            &values,
+            |parameter| parameter == Parameter::Work,
+            &curve,
+        )
+        .unwrap();
         assert_eq!(found.scene().adhesion.unwrap().closing_work(), Some(0.03));
     }
 }

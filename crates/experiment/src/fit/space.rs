@@ -22,20 +22,22 @@ use asperity_surface::Form;
 
 /// Ratio between the initial value and each end of a range that the user does not give.
 const FACTOR: f64 = 30.0;
-/// This ratio for the radius of the second of two spheres.
+/// Ratio between the initial radius of the second of two spheres and each end of its range, if the
+/// user gives no range.
 const FACTOR_OF_RADII: f64 = 5.0;
 /// Smallest ratio of the ends of a range that the limits of a scene leave.
 const NARROWEST: f64 = 2.0;
 /// Largest share of the modulus that relaxes in a search. A larger share leaves hardly any modulus.
 const MOST_RELAXATION: f64 = 0.95;
-/// Share up to which its coordinate is linear.
+/// Share of the modulus that relaxes, up to which the coordinate of this share is linear.
 const LINEAR_SHARE: f64 = 0.01;
-/// Ratio of each end of the range of the relaxation time to this initial value.
+/// Ratio between the initial relaxation time and each end of its range, if the user gives no range.
 const FACTOR_OF_TIMES: f64 = 300.0;
 /// Depth of an end of a line below its highest point, as a share of the largest depth, up to which
 /// the end counts as the highest point.
 const HIGHEST: f64 = 1e-3;
-/// Largest depth of the other end, and smallest median depth, of a hollow body.
+/// A body is hollow if its higher end counts as the highest point, its other end is at most `HIGH`
+/// deep, and its median depth is above `DEEP`. Both are shares of the largest depth.
 const HIGH: f64 = 0.25;
 const DEEP: f64 = 0.5;
 /// Share of a range within which a value counts as lying at the end of the range.
@@ -159,9 +161,9 @@ fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
     }
 }
 
-/// Returns the document with the lengths of the first two spheres at which a search begins, and
-/// what the jumps of the curve say about them. Without an answer the lengths of the scene stay, and
-/// so do those of further spheres.
+/// Returns the document with the lengths of the first two spheres at which a search begins, and the
+/// properties of these spheres that follow from the jumps of the curve. A length that does not
+/// follow from the jumps keeps its value in the scene, and so do the lengths of further spheres.
 fn with_two_spheres(
     document: &Document,
     curve: &MeasuredCurve,
@@ -282,9 +284,10 @@ impl Ranges<'_> {
         }
     }
 
-    /// Returns the unit of a coordinate in SI units: for the zero a tenth of the range of the
-    /// force, for the offset a tenth of the way in contact, and for the work of adhesion the value
-    /// that the noise hides.
+    /// Returns the unit of a coordinate in SI units: for the work of adhesion the value that the
+    /// noise hides, for the zero a tenth of the range of the force, for the share that relaxes
+    /// [`LINEAR_SHARE`], and for a displacement a tenth of the way in contact. Other parameters do
+    /// not use it.
     fn unit_of(&self, parameter: Parameter) -> f64 {
         match parameter {
             Parameter::Work => self.starts.least_work,
@@ -404,13 +407,14 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// Returns the share that relaxes, if `values` have the part of it that relaxes in contact.
+    /// Returns the whole share of the modulus that relaxes. `values` has, as `RelaxationShare`,
+    /// only the part of the modulus that relaxes within the time in contact.
     fn whole_share(&self, values: &Values) -> f64 {
         values[Parameter::RelaxationShare as usize] / self.relaxed_part(values)
     }
 
-    /// Returns the index of the coordinate of the share that relaxes; `None` if the share is not
-    /// free.
+    /// Returns the index of the coordinate of the share of the modulus that relaxes; `None` if this
+    /// share is not free.
     fn share_of_coordinate(&self) -> Option<usize> {
         self.coordinates
             .iter()
@@ -483,8 +487,9 @@ impl<'a> Space<'a> {
 
     /// Returns the free parameters with larger ranges, if a coordinate of `place` lies at an end of
     /// its range and the user did not give this range. Returns `None` otherwise, and if scenes
-    /// allow no larger range. `given` are the free parameters as the user gave them, and `free` are
-    /// those of the search.
+    /// allow no larger range. The ranges of the offset, the zero, the work of adhesion on closing,
+    /// the distance behind and the relaxation stay as they are. `given` are the free parameters as
+    /// the user gave them, and `free` are those of the search.
     ///
     /// Larger ranges may be needed for two reasons. The pull-off force of a rough body may be a
     /// small part of the pull-off force of a smooth body. A drag or a drift may falsify the initial
@@ -521,7 +526,8 @@ impl<'a> Space<'a> {
 
     /// Returns the end of its range at which the coordinate with the index `index` in `place` lies.
     /// Returns `None` if it lies inside its range. Also returns `None` if the end is a possible
-    /// value: a work of adhesion of 0, or a work of adhesion on closing equal to that on opening.
+    /// value: a work of adhesion of 0, either end for the work of adhesion on closing, a distance
+    /// behind of 0, or the lower end of the share that relaxes.
     pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
@@ -657,7 +663,7 @@ mod tests {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let document = on_rubber(1e-3, 2e6);
         let given: Vec<Free> = ["work", "modulus", "offset"]
-            .map(|one| one.parse().unwrap())
+            .map(|text| text.parse().unwrap())
             .to_vec();
         let mut simulation = Simulation::default();
         let mut ranges = given.clone();
@@ -679,7 +685,7 @@ mod tests {
             ranges = wider;
         }
         assert!((1.0..2.0).contains(&lowest), "{lowest}");
-        let bounded = ["work", "modulus=1MPa..2MPa", "offset"].map(|one| one.parse().unwrap());
+        let bounded = ["work", "modulus=1MPa..2MPa", "offset"].map(|text| text.parse().unwrap());
         let (_, space) =
             Space::of(&curve, &document, &mut simulation, &bounded, &|| false).unwrap();
         let mut place = space.start();

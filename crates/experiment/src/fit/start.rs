@@ -32,7 +32,7 @@ const USUAL_WORK: f64 = 0.05;
 /// Known parameters of the scene of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
-    /// Radius of the form in m.
+    /// Radius of the form in m; `None` for a form without a radius.
     pub radius: Option<f64>,
     /// Length of the profile in m.
     pub length: f64,
@@ -186,7 +186,11 @@ impl Loading {
             .map(|force| force.max(0.0).powf(1.0 / exponent))
             .collect();
         let middle = mean(&self.indentations);
-        let distances: Vec<f64> = self.indentations.iter().map(|at| at - middle).collect();
+        let distances: Vec<f64> = self
+            .indentations
+            .iter()
+            .map(|indentation| indentation - middle)
+            .collect();
         let slope = dot(&distances, &roots) / dot(&distances, &distances);
         let indentation = mean(&roots) / slope + self.last_indentation() - middle;
         (slope > 0.0 && slope.is_finite() && indentation.is_finite()).then_some(indentation)

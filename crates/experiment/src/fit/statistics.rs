@@ -127,7 +127,6 @@ pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
     }
 }
 
-/// Returns the deviations of values from their mean.
 fn deviations(mut values: Vec<f64>) -> Vec<f64> {
     let mean = mean(&values);
     for value in &mut values {
@@ -140,8 +139,8 @@ fn deviations(mut values: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    fn is_close(one: f64, other: f64) -> bool {
-        (one - other).abs() < 1e-12 * other.abs()
+    fn is_close(found: f64, expected: f64) -> bool {
+        (found - expected).abs() < 1e-12 * expected.abs()
     }
 
     #[test]

@@ -14,13 +14,13 @@ use asperity_data::Remedy;
 /// residuals are as large as the noise.
 fn assert_found(made: &Made, fit: &FitResult) {
     assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
-    for one in &fit.parameters {
-        let truth = truth(made, one.parameter);
+    for found in &fit.parameters {
+        let truth = truth(made, found.parameter);
         assert!(
-            (one.value - truth).abs() < 4.0 * one.noise_error,
-            "{one:?}: {truth:e}"
+            (found.value - truth).abs() < 4.0 * found.noise_error,
+            "{found:?}: {truth:e}"
         );
-        assert!(one.noise_error < 0.02 * truth, "{one:?}");
+        assert!(found.noise_error < 0.02 * truth, "{found:?}");
     }
 }
 
@@ -39,8 +39,8 @@ fn a_sphere_is_found_within_its_errors_and_written_into_its_scene() {
     let curve = measured(&made, 4);
     let fit = fitted(&curve, &made, "work,modulus,offset");
     assert_found(&made, &fit);
-    // The difference between the forces of the curve and of the model, which include zero and
-    // drift, is the residual.
+    // The forces of the model include the zero and the drift of the curve, so the residual is the
+    // difference between the forces of the curve and of the model.
     let in_contact = curve.in_contact();
     let squares = curve
         .force
@@ -107,7 +107,7 @@ fn a_point_inside_a_jump_counts_as_described() {
     let rise = |index: &usize| curve.force[*index] - curve.force[index - 1];
     let retraction = curve.segment.partition_point(|segment| *segment == 0) + 1;
     let jump = (retraction..1000)
-        .max_by(|one, other| rise(one).total_cmp(&rise(other)))
+        .max_by(|first, second| rise(first).total_cmp(&rise(second)))
         .unwrap();
     let half = 0.5 * rise(&jump);
     assert!(half > 10.0 * curve.noise, "{half:e} {:e}", curve.noise);
@@ -182,8 +182,9 @@ fn a_range_that_ends_below_the_work_of_adhesion_is_extended() {
     assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
 }
 
-/// The profile of the specimen is not the random profile of the scene. Then no interval
-/// excludes the true value, and the reason of the misfit names the profile.
+/// The profile of the specimen is not the random profile of the scene. Then each interval is the
+/// whole range, so that no interval excludes the true value, and the reason of the misfit names the
+/// profile.
 #[test]
 fn another_random_profile_has_the_whole_range_as_interval() {
     let mut made = random(13, 1024);
@@ -195,10 +196,13 @@ fn another_random_profile_has_the_whole_range_as_interval() {
         "{:?}",
         fit.reason
     );
-    for one in &fit.parameters[..2] {
-        assert_eq!(one.interval, one.range);
-        let truth = truth(&made, one.parameter);
-        assert!(one.interval.0 < truth && truth < one.interval.1, "{one:?}");
+    for found in &fit.parameters[..2] {
+        assert_eq!(found.interval, found.range);
+        let truth = truth(&made, found.parameter);
+        assert!(
+            found.interval.0 < truth && truth < found.interval.1,
+            "{found:?}"
+        );
     }
 }
 

@@ -195,8 +195,8 @@ impl Specimen<'_> {
         })
     }
 
-    /// Returns the result of each curve. `spaces` are those of the curves without and with the
-    /// points of rests.
+    /// Returns the result of each curve. `spaces` are the spaces of the curves, first without and
+    /// then with the points of rests.
     fn results(
         &mut self,
         joint: &Joint<'_>,
@@ -272,8 +272,8 @@ struct Found {
     evaluations: usize,
 }
 
-/// Coordinates of several curves: those of the first curve, and of the others those that they do
-/// not share.
+/// Coordinates of several curves: all coordinates of the first curve, and for each other curve the
+/// coordinates that it does not share with the first one.
 struct Joint<'a> {
     space: Space<'a>,
     parts: Vec<PartOfSearch>,
@@ -364,7 +364,8 @@ fn share_coordinates(spaces: &mut [Space<'_>]) {
 }
 
 /// Gives the shared parameters of all results one interval, the part that all of them have in
-/// common. The pull-off of a curve may end the interval of the work of adhesion.
+/// common. The intervals of the work of adhesion may differ, because the pull-off of a curve limits
+/// its interval.
 fn share_intervals(results: &mut [FitResult]) {
     for index in 0..results[0].parameters.len() {
         let mut shared = results[0].parameters[index];

@@ -1,24 +1,29 @@
 //! Values at which the fit of a body with two spheres begins. They follow from the jumps of the
 //! curve.
 //!
-//! On the approach each sphere snaps in when its apex touches. The body has then moved by the
-//! distance of both apices, and the instrument has bent by the force. On the retraction the spheres
-//! detach one after another. The last one carries the force alone before it detaches, which is the
-//! pull-off force 1.5 π γ R of a soft instrument (Johnson, Kendall and Roberts).
+//! On the approach each sphere snaps in when its apex touches. Between the two jumps the body moves
+//! by the distance of both apexes, and the deflection of the instrument changes with the force. On
+//! the retraction the spheres detach one after another. The last one carries the force alone before
+//! it detaches, which is the pull-off force 1.5 π γ R of a soft instrument (Johnson, Kendall and
+//! Roberts).
 
 use crate::curve::MeasuredCurve;
 use crate::curve::features::ForceJump;
 use crate::fit::parameter::{Parameter, Values};
 use std::f64::consts::PI;
 
-/// Share of the sum of both sizes that two jumps of one motion have at least.
+/// Smallest size of the smaller of two jumps of one motion, as a share of the sum of both sizes,
+/// for which the jumps count as those of two spheres.
 const LEAST_SHARE: f64 = 0.05;
-/// Ratios of both radii that further descents begin with.
+/// Radii of the second sphere, divided by the radius of the first sphere, at which further descents
+/// begin.
 const RATIOS: [f64; 3] = [0.4, 1.0, 2.0];
-/// Distances behind, as shares of the way of the instrument, that they begin with if the curve does
-/// not show it.
+/// Distances of the apex of the second sphere behind the apex of the first sphere at which further
+/// descents begin, if the curve does not show this distance. They are shares of the way of the
+/// instrument in contact.
 const SHARES: [f64; 3] = [0.0, 0.02, 0.1];
-/// Limits of the ratio of both radii at the start.
+/// Smallest and largest ratio of both radii at which a search begins, even if the jumps of the
+/// curve give another ratio.
 const RATIO: [f64; 2] = [0.1, 10.0];
 
 /// Properties of a body with two spheres that follow from the jumps of a measured curve.

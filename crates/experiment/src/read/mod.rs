@@ -93,7 +93,7 @@ pub(crate) mod tests {
             .chain(found.displacement.iter().zip(&expected.displacement));
         assert!(
             both.into_iter()
-                .all(|(one, other)| (one - other).abs() < 1e-20),
+                .all(|(first, second)| (first - second).abs() < 1e-20),
             "{name}"
         );
         assert_eq!(

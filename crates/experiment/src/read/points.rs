@@ -68,8 +68,7 @@ pub(crate) struct Columns {
 
 impl Columns {
     /// Creates columns from displacements in m and forces in N. A point with a value that is not
-    /// finite is left out.
-    /// `seconds` are the times of the points in s, or nothing.
+    /// finite is left out. `seconds` are the times of the points in s; empty if they are not known.
     ///
     /// # Errors
     /// Returns an error if the slices differ in length, if a value is larger than an instrument

@@ -21,8 +21,8 @@ const COORDINATES: [[&str; 5]; 2] = [
 ];
 /// Names before the number of a curve in files, reduced by [`letters`].
 const NUMBERS: [&str; 5] = ["curve", "index", "point", "pixel", "curveindex"];
-/// Distance of the ends of a curve, as a share of its range of displacements, below which the curve
-/// goes there and back.
+/// Distance between the first and the last displacement of a curve, as a share of its range of
+/// displacements, below which the curve goes there and back.
 const BACK: f64 = 0.8;
 
 /// What the lines above the points of a curve state about it.
@@ -36,8 +36,8 @@ struct Stated {
 }
 
 impl Stated {
-    /// Adds what a line states, unless a line before has stated it: `# xPosition: 1e-6`, `X 2 Y 3`,
-    /// `x = 1 um, y = 2 um` or `curve 7`.
+    /// Adds what a line states, unless an earlier line has stated it: `# xPosition: 1e-6`,
+    /// `X 2 Y 3`, `x = 1 um, y = 2 um` or `curve 7`.
     fn take(&mut self, line: &str) {
         let is_between = |c: char| c.is_whitespace() || ",;:=\"#[](){}".contains(c);
         let words: Vec<&str> = line
@@ -65,7 +65,7 @@ impl Stated {
         *self == Stated::default()
     }
 
-    /// Returns true if nothing that is stated differs from what `other` states.
+    /// Returns true if each value that is stated here is the same in `other`.
     fn agrees_with(&self, other: &Stated) -> bool {
         let agrees = |own: Option<f64>, other: Option<f64>| own.is_none() || own == other;
         agrees(self.x, other.x) && agrees(self.y, other.y) && agrees(self.number, other.number)

@@ -632,7 +632,7 @@ mod tests {
             assert!(
                 pairs
                     .into_iter()
-                    .all(|(one, other)| (one - other).abs() < 1e-18)
+                    .all(|(first, second)| (first - second).abs() < 1e-18)
                     && curve.of_body.is_none()
             );
             assert!(
@@ -655,7 +655,7 @@ mod tests {
         let head = "# segment: extend\n# columns: height vDeflection\n# units: m N\n";
         let paused = joined(head, 600, &|index| {
             let pause: Vec<String> = (0..200)
-                .map(|at| format!("5e-8 {:e}", 1e-9 * (101.0 - 0.02 * f64::from(at))))
+                .map(|index| format!("5e-8 {:e}", 1e-9 * (101.0 - 0.02 * f64::from(index))))
                 .collect();
             let pause = format!(
                 "# segment: pause\n{}\n# segment: retract\n",

@@ -103,7 +103,7 @@ impl Segments {
             let end = end.parse::<f64>().ok()? as usize;
             segments.push(Segment { end, name });
         }
-        let ascends = segments.is_sorted_by(|one, next| one.end < next.end);
+        let ascends = segments.is_sorted_by(|segment, next| segment.end < next.end);
         (ascends && !segments.is_empty()).then_some(Segments(segments))
     }
 
@@ -183,7 +183,7 @@ mod tests {
             found.stiffness.as_ref().map(|(_, stiffness)| *stiffness),
             Some(4.0)
         );
-        // With the indices and directions of the segments in the note.
+        // Here the note states the indices and the directions of the segments.
         let segments = format!("{note}\rIndexes: 0,299,599,\rDirection: NaN,1,-1,");
         let found = from_bytes(&curve(&segments), &plain).unwrap();
         assert_eq!(

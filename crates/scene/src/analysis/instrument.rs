@@ -10,7 +10,7 @@
 //! * Where dF/dd < −k, d + F(d)/k turns back. There the body jumps at constant D to the next d at
 //!   which the instrument can hold it.
 
-use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, StageRecord};
+use asperity_contact::{Branch, Direction, Figures, ForcePoint, History, StageRecord};
 
 /// Point of the force curve of an instrument with the stiffness k: the displacement D = d + F/k,
 /// the indentation d and the force F.
@@ -29,14 +29,13 @@ pub struct DisplacementPoint {
 /// another indentation while the displacement remains the same.
 ///
 /// ```
-/// use asperity_contact::{CurvePoint, Direction};
+/// use asperity_contact::{Direction, ForcePoint};
 /// use asperity_scene::instrument::DisplacementCurve;
 ///
-/// let point = |indentation, force| CurvePoint {
+/// let point = |indentation, force| ForcePoint {
 ///     indentation,
 ///     force,
 ///     springs: 1,
-///     ..CurvePoint::default()
 /// };
 /// let curve =
 ///     DisplacementCurve::new(Direction::Loading, &[point(0.0, 0.0), point(1.0, 2.0)], 2.0);
@@ -62,11 +61,15 @@ impl DisplacementCurve {
     /// Computes the curve of a loading stage for an instrument of the stiffness `stiffness` in N/m.
     /// An infinite stiffness means a rigid instrument. `curve` must have at least one point. Its
     /// indentations must grow on loading and fall on unloading.
-    pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
+    pub fn new<'p, P>(direction: Direction, curve: &'p [P], stiffness: f64) -> Self
+    where
+        ForcePoint: From<&'p P>,
+    {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
         let mut last: Option<DisplacementPoint> = None;
         for point in curve {
+            let point = ForcePoint::from(point);
             let next = DisplacementPoint {
                 displacement: point.displacement(stiffness),
                 indentation: point.indentation,
@@ -93,7 +96,8 @@ impl DisplacementCurve {
             }
             points.push(next);
         }
-        let is_free = |end: Option<&CurvePoint>| end.is_some_and(|point| point.springs == 0);
+        let is_free =
+            |end: Option<&'p P>| end.is_some_and(|point| ForcePoint::from(point).springs == 0);
         DisplacementCurve {
             points,
             sign,

@@ -134,8 +134,8 @@ impl Body {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
-        // The work of adhesion is chosen so that springs at the edges of a patch of contact as long
-        // as the profile stretch by 1e−3 to 3 times `HEIGHT`.
+        // The work of adhesion is chosen so that springs at the edges of a contact patch as long as
+        // the profile stretch by 1e−3 to 3 times `HEIGHT`.
         let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
         let work = reach * reach * MODULUS / (PI * LENGTH);
         let heights = match seed % 3 {
@@ -165,7 +165,7 @@ impl Body {
         })
     }
 
-    /// Returns the height difference between the lowest and the highest point of the profile, m.
+    /// Returns the height difference in m between the lowest and the highest point of the profile.
     pub fn depth(&self) -> f64 {
         let mut least = f64::INFINITY;
         let mut most = f64::NEG_INFINITY;

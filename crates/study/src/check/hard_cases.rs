@@ -47,14 +47,14 @@ fn near_ties(body: &Body) -> Measured {
         ..body.clone()
     };
     largest([0.0, 0.01, 1.0].map(|share| {
-        let [one, other] = [body, &near].map(|body| Body {
+        let [exact_body, near_body] = [body, &near].map(|body| Body {
             work: share * body.work,
             ..body.clone()
         });
         let far = [1.037, 100.0].map(|share| share * (body.depth() + body.stretch()));
         let turns = [&far[..], &body.turns::<8>(16)].concat();
-        let exact = one.load(&turns, false, 2)?;
-        let near = other.load(&turns, false, 2)?;
+        let exact = exact_body.load(&turns, false, 2)?;
+        let near = near_body.load(&turns, false, 2)?;
         let stages = exact.stages().iter().zip(near.stages());
         largest(stages.map(|(exact, near)| {
             let force = end(exact).force;

@@ -61,14 +61,14 @@ fn no_adhesion(body: &Body) -> Measured {
             .curve
             .iter()
             .zip(unloading.curve.iter().rev())
-            .map(|(one, other)| {
-                let is_same = one.indentation.to_bits() == other.indentation.to_bits()
-                    && one.springs == other.springs
-                    && one.patches == other.patches;
+            .map(|(pressed, pulled)| {
+                let is_same = pressed.indentation.to_bits() == pulled.indentation.to_bits()
+                    && pressed.springs == pulled.springs
+                    && pressed.patches == pulled.patches;
                 ensure(is_same, || {
-                    format!("at {:e} m another contact", one.indentation)
+                    format!("at {:e} m another contact", pressed.indentation)
                 })?;
-                Ok((one.force - other.force).abs() / loading.largest.force)
+                Ok((pressed.force - pulled.force).abs() / loading.largest.force)
             }),
     )
 }
@@ -86,12 +86,12 @@ fn memory(body: &Body) -> Measured {
         ),
     ];
     largest(pairs.map(|(short, long)| {
-        let one = body.load(short, false, 2)?;
-        let other = body.load(long, false, 2)?;
-        ensure(one.patches() == other.patches(), || {
+        let after_short = body.load(short, false, 2)?;
+        let after_long = body.load(long, false, 2)?;
+        ensure(after_short.patches() == after_long.patches(), || {
             format!("{long:?} leaves another contact")
         })?;
-        Ok((last_force(&one) - last_force(&other)).abs() / body.force_unit())
+        Ok((last_force(&after_short) - last_force(&after_long)).abs() / body.force_unit())
     }))
 }
 
@@ -136,10 +136,10 @@ fn energy(body: &Body) -> Measured {
 /// of two only, so that no bit of a mantissa changes.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
-    let one = body.load(&turns, false, 33)?;
+    let original = body.load(&turns, false, 33)?;
     for factors in powers {
         let [length, height, stress] = factors.map(|power| 2.0_f64.powi(power));
-        let other = Body {
+        let scaled = Body {
             heights: body.heights.iter().map(|point| height * point).collect(),
             length: length * body.length,
             modulus: stress * body.modulus,
@@ -149,8 +149,8 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
             work: height * (height * body.work) * (stress / length),
             edges: body.edges,
         };
-        let cycle = other.load(&turns.map(|turn| height * turn), false, 33)?;
-        let is_same = bits(&one, height, length * height * stress) == bits(&cycle, 1.0, 1.0);
+        let cycle = scaled.load(&turns.map(|turn| height * turn), false, 33)?;
+        let is_same = bits(&original, height, length * height * stress) == bits(&cycle, 1.0, 1.0);
         ensure(is_same, || {
             format!("2 to the powers {factors:?}: other bits")
         })?;
@@ -213,7 +213,9 @@ fn stepwise(scene: &CheckedScene) -> Measured {
                 let unit = exact.governing.modulus * scene.length * exact.line.deepest;
                 let stages = exact.history.stages.iter().zip(&steps.history.stages);
                 largest(
-                    stages.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)),
+                    stages.map(|(first, second)| {
+                        Ok((end(first).force - end(second).force).abs() / unit)
+                    }),
                 )
             }),
     )

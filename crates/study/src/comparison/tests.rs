@@ -12,8 +12,8 @@ use asperity_scene::open;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-/// Returns the results on `lines` profiles and `surfaces` squares for a rough scene, some fields of
-/// which are changed.
+/// Returns the results of a rough scene on `lines` profiles and `surfaces` square surfaces.
+/// `fields` has the fields of the scene that are changed.
 fn population(fields: &[(&str, &str)], surfaces: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
     let scene = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -53,7 +53,7 @@ fn drawn(values: &[f64], count: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
         .collect()
 }
 
-/// Values of one quantity on all lines and on all squares of a population.
+/// Values of one quantity on all profiles and on all square surfaces of a population.
 struct Population {
     quantity: &'static str,
     lines: Vec<f64>,
@@ -104,8 +104,8 @@ fn populations(fields: &[(&str, &str)], surfaces: u64, count: u64) -> Vec<Popula
 
 impl Population {
     /// Returns the share of random samples whose confidence interval contains the ratio of the
-    /// means over the whole population. Each sample has `count` squares and 16 times as many
-    /// lines.
+    /// means over the whole population. Each sample has `count` square surfaces and 16 times as
+    /// many profiles.
     fn held(&self, count: usize, random: &mut ChaCha8Rng) -> f64 {
         let truth = mean(&self.lines) / mean(&self.squares);
         let repeats = 2000;
@@ -124,9 +124,9 @@ impl Population {
     }
 }
 
-/// For all quantities of some spectra and for samples of 3, 6 and 12 squares, returns the
-/// smallest share of samples whose confidence interval contains the true ratio. By default only the
-/// first spectrum is tried, and all of them with `TEST_EFFORT=8`.
+/// Returns the smallest share of samples whose confidence interval contains the true ratio, over
+/// all quantities of some spectra and over samples of 3, 6 and 12 square surfaces. By default only
+/// the first spectrum is tried, and all of them with `TEST_EFFORT=8`.
 fn least_held(spectra: &[&[(&str, &str)]], seed: u64) -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut least = 1.0_f64;
@@ -144,9 +144,9 @@ fn least_held(spectra: &[&[(&str, &str)]], seed: u64) -> f64 {
     least
 }
 
-/// In at least 93 of 100 samples with few squares, the confidence interval contains the ratio
-/// over all lines and squares. The rule that widens the interval was found with these two
-/// spectra.
+/// In at least 93 of 100 samples with few square surfaces, the confidence interval contains the
+/// ratio over all profiles and square surfaces. The rule that widens the interval was found with
+/// these two spectra.
 #[test]
 #[ignore = "computes 64 squares for each spectrum, half a minute"]
 fn the_interval_of_a_ratio_holds_the_ratio() {
@@ -169,7 +169,7 @@ fn the_interval_of_a_ratio_holds_the_ratio() {
 }
 
 /// The confidence interval is also right for spectra that were not used to find the rule that
-/// widens it. The spectra have and lack a roll-off and adhesion.
+/// widens it. Some of these spectra have a roll-off or adhesion, and others do not.
 #[test]
 #[ignore = "computes 64 squares for each spectrum, half a minute"]
 fn the_interval_of_a_ratio_holds_the_ratio_of_other_spectra() {

@@ -5,7 +5,7 @@ use super::summary::{Branches, Point, Protocol, Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::fit::model::Sampling;
 use asperity_contact::motion::{Body, MovingBody};
-use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
+use asperity_contact::{ContactError, ForcePoint, Modulus, Move};
 use asperity_data::on_threads;
 use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{CheckedScene, Simulation};
@@ -25,8 +25,8 @@ const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
 /// Difference between the first seeds of two scenes whose seeds differ by 1. No table has so many
 /// profiles, so the tables of two scenes have no profile in common.
 const SEEDS_OF_SCENE: u64 = 1 << 32;
-/// Smallest force at the turning point of a computed curve, divided by the preload, whatever the
-/// noise.
+/// Smallest force at the turning point of a computed curve, divided by the measured preload. The
+/// random error of the preload lowers the force no further.
 const LEAST_TURN: f64 = 0.5;
 
 /// Scene, instrument and preloads of the computed curves, and the function that stops their
@@ -231,7 +231,7 @@ impl ForceLoop<'_> {
             points: SAMPLES,
             least_jump: NOTABLE * protocol.noise / self.scale,
         };
-        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
+        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(ForcePoint::default()))?;
         let pulled = sampling.pull(&retraction, turn)?;
         let top = match pressed.points().last() {
             Some(point) => point.displacement,
@@ -351,7 +351,7 @@ mod tests {
             for (index, name) in NAMES.into_iter().enumerate() {
                 let pairs = computed.iter().zip(&measured.summaries);
                 let differences: Vec<f64> = pairs
-                    .map(|(one, other)| other[index] - one[index])
+                    .map(|(first, second)| second[index] - first[index])
                     .collect();
                 let values: Vec<f64> = computed.iter().map(|summaries| summaries[index]).collect();
                 let scatter = standard_deviation(&values, mean(&values));

@@ -89,7 +89,8 @@ impl Response {
         }
     }
 
-    /// Returns the changes of ln γ and ln E* by which the predicted values change by `change`.
+    /// Returns the changes of ln γ and ln E* that change the predicted values by `change`. If E* is
+    /// given, only ln γ changes, and the agreement is the best by least squares.
     pub fn explain(&self, change: [f64; 2]) -> [f64; 2] {
         let work = self.slopes.by_work;
         let modulus = self.slopes.by_modulus;
@@ -116,8 +117,8 @@ impl Response {
 struct Expected {
     mean: f64,
     standard_deviation: f64,
-    /// Variance that the distances between the points of a curve cause in the difference between
-    /// the curve and the mean.
+    /// Part of the variance of the difference between a curve and the mean that comes from the
+    /// finite distances between the points of the curve.
     of_steps: f64,
     slopes: Slopes,
 }
@@ -238,7 +239,7 @@ impl<'a> Draws<'a> {
         quantile(&largest, DESCRIBED).unwrap_or(f64::INFINITY)
     }
 
-    /// Returns the largest deviation of a summary of an ensemble, in standard errors, after
+    /// Returns the largest deviation among the summaries of an ensemble, in standard errors, after
     /// subtraction of the part that a change of the parameters explains.
     fn largest_deviation(&self, chosen: &[&Profile]) -> f64 {
         let change =

@@ -19,8 +19,8 @@ pub(super) fn with_instrument(
     let first = first_curve.with_instrument(document).map_err(wrong)?;
     let stiffness = stiffness_of(&first.0);
     for (name, curve) in curves {
-        let (other, _) = curve.with_instrument(document).map_err(wrong)?;
-        let other = stiffness_of(&other);
+        let (with_other, _) = curve.with_instrument(document).map_err(wrong)?;
+        let other = stiffness_of(&with_other);
         if stiffness != other && (stiffness / other).ln().abs() > SAME_STIFFNESS {
             let stiffness = format_quantity(stiffness, "N/m");
             let other = format_quantity(other, "N/m");

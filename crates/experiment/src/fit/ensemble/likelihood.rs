@@ -51,7 +51,8 @@ impl Likelihood {
     /// Returns the probability of each pair of ln γ and ln E*, if the mean of the values predicted
     /// from `curves` measured curves is `prediction`. The prior is flat over ln γ and ln E*. The
     /// error of the mean has three sources: the number of curves, the number of random profiles,
-    /// and the steps in which the summaries of a curve change.
+    /// and the finite distances between the points of a curve, because of which its summaries
+    /// change in steps.
     ///
     /// The probabilities are computed on a grid. The first grid covers the whole table. The next
     /// grids are narrowed to the values with more than negligible probability, or widened where the
@@ -140,7 +141,11 @@ mod tests {
         known: Option<f64>,
         profiles: usize,
     ) -> Likelihood {
-        let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
+        let axis = |count: u8, step: f64| {
+            (0..count)
+                .map(|index| step * f64::from(index) - 1.5)
+                .collect()
+        };
         let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
         let mut table = Table {
             ranges: axis(16, 0.2),

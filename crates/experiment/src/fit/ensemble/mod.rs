@@ -80,9 +80,10 @@ const MOST_GROWTH: usize = 6;
 /// number of curves computed so far, and can stop the search.
 ///
 /// # Errors
-/// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an
-/// approach, or if its retraction ends before the contact is lost. It also returns an error if an
-/// option is out of range, or if a computation fails or is stopped.
+/// Returns an error if the profile of the scene is not random, if its solver is `Stepwise` or its
+/// half-space relaxes, if there is no curve, if a curve occurs twice or lacks an approach, or if
+/// its retraction ends before the contact is lost. It also returns an error if an option is out of
+/// range, or if a computation fails or is stopped.
 pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,

@@ -1,4 +1,4 @@
-//! Noise of the force of a computed curve, as the force of a measured curve has it.
+//! Noise that is added to the force of a computed curve, so that it resembles a measured force.
 
 use super::summary::Protocol;
 use rand::rngs::ChaCha8Rng;
@@ -11,11 +11,11 @@ pub(crate) struct Noise {
     generator: ChaCha8Rng,
     /// Standard deviation in N.
     deviation: f64,
-    /// Noise in N at the points so far.
+    /// Noise in N at the points for which it has been drawn so far.
     values: Vec<f64>,
     /// Mean in N of the noise at the points before contact.
     zero: f64,
-    /// Error of the measured preload by noise in N.
+    /// Error in N of the measured preload that comes from noise.
     pub of_preload: f64,
 }
 

@@ -24,14 +24,14 @@ const FINE_STEPS: usize = 6;
 /// Largest number of coarse tables that are computed. If the best place is at an end of a table,
 /// the next table lies around this place.
 const MOST_MOVES: usize = 4;
-/// Largest adhesion parameter κ = √(h⟨∇z⟩E*/γ) in the first coarse table. The smallest κ in this
-/// table is 0.06, that of a soft body which is almost smooth.
+/// Largest roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) in the first coarse table. The smallest κ
+/// in this table is 0.06, that of a soft body which is almost smooth.
 const HIGHEST_KAPPA: f64 = 80.0;
 /// Standard deviation that is added in quadrature to the scatter of each summary, so that no
 /// summary has too large a weight.
 const LEAST_SCATTER: f64 = 0.1;
-/// Mean square difference of the summaries from those of the measured curves, in units of its
-/// variance, above which a place is far from the curves.
+/// Mean square of the differences between the summaries at a place and the summaries of the
+/// measured curves, each in units of its variance, above which the place is far from the curves.
 const FAR: f64 = 25.0;
 
 /// Finds the place at which the computed curves have the mean summaries of the measured curves,
@@ -106,7 +106,7 @@ fn least(places: &[Place], value: impl Fn(Place) -> f64) -> Option<Place> {
     best.map(|(_, place)| place)
 }
 
-/// Summaries over the random profiles of a table, and those of the measured curves.
+/// Summaries of the random profiles of a table, and mean summaries of the measured curves.
 struct SummariesOfTable {
     scatters: Vec<Scatter>,
     target: Summaries,

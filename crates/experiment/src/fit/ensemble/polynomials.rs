@@ -128,7 +128,7 @@ impl Polynomials {
     }
 
     /// Predicts ln γ and ln E* of a curve that belongs to no random profile of the table. The
-    /// prediction is the mean of those of the two polynomials.
+    /// prediction is the mean of the predictions of the two polynomials.
     pub fn of_curve(&self, description: &Description) -> [f64; 2] {
         let terms = self.terms(description);
         let even = self.by_half(&terms, 0);
@@ -176,36 +176,41 @@ mod tests {
                 preload: Some(generator.random_range(5.0..6.0)),
             }
         };
-        let parameters = |of: &Description| {
-            let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
-            [3.0 + one - 2.0 * other * third, 7.0 * one * one - other]
+        let parameters = |description: &Description| {
+            let summaries = description.summaries;
+            let [first, second] = [summaries[0], summaries[4]];
+            let preload = description.preload.unwrap();
+            [
+                3.0 + first - 2.0 * second * preload,
+                7.0 * first * first - second,
+            ]
         };
         let curves: Vec<_> = (0..2000)
             .map(|index| {
-                let of = random();
+                let description = random();
                 // The parameters of one half of the profiles are off by 1, which the polynomial of
                 // the other half does not learn.
-                let [work, modulus] = parameters(&of);
+                let [work, modulus] = parameters(&description);
                 Example {
                     half: index % 2,
-                    description: of,
+                    description,
                     parameters: [work + f64::from(u8::from(index % 2 == 0)), modulus],
                 }
             })
             .collect();
         let learned = Polynomials::learned(&curves);
-        let of = random();
-        let [work, modulus] = parameters(&of);
+        let description = random();
+        let [work, modulus] = parameters(&description);
         for (found, expected) in [
-            (learned.of_profile(0, &of), [work, modulus]),
-            (learned.of_profile(1, &of), [work + 1.0, modulus]),
-            (learned.of_curve(&of), [work + 0.5, modulus]),
+            (learned.of_profile(0, &description), [work, modulus]),
+            (learned.of_profile(1, &description), [work + 1.0, modulus]),
+            (learned.of_curve(&description), [work + 0.5, modulus]),
         ] {
             assert!(
                 found
                     .iter()
                     .zip(expected)
-                    .all(|(one, other)| (one - other).abs() < 0.01),
+                    .all(|(first, second)| (first - second).abs() < 0.01),
                 "{found:?} {expected:?}"
             );
         }

@@ -290,8 +290,8 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_a_density_that_is_linear_between_values() {
-        // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its
-        // mirror image.
+        // The density x from 0 to 2 has the distribution x²/4, and the density 2 − x is its mirror
+        // image.
         for share in [0.0_f64, 0.01, 0.25, 0.3, 0.9, 1.0] {
             let rising = quantile(&[0.0, 1.0, 2.0], &[0.0, 1.0, 2.0], share);
             assert!(

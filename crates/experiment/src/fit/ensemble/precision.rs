@@ -19,8 +19,8 @@ pub(super) struct Precision {
     pub curves: f64,
     /// Number of random profiles.
     pub profiles: f64,
-    /// Variance of the error that the distances between the points of a curve cause, divided by the
-    /// variance over the random profiles.
+    /// Variance of the error that comes from the finite distances between the points of a curve,
+    /// divided by the variance over the random profiles.
     pub of_steps: f64,
 }
 

@@ -6,13 +6,15 @@ use super::table::{Place, Table};
 /// Signed binomial coefficients of a difference of sixth order. A smooth function has a small
 /// difference of this order.
 const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
-/// Sum of the squares of these coefficients. If the errors of the values are independent, the
-/// variance of the difference is this number times the variance of a value.
+/// Sum of the squares of the coefficients [`DIFFERENCE`]. If the errors of the values are
+/// independent, the variance of the difference is this number times the variance of a value.
 const SQUARES: f64 = 924.0;
-/// Smallest mean square of the differences of the means, in units of the mean square that
-/// independent profiles cause, that shows differences which all profiles have in common.
+/// Ratio above which the differences of the means count as errors that all profiles have in common:
+/// the mean square of these differences, divided by the mean square that they would have if the
+/// differences of the profiles were independent.
 const LEAST_COMMON: f64 = 4.0;
-/// Number of differences on each side of a node from which the mean square of the node is computed.
+/// Number of differences on each side of a node over which the mean square for this node is
+/// averaged.
 const NEAR: usize = 3;
 
 /// Mean and covariance of two values over the random profiles at a place.
@@ -267,14 +269,16 @@ fn unevenness(values: &[Vec<[f64; 2]>], ranges: usize, moduli: usize) -> Vec<[f6
 /// [`Moments::covariance`].
 #[derive(Clone, Default)]
 struct Steps {
-    /// Of the mean over the profiles.
+    /// Squares and product for the mean over the profiles.
     of_mean: [f64; 3],
-    /// Those of the mean that are expected if each profile has differences of its own.
+    /// Squares and product that are expected for the mean if the differences of the profiles are
+    /// independent of each other.
     by_profiles: [f64; 3],
 }
 
 impl Steps {
-    /// `nodes` has the values of all profiles at the nodes of the difference.
+    /// Computes the squares and the product for one difference. `nodes` has the values of all
+    /// profiles at each node of this difference.
     fn of(nodes: &[&Vec<[f64; 2]>]) -> Self {
         let mut differences = vec![[0.0; 2]; nodes[0].len()];
         for (coefficient, values) in DIFFERENCE.iter().zip(nodes) {
@@ -298,10 +302,10 @@ impl Steps {
         }
     }
 
-    /// Returns the covariance of the errors that all profiles have in common, if these sums are
-    /// `scale` times as large as the covariance of the errors. A value whose differences may come
-    /// from the random profiles has no errors, because the covariance of the profiles contains
-    /// them.
+    /// Returns the covariance of the errors that all profiles have in common. The sums of squares
+    /// and products are `scale` times this covariance. If the differences of a value can be
+    /// explained by independent profiles, its error is 0, because the covariance over the profiles
+    /// contains such differences already.
     fn common(&self, scale: f64) -> [f64; 3] {
         let mut errors = [0.0; 3];
         for (index, error) in errors.iter_mut().enumerate() {
@@ -327,8 +331,8 @@ mod tests {
     use super::*;
     use crate::fit::ensemble::summary::SUMMARIES;
 
-    /// Returns a first summary that is a cubic polynomial of the place. The two profiles differ by
-    /// the range.
+    /// Returns the first summary of a profile, which is a cubic polynomial of the place. The
+    /// summaries of the two profiles differ by the range.
     fn cubic(place: Place, profile: usize) -> f64 {
         place.range.powi(3) - 2.0 * place.range * place.modulus.powi(2)
             + [-0.5, 0.5][profile] * place.range
@@ -337,8 +341,8 @@ mod tests {
     #[test]
     fn means_are_exact_for_cubics_and_covariances_lie_between_nodes() {
         let (ranges, moduli): (Vec<f64>, Vec<f64>) = (
-            (0..7).map(|at| 0.5 * f64::from(at)).collect(),
-            (0..4).map(|at| 1.0 + 0.3 * f64::from(at)).collect(),
+            (0..7).map(|index| 0.5 * f64::from(index)).collect(),
+            (0..4).map(|index| 1.0 + 0.3 * f64::from(index)).collect(),
         );
         let mut table = Table {
             ranges,
@@ -366,7 +370,7 @@ mod tests {
                 "{place:?}: {found:?}"
             );
             let node = (2.0 * range).floor() / 2.0;
-            let square = |at: f64| 0.5 * at * at;
+            let square = |value: f64| 0.5 * value * value;
             let between = square(node) + (range - node) / 0.5 * (square(node + 0.5) - square(node));
             assert!(
                 (found.covariance[0] - between).abs() < 1e-12,
@@ -376,8 +380,9 @@ mod tests {
         }
     }
 
-    /// Values that change in steps, as the place of a point between the points of a curve does,
-    /// have errors of this variance. Steps of single profiles belong to their scatter.
+    /// A value that is rounded to the distances between the points of a curve changes in steps with
+    /// the parameters. If all profiles have the same steps, the variance of the rounding error is
+    /// found. If each profile has steps of its own, they belong to the scatter over the profiles.
     #[test]
     fn steps_that_all_profiles_have_are_errors_of_the_means() {
         let step = 0.013;

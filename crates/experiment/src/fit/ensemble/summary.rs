@@ -10,8 +10,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 const FEWEST: usize = 20;
 /// Smallest number of points of the part of a branch without contact.
 const FEWEST_FREE: usize = 5;
-/// Magnitude of the mean force at the end of the retraction, in standard deviations of the mean by
-/// noise, above which the body is still in contact.
+/// Magnitude of the mean force at the end of the retraction, in units of the standard deviation
+/// that noise causes in this mean, above which the body is still in contact.
 const IN_CONTACT: f64 = 5.0;
 /// Smallest assumed noise, divided by the largest force. Computed curves are not more accurate than
 /// this.
@@ -54,8 +54,8 @@ const AT_JUMP: f64 = 1e-3;
 /// Ratio of the scatter of the preloads to the scatter that noise causes, above which the preloads
 /// count as different.
 const DIFFERENT: f64 = 2.0;
-/// Largest factor between the noise of one curve and the median noise of all curves, up to which
-/// the median replaces the noise of each curve.
+/// Largest ratio between the noise of a curve and the median noise of all curves, in either
+/// direction. If no curve exceeds this ratio, the median replaces the noise of each curve.
 const ONE_NOISE: f64 = 1.5;
 
 /// Point of an approach or a retraction.
@@ -259,7 +259,6 @@ fn crossing(from: Point, to: Point, level: f64) -> f64 {
     from.displacement + share * (to.displacement - from.displacement)
 }
 
-/// Largest tension of a branch.
 struct LargestTension {
     /// Tension as a positive force in N.
     force: f64,
@@ -426,10 +425,11 @@ impl Measurement {
         }
     }
 
-    /// Returns the half, 0 or 1, to which a random profile belongs. The profiles of each measured
-    /// curve, whose properties they have, are in both halves in turn. Otherwise a preload that only
-    /// one curve has, or every second one, would be in one half only, and what is learned from the
-    /// other half would not apply to it.
+    /// Returns the half, 0 or 1, to which a random profile belongs. Each profile is computed with
+    /// the preload of one measured curve. The profiles of the same measured curve are put into both
+    /// halves in turn. Otherwise the preload of a single curve, or of every second curve, might
+    /// occur in one half only, and the polynomial that is learned from the other half would not
+    /// apply to it.
     pub fn half(&self, profile: usize) -> usize {
         let count = self.protocols.len();
         (profile % count + profile / count) % 2
@@ -520,8 +520,8 @@ mod tests {
     #[test]
     fn summaries_are_those_of_a_sawtooth() {
         let found = summaries(&sawtooth(), 100.0).map(f64::exp);
-        // The expected forces, energies and distances. The smallest tension is three times the
-        // noise, and the jump lies between two points.
+        // The expected values are forces in N, energies in J and distances in m. The smallest
+        // tension is three times the noise, and the jump lies between two points.
         let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
         let expected = [
             40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work,

@@ -1,5 +1,5 @@
-//! Annealing: members of a population move at random, while the noise that is assumed falls to that
-//! of the curve.
+//! Annealing: members of a population move at random, while the assumed noise falls to the noise of
+//! the curve.
 
 use super::{COARSE, Cooling, LARGE, SCAN, Search, SearchResult};
 use crate::curve::numerics::{Extent, dot};
@@ -19,27 +19,30 @@ const MEMBERS: usize = 24;
 /// Number of further members for each free parameter.
 const FOR_EACH: usize = 8;
 
-/// Smallest effective number of members after a step of the noise, as a share of all members.
+/// Smallest effective number of members after a step of the noise, as a share of all members. The
+/// effective number is (Σw)²/Σw² for the weights w of the members.
 const EFFECTIVE: f64 = 0.3;
 
 /// Largest number of moves of the population at each step.
 const MOVES: usize = 5;
 
-/// Largest number of rounds of such moves before the end, and mean growth of the logarithm of the
-/// extent of a coordinate in one round, up to which no further round follows.
+/// Largest number of rounds of moves before the samples are drawn.
 const ROUNDS: usize = 20;
 
+/// Growth of the logarithm of the extent of a coordinate in a round, as a mean over the
+/// coordinates, up to which no further round follows.
 const GROWN: f64 = 0.05;
 
-/// Growth of the logarithm of the extent of one coordinate in a round, up to which no further round
-/// follows for a half-space that relaxes.
+/// Growth of the logarithm of the extent of any one coordinate in a round. If the half-space
+/// relaxes, a further round follows above this growth.
 const GROWN_ALONG_ONE: f64 = 0.15;
 
 /// Number of moves at the end, each of which adds all members to the samples.
 const LAST_MOVES: usize = 32;
 
-/// Number of these moves for a half-space that relaxes, whose curves take long to compute. Its
-/// population is drawn from nearly the distribution of the samples.
+/// Number of moves at the end for a half-space that relaxes, whose curves take long to compute.
+/// Fewer moves suffice, because its first population already has nearly the distribution of the
+/// samples.
 const LAST_MOVES_OF_RELAXATION: usize = 12;
 
 /// Share of the moves that are random steps.
@@ -72,8 +75,9 @@ const SLOWEST: f64 = 0.99;
 const CLOSE: f64 = 2.5;
 
 impl Search<'_> {
-    /// Samples the coordinates with the noise of the curve, or with the residual of the best member
-    /// if it is larger.
+    /// Draws samples of the coordinates from their probability distribution. The distribution
+    /// assumes the noise of the curve, or a noise as large as the residual of the best member if
+    /// the residual is larger.
     pub(super) fn sample(
         &mut self,
         mut population: Population,
@@ -122,7 +126,8 @@ impl Search<'_> {
         })
     }
 
-    /// Returns the indices of the points in contact in each part of each segment of all curves.
+    /// Returns the blocks of all curves. Each segment of a curve is divided into parts, and a block
+    /// has the indices of the points of one part that are in contact.
     fn blocks(&self, member: &Member) -> Vec<Vec<usize>> {
         let mut blocks = self.space.blocks(&member.in_contact);
         let mut first = self.space.curve.force.len();
@@ -138,8 +143,9 @@ impl Search<'_> {
         blocks
     }
 
-    /// Moves the members of a population until its extent grows no more. After a step of the noise
-    /// it may be smaller than that of the distribution, above all if a start was copied.
+    /// Moves the members of a population until its extent grows no more. After a step of the noise,
+    /// the extent of the population may be smaller than that of the probability distribution, above
+    /// all if many members are copies of a start.
     fn spread_out(
         &mut self,
         population: &mut Population,
@@ -232,7 +238,6 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the number of members of a population.
     pub(super) fn count_of_members(&self) -> usize {
         MEMBERS + FOR_EACH * self.space.coordinates.len()
     }
@@ -259,7 +264,8 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Returns a population of scattered members and a start, at an infinite noise.
+    /// Returns the first population, at an infinite noise. It has scattered members and, if a start
+    /// is given, the start and members around it.
     fn first_members(
         &mut self,
         attempt: usize,

@@ -16,29 +16,33 @@ use std::f64::consts::TAU;
 const STEPS: usize = 40;
 /// Largest number of lengths that are tried for a step.
 const LENGTHS: usize = 5;
-/// Damping of the first step, its smallest value, and the factors by which it falls after a step
-/// that lowers the cost and grows after another one (Levenberg and Marquardt).
+/// Damping of the first step of a descent (Levenberg and Marquardt), and its smallest value. A step
+/// that lowers the cost multiplies the damping by `EASED`, and a step that does not lower it by
+/// `TIGHTENED`.
 const DAMPING: f64 = 1e-2;
 const LEAST_DAMPING: f64 = 1e-6;
 const EASED: f64 = 0.2;
 const TIGHTENED: f64 = 5.0;
-/// Fall of the cost in a step below which a descent ends.
+/// Fall of the cost in a step below which a descent ends, apart from the part [`SLOW`] that is in
+/// proportion to the cost.
 const FLAT: f64 = 0.02;
-/// Further part of this fall, as a share of the cost.
+/// Part of the fall of the cost below which a descent ends, as a share of the cost. It is added to
+/// [`FLAT`].
 const SLOW: f64 = 1e-4;
 /// Ratio of the noise to the lowest noise, up to which the noise counts as the lowest.
 const LOWEST: f64 = 1.1;
 /// Residual of the best member divided by the noise at which a descent ends, if the model does not
 /// describe the curve.
 const DEEPER: f64 = 3.0;
-/// Steps of a coordinate over which its effect on the residuals is computed.
+/// Step of a coordinate over which its effect on the residuals is computed. The coordinates of the
+/// relaxation have the step `STEP_OF_RELAXATION`.
 const STEP: f64 = 0.01;
 const STEP_OF_RELAXATION: f64 = 0.05;
-/// Change of the force over such a step, as a share of the range of the force, above which a point
-/// lies at a jump.
+/// Change of the force over the step of a coordinate, as a share of the range of the force, above
+/// which a point lies at a jump.
 const LEAPS: f64 = 0.05;
-/// Largest difference of the cost of another place from that of the best one, up to which members
-/// are drawn around it too.
+/// Largest difference between the cost at the end of a descent and the smallest cost of all
+/// descents, up to which members are drawn around this end too.
 const ALSO_GOOD: f64 = 6.0;
 /// Number of places drawn for each member that is wanted.
 const CANDIDATES: f64 = 1.5;
@@ -116,8 +120,8 @@ impl Search<'_> {
         self.drawn_around(centres, count, generator).map(Some)
     }
 
-    /// Lowers the cost from a place by least squares. The noise that is assumed falls with the
-    /// residuals, and points beyond [`WRONG_SIDE`] times this noise have a smaller weight.
+    /// Lowers the cost from a place by least squares. The assumed noise falls with the residuals,
+    /// and points beyond [`WRONG_SIDE`] times this noise have a smaller weight.
     fn least_squares_from(&mut self, place: Vec<f64>) -> Result<Descended, ExperimentError> {
         self.set_accuracy(COARSE);
         let mut best = self.member(self.space.inside(&place))?;
@@ -140,7 +144,7 @@ impl Search<'_> {
                     .place
                     .iter()
                     .zip(&step)
-                    .map(|(at, by)| at + by)
+                    .map(|(position, change)| position + change)
                     .collect();
                 let next = self.member(self.space.inside(&place))?;
                 fall = cost - self.cost(&next, noise);
@@ -212,7 +216,8 @@ impl Search<'_> {
             for column in 0..count {
                 products[row * count + column] = dot(&effect, &effects[column]);
             }
-            // The range of a coordinate counts as the knowledge before the curve.
+            // The range of a coordinate counts as the knowledge before the measurement: a uniform
+            // distribution over a range of the width w has the variance w²/12.
             let (low, high) = self.space.coordinates[row].ends();
             products[row * (count + 1)] += 12.0 / (high - low).powi(2);
         }
@@ -288,7 +293,11 @@ impl Search<'_> {
                 Some(factor) => factor.solve_transposed(normal),
                 None => normal,
             };
-            drawn.place = centre.iter().zip(&step).map(|(at, by)| at + by).collect();
+            drawn.place = centre
+                .iter()
+                .zip(&step)
+                .map(|(position, change)| position + change)
+                .collect();
             if self.space.contains(&drawn.place) {
                 break;
             }

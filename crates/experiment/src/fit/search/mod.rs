@@ -11,8 +11,8 @@
 //! Each member then moves by the difference between two other members, so that the moves have the
 //! extent and direction of the population. Some moves are random steps of any size, so that copies
 //! separate again. At the end the distribution of the members is the probability distribution of
-//! the parameters. The initial values are not made a member, because a member close to the result
-//! would be copied to the whole population.
+//! the parameters. The initial values are not made a member of the first population, because a
+//! member close to the result would be copied to the whole population.
 
 mod annealing;
 mod local;
@@ -42,25 +42,28 @@ const SYSTEMATIC: f64 = 5.0;
 /// Share of the residual of the first population that another population must fall below to count
 /// as better.
 const BETTER: f64 = 0.9;
-/// Mean square residual, in units of the squared noise, above which another population is drawn.
+/// Mean square residual in contact, in units of the squared noise, above which descents begin and
+/// another population is drawn.
 const EXPECTED: f64 = 1.2;
 /// Number of standard deviations by which the cost may exceed its expected value by chance. This
 /// limit replaces [`EXPECTED`] for curves with few points.
 const CHANCE: f64 = 3.0;
 /// Largest number of populations.
 const ATTEMPTS: usize = 3;
-/// Smallest difference by which the cost of the initial values must be below that of a population,
-/// for the population to have missed the minimum.
+/// Difference of two costs that matters. A population has missed the minimum if its cost exceeds
+/// the cost of the initial values, or of the end of a descent, by more than this. The end of a
+/// descent is an alternative if its cost exceeds the cost of the best member by less than this.
 const MISSED: f64 = 3.0;
 /// Step of the coordinates in the first simplex of a descent.
 const FIRST_STEP: f64 = 0.3;
-/// Factor of this step from one descent to the next.
+/// Factor by which the step of the first simplex becomes shorter from one descent to the next.
 const SHORTER: f64 = 0.6;
 /// Largest number of descents, each at a lower noise.
 const DESCENTS: usize = 12;
-/// Share of the residual that must be left after a descent for another one to be tried.
+/// Ratio of the residual after a descent to the noise that the descent assumed, below which the
+/// descent has improved the residual.
 const NO_BETTER: f64 = 0.97;
-/// Number of curves in a descent for each coordinate.
+/// Largest number of curves that a descent computes for each coordinate.
 const CURVES: usize = 40;
 /// Largest noise divided by the noise of the curve.
 const LARGE: f64 = 1e6;
@@ -104,7 +107,7 @@ struct Cooling {
     weights: Vec<f64>,
 }
 
-/// Search on one random profile.
+/// Search for the parameters that describe a curve, or several curves of one specimen together.
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
@@ -171,7 +174,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns all curves, whose points follow each other.
+    /// Returns all curves of the search, in the order in which their points follow each other.
     fn curves(&self) -> impl Iterator<Item = &MeasuredCurve> {
         let further = self.further.iter().map(|further| further.space.curve);
         [self.space.curve].into_iter().chain(further)
@@ -295,7 +298,7 @@ impl Search<'_> {
         self.descended_from(self.space.start())
     }
 
-    /// Does the same as [`Search::descended`] from another place.
+    /// Does the same as [`Search::descended`], but begins at `place`.
     fn descended_from(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
         self.set_accuracy(1.0);
         let mut best = self.member(place)?;
@@ -325,9 +328,9 @@ impl Search<'_> {
     /// Finds the member (set of parameters) with the smallest residuals, and samples of the
     /// coordinates. The search draws a population of members. It draws another population in three
     /// cases. First, the residuals exceed the noise: one population in thirty ends in a wrong
-    /// minimum, and one in 200 does so twice. Second, the initial values have a lower cost than the
-    /// population; they then become a member of the next population. Third, the members of the
-    /// population have not spread.
+    /// minimum, and one in 200 does so twice. Second, the initial values, or the end of a descent,
+    /// have a lower cost than the population; they then become a member of the next population.
+    /// Third, the members of the population have not spread.
     ///
     /// The curves of a half-space that relaxes take long to compute. Descents from starts then
     /// replace the first population, unless they end at different places that do not describe the
@@ -417,9 +420,10 @@ impl Search<'_> {
         Ok(result)
     }
 
-    /// Returns members that may be better than the best one of a population: by descents from
-    /// starts if its residuals exceed the noise, or if the body has two spheres, which may be
-    /// exchanged.
+    /// Returns members that may be better than `best`, the best member of a population. They are
+    /// the ends of descents. If the residuals of `best` exceed the noise, or if the body has two
+    /// spheres, a descent begins at the initial values. For two spheres, descents also begin at
+    /// further starts and at the values with exchanged spheres.
     fn rivals(&mut self, best: &Member) -> Result<Vec<Member>, ExperimentError> {
         let has_two_spheres = !self.space.other_starts.is_empty();
         let mut rivals = Vec::new();
@@ -433,8 +437,8 @@ impl Search<'_> {
         Ok(rivals)
     }
 
-    /// Returns the member to which the costs fall if two spheres are exchanged; `None` for another
-    /// body.
+    /// Exchanges the two spheres of the member `best`, and returns the member that a descent from
+    /// there reaches; `None` for a body without two spheres.
     fn with_exchanged_spheres(&mut self, best: &Member) -> Result<Option<Member>, ExperimentError> {
         if self.space.other_starts.is_empty() {
             return Ok(None);
