@@ -10,7 +10,7 @@ use super::manual_path::ManualPath;
 use super::map_state::MapState;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
-use super::player::{Player, indentations};
+use super::player::{Player, Rest, indentations};
 use super::prompt::{Prompt, Purpose};
 use super::request::{CloseUpTarget, LineView, SnapshotRequest};
 use super::scene_title::SceneTitle;
@@ -122,6 +122,8 @@ pub struct App {
     /// Position of the animation of the path of manual loading; `None` at the end of the path,
     /// where the body is.
     pub play_of_path: Option<Player>,
+    /// Rest of the animation at a large jump; `None` while it moves.
+    pub rest: Option<Rest>,
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
     pub snapshot: Option<Arc<ContactSnapshot>>,
@@ -163,6 +165,7 @@ impl App {
             edit: Editor::new(document),
             play: Player::START,
             play_of_path: None,
+            rest: None,
             view: View {
                 pane: Pane::Force,
                 large: None,

@@ -127,7 +127,7 @@ const WITH_TRUST: u16 = 100;
 /// Smallest width in columns of the list of parameters at the side.
 const NARROWEST_LIST: u16 = 32;
 /// Largest width in columns of the list of parameters at the side.
-const WIDEST_LIST: u16 = 48;
+const WIDEST_LIST: u16 = 54;
 /// Smallest height in rows of the area on the left if it has both the residuals of a measured curve
 /// and the timeline.
 const WITH_BOTH_STRIPS: u16 = 26;

@@ -149,6 +149,7 @@ fn values_at(chart: &Chart, coordinate: f64) -> Vec<String> {
         if layer.name.is_empty() {
             continue;
         }
+        let before = texts.len();
         match &layer.shape {
             Shape::Curve { points, .. } => {
                 if let Some(y) = height_at(chart, points, coordinate) {
@@ -167,6 +168,10 @@ fn values_at(chart: &Chart, coordinate: f64) -> Vec<String> {
                 }
             }
             _ => {}
+        }
+        // Parts of a curve that meet at the crosshair have the same value.
+        if texts[..before].contains(&texts[texts.len() - 1]) {
+            texts.truncate(before);
         }
     }
     texts

@@ -83,6 +83,15 @@ pub struct Player {
     pub playing: bool,
 }
 
+/// Rest of the animation at a large jump, so that the eye can follow the jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// State just after the jump. If the animation is elsewhere, the rest is over.
+    pub player: Player,
+    /// Time in s at speed 1 until the animation moves on.
+    pub left: f64,
+}
+
 impl Player {
     pub const START: Player = Player {
         stage: 0,

@@ -3,14 +3,22 @@
 
 use super::manual;
 use crate::explorer::app::App;
-use crate::explorer::player::{At, Player};
+use crate::explorer::player::{At, Player, Rest};
 use crate::explorer::request::Focus;
 use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::timeline::{passed, position_of};
+use asperity_contact::Event;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time that the animation takes for a loading stage at speed 1.
-const STAGE_TIME: Duration = Duration::from_secs(6);
+/// Time in s that the animation takes for a loading stage at speed 1.
+const STAGE_TIME: f64 = 6.0;
+/// Smallest energy of a jump at which the animation rests, as a share of the largest energy of a
+/// jump.
+const LARGE_JUMP: f64 = 0.1;
+/// Longest time in s of a rest at speed 1, and largest share of the time of a stage for its rests.
+const LONGEST_REST: f64 = 0.25;
+const SHARE_OF_RESTS: f64 = 0.25;
 /// If the animation has passed less than this share of a loading stage, it counts as being at the
 /// start of the stage.
 const NEAR_START: f64 = 0.05;
@@ -85,6 +93,52 @@ pub fn go_to_pull_off(app: &mut App) {
     app.set_playhead(rest);
 }
 
+/// How the animation moves through a loading stage: evenly, with a rest of the same time at each
+/// large jump. The whole stage takes the time [`STAGE_TIME`].
+struct Pace {
+    /// States just after the large jumps that are still ahead, in the order of the motion.
+    ahead: Vec<Player>,
+    /// Time in s of each rest, and time in s in which the animation moves through the stage.
+    rest: f64,
+    moving: f64,
+}
+
+impl Pace {
+    fn new(app: &App, player: Player) -> Self {
+        let mut pace = Pace {
+            ahead: Vec::new(),
+            rest: 0.0,
+            moving: STAGE_TIME,
+        };
+        let Some(Ok(events)) = app.listed_events() else {
+            return pace;
+        };
+        let stages = app.played_stages();
+        let energy = |event: &Event| event.jump.map_or(0.0, |jump| jump.energy.abs());
+        let largest = events.list.iter().map(energy).fold(0.0, f64::max);
+        let passed = passed(stages, &events.list, player);
+        let mut rests = 0;
+        for (index, event) in events.list.iter().enumerate() {
+            let is_large = event.jump.is_some() && energy(event) >= LARGE_JUMP * largest;
+            if event.stage != player.stage || !is_large {
+                continue;
+            }
+            rests += 1;
+            if index >= passed {
+                pace.ahead.push(Player {
+                    playing: true,
+                    ..position_of(stages, event)
+                });
+            }
+        }
+        if rests > 0 {
+            pace.rest = LONGEST_REST.min(SHARE_OF_RESTS * STAGE_TIME / f64::from(rests));
+            pace.moving = STAGE_TIME - f64::from(rests) * pace.rest;
+        }
+        pace
+    }
+}
+
 /// Advances the animation by the time that has passed since the last call.
 pub fn elapse(app: &mut App, time: Duration) {
     let stages = app.played_stages();
@@ -93,26 +147,60 @@ pub fn elapse(app: &mut App, time: Duration) {
     }
     let last = stages.len() - 1;
     let mut player = app.playhead();
-    let mut share = app.config.speed * time.as_secs_f64() / STAGE_TIME.as_secs_f64();
-    // If the step goes beyond the end of a stage, its rest is made in the next stage. In this way
-    // the speed does not depend on the frame rate.
-    while player.stage < last && share > 1.0 - player.share(stages) {
-        share -= 1.0 - player.share(stages);
-        player = Player {
-            stage: player.stage + 1,
-            at: At::Start,
-            ..player
-        };
+    let mut time = app.config.speed * time.as_secs_f64();
+    let mut rest = app.rest.filter(|rest| rest.player == player);
+    loop {
+        if let Some(Rest { left, .. }) = rest {
+            if time < left {
+                rest = Some(Rest {
+                    player,
+                    left: left - time,
+                });
+                break;
+            }
+            time -= left;
+            rest = None;
+        }
+        // If the step goes beyond a large jump or the end of a stage, its rest is made there. In
+        // this way the speed does not depend on the frame rate.
+        let pace = Pace::new(app, player);
+        let share = player.share(stages);
+        let jump = pace.ahead.first();
+        let end = jump.map_or(1.0, |jump| jump.share(stages));
+        let needed = (end - share).max(0.0) * pace.moving;
+        if let Some(jump) = jump
+            && time >= needed
+        {
+            time -= needed;
+            player = *jump;
+            rest = Some(Rest {
+                player,
+                left: pace.rest,
+            });
+        } else if player.stage < last && time > needed {
+            time -= needed;
+            player = Player {
+                stage: player.stage + 1,
+                at: At::Start,
+                ..player
+            };
+        } else {
+            player.at = player.advanced(stages, time / pace.moving);
+            break;
+        }
     }
-    player.at = player.advanced(stages, share);
-    if player.stage < last || player.at != At::End {
+    let is_resting = rest.is_some();
+    let is_at_end = player.stage >= last && player.at == At::End && !is_resting;
+    let at_rest = Player::at_rest(stages);
+    app.rest = rest;
+    if !is_at_end {
         app.set_playhead(player);
     } else if app.config.repeat {
         restart(app);
     } else if app.edit.path.is_some() {
         app.set_playhead(player);
     } else {
-        app.set_playhead(Player::at_rest(stages));
+        app.set_playhead(at_rest);
     }
 }
 

@@ -47,10 +47,75 @@ fn report(app: &App) -> Exported<'_> {
 /// Width in columns from which a row also states the energy of a jump. Narrower rows have only room
 /// for what happens.
 const WITH_ENERGY: u16 = 36;
-/// Width in columns from which a row also states the forces.
-const WITH_FORCES: u16 = 56;
-/// Width of the columns of indentation, or of the time if the body relaxes, and energy.
-const NUMBER_COLUMNS: usize = 9;
+
+/// Texts of a row of the list.
+struct EventRow {
+    /// Indentation, or the time if the body relaxes.
+    place: String,
+    mark: char,
+    words: String,
+    /// Energy that the springs gain (positive) or release, in J.
+    energy: Option<f64>,
+    forces: String,
+}
+
+impl EventRow {
+    fn new(event: &Event) -> Self {
+        EventRow {
+            place: match event.seconds {
+                Some(seconds) => format_rounded(seconds, 3, "s"),
+                None => format_rounded(event.indentation, 3, "m"),
+            },
+            mark: event.mark.map_or(' ', symbol_of),
+            words: event_words(event),
+            energy: match (event.jump, event.instrument) {
+                (Some(jump), _) => Some(jump.energy),
+                (None, Some(jump)) => Some(-jump.energy),
+                (None, None) => None,
+            },
+            forces: match event.forces {
+                [before, after] if before == after => format_rounded(before, 3, "N"),
+                [before, after] => format_range((before, after), 3, "N"),
+            },
+        }
+    }
+
+    fn energy_in_words(&self) -> String {
+        self.energy.map_or_else(String::new, signed_energy)
+    }
+}
+
+/// Widths of the columns of the list.
+struct Columns {
+    place: usize,
+    /// `None` if the rows state no energies.
+    energy: Option<usize>,
+    /// `None` if the rows state no forces.
+    forces: Option<usize>,
+}
+
+impl Columns {
+    /// Returns the columns of rows of this width. Forces are stated only if the words have room
+    /// beside them.
+    fn new(rows: &[EventRow], width: u16) -> Self {
+        let widest = |text: fn(&EventRow) -> usize| rows.iter().map(text).max().unwrap_or(0);
+        let place = widest(|row| row.place.chars().count());
+        let energy = widest(|row| row.energy_in_words().chars().count());
+        let forces = widest(|row| row.forces.chars().count());
+        let words = widest(|row| row.words.chars().count());
+        let with_all = BESIDE_WORDS + place + words + energy + BEFORE_FORCES.len() + forces;
+        Columns {
+            place,
+            energy: (width >= WITH_ENERGY).then_some(energy),
+            forces: (with_all <= usize::from(width)).then_some(forces),
+        }
+    }
+}
+
+/// Columns of a row beside its texts: the sign of the selected row, blanks and the mark.
+const BESIDE_WORDS: usize = 5;
+/// Text before the forces.
+const BEFORE_FORCES: &str = "  F ";
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = format!("Events · {}", app.listed_share().in_words());
@@ -66,9 +131,17 @@ fn panel(app: &App, size: Size) -> Panel {
         );
     }
     let selected = selected(app.played_stages(), &listed.list, app.playhead());
+    let texts: Vec<EventRow> = listed.list.iter().map(EventRow::new).collect();
+    let columns = Columns::new(&texts, size.width);
     let mut rows = Vec::new();
-    for (index, event) in listed.list.iter().enumerate() {
-        rows.push(row(app, event, selected == Some(index), size.width));
+    for (index, row) in texts.iter().enumerate() {
+        rows.push(line_of(
+            app,
+            row,
+            &columns,
+            selected == Some(index),
+            size.width,
+        ));
     }
     let mut panel = Panel::of_text(title, "");
     panel.edge = vec![vec![Span::raw(count_in_words(listed))]];
@@ -95,41 +168,33 @@ fn count_in_words(listed: &Events) -> String {
     format!("{} of {all}", grouped(listed.listed_jumps as u64))
 }
 
-fn row(app: &App, event: &Event, is_selected: bool, width: u16) -> Line<'static> {
-    let mark = event.mark.map_or(' ', symbol_of);
-    let place = match event.seconds {
-        Some(seconds) => format_rounded(seconds, 3, "s"),
-        None => format_rounded(event.indentation, 3, "m"),
-    };
+/// Returns a row of the list. Words that are too long are shortened.
+fn line_of(
+    app: &App,
+    row: &EventRow,
+    columns: &Columns,
+    is_selected: bool,
+    width: u16,
+) -> Line<'static> {
+    let sign = if is_selected { "›" } else { " " };
     let mut line = Line::from(vec![
-        Span::raw(if is_selected { "›" } else { " " }),
-        Span::raw(format!("{place:>NUMBER_COLUMNS$} {mark} ")),
-        Span::raw(event_words(event)),
+        Span::raw(sign),
+        Span::raw(format!("{:>1$} {2} ", row.place, columns.place, row.mark)),
+        Span::raw(row.words.clone()),
     ]);
-    let energy = match (event.jump, event.instrument) {
-        (Some(jump), _) => Some(jump.energy),
-        (None, Some(jump)) => Some(-jump.energy),
-        (None, None) => None,
-    };
-    let energy_text = energy.map_or_else(String::new, signed_energy);
-    let mut right = if width >= WITH_ENERGY {
-        format!("{energy_text:>NUMBER_COLUMNS$}")
-    } else {
-        String::new()
-    };
-    if width >= WITH_FORCES {
-        let forces = match event.forces {
-            [before, after] if before == after => format_rounded(before, 3, "N"),
-            [before, after] => format_range((before, after), 3, "N"),
-        };
-        right = format!("{right}  F {forces}");
+    let mut right = String::new();
+    if let Some(energy) = columns.energy {
+        right = format!("{:>energy$}", row.energy_in_words());
+    }
+    if let Some(forces) = columns.forces {
+        right = format!("{right}{BEFORE_FORCES}{:forces$}", row.forces);
     }
     let room = usize::from(width).saturating_sub(right.chars().count() + 1);
     line = fitted(line, room as u16);
     let blanks =
         " ".repeat(usize::from(width).saturating_sub(line.width() + right.chars().count()));
     line.push_span(Span::raw(blanks));
-    let style = match energy {
+    let style = match row.energy {
         Some(energy) => app.view.appearance.palette().ink(ink_of(energy > 0.0)),
         None => app.style(Meaning::Text),
     };

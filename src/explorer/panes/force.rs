@@ -75,7 +75,7 @@ fn fit(app: &App) -> Exported<'_> {
 }
 
 /// Smallest height in rows at which the pane describes the ghosts in lines above the chart.
-const WITH_GHOSTS: u16 = 12;
+const WITH_GHOSTS: u16 = 9;
 
 fn panel(app: &App, size: Size) -> Panel {
     let Some(chart) = shown_chart(app) else {

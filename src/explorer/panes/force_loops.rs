@@ -95,6 +95,9 @@ fn insert_area<'a>(
     chart.layers.insert(1, area);
 }
 
+/// Name of the loops of square surfaces in the legend.
+const IN_THREE_DIMENSIONS: &str = "three dimensions";
+
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
@@ -155,14 +158,16 @@ fn measured_loop(points: &[CurvePoint]) -> ForceLoop<'_> {
     }
 }
 
+/// Returns the mean and the ends of a band. Only the mean is named: the ends enclose an area.
 fn loops_of_band(band: &[Vec<CurvePoint>; 3]) -> [ForceLoop<'_>; 3] {
     let [lower, mean, upper] = band;
     let curves = [
-        (lower, Stroke::Sparse),
-        (mean, Stroke::Solid),
-        (upper, Stroke::Sparse),
+        (lower, Stroke::Sparse, Label::default()),
+        (mean, Stroke::Solid, Label::plain(IN_THREE_DIMENSIONS)),
+        (upper, Stroke::Sparse, Label::default()),
     ];
-    curves.map(|(points, stroke)| ForceLoop {
+    curves.map(|(points, stroke, name)| ForceLoop {
+        name: Some(name),
         ink: Some(Ink::Kept),
         stroke: Some(stroke),
         ..curve_alone(points)

@@ -76,9 +76,23 @@ fn panel(app: &App, size: Size) -> Panel {
     let playhead = app.playhead();
     let head = timeline.column(playhead.stage, playhead.share(records));
     lines.extend(tick_lines(app, &timeline, width, rows, head));
-    lines.push(stage_line(app, &timeline, width, head));
+    let mut stages = stage_line(app, &timeline, width, head);
+    let has_no_title = size.height < *STRIP_WITH_TITLE.start();
+    if has_no_title && app.view.pane == Pane::Timeline && head != Some(0) {
+        mark_as_selected(&mut stages, app.style(Meaning::Title));
+    }
+    lines.push(stages);
     panel.body = Body::Lines(lines);
     panel
+}
+
+/// Replaces the first sign of a line by the sign of the selected pane.
+fn mark_as_selected(line: &mut Line<'static>, style: Style) {
+    if let Some(first) = line.spans.first_mut() {
+        let rest: String = first.content.chars().skip(1).collect();
+        first.content = rest.into();
+        line.spans.insert(0, Span::styled("▸", style));
+    }
 }
 
 /// Returns the name of the pane, whether the animation plays, and its speed.

@@ -3,6 +3,7 @@
 use super::*;
 use asperity::explorer::config::Config;
 use asperity::explorer::player::{At, Player};
+use asperity_contact::Event;
 
 #[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
@@ -129,8 +130,16 @@ fn an_edit_keeps_the_place_of_the_animation() {
 #[test]
 fn the_animation_is_as_far_however_often_it_is_drawn() {
     let three = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5)]";
+    // Without adhesion there are no large jumps, at which the animation rests.
+    for (document, is_even) in [(without_adhesion(), true), (rough(), false)] {
+        assert_as_far(&document.set("loading", three).unwrap(), is_even);
+    }
+}
+
+#[track_caller]
+fn assert_as_far(document: &Document, is_even: bool) {
     let place = |steps: u32, seconds: f64| {
-        let mut driver = Driver::start(rough().set("loading", three).unwrap());
+        let mut driver = Driver::start(document.clone());
         (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
         let player = driver.app.play;
         (player, player.share(driver.app.stages()), driver.point())
@@ -142,10 +151,13 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
             assert_eq!(player.at, At::End);
         }
         let expected = (seconds / 6.0).min(3.0);
+        let reached = player.stage as f64 + share;
+        // With rests, each stage takes the same time.
         assert!(
-            (player.stage as f64 + share - expected).abs() < 1e-9,
+            (reached - expected).abs() < if is_even { 1e-9 } else { 0.26 },
             "{seconds}: {player:?}"
         );
+        assert_eq!(reached.floor(), expected.floor(), "{seconds}: {player:?}");
         for steps in [3, 70, 211] {
             let (other, _, there) = place(steps, seconds);
             assert_eq!(
@@ -165,7 +177,8 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
 fn the_configuration_sets_speed_and_end() {
     let config = |text: &str| Config::parse(text, Path::new("config.ron"), bindings()).unwrap();
     let place = |config: Config, seconds: u32| {
-        let mut driver = Driver::start(rough());
+        // Without adhesion the animation moves evenly.
+        let mut driver = Driver::start(without_adhesion());
         driver.app.config = config;
         driver.app.play = Player::START;
         (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
@@ -202,4 +215,38 @@ fn the_configuration_sets_speed_and_end() {
     driver.shows("▶ 1×");
     let (stage, _, playing) = place(config("(version: 1, repeat: true)"), 14);
     assert!(stage == 0 && playing, "it begins again");
+}
+
+#[test]
+fn the_animation_rests_at_large_jumps() {
+    let mut driver = Driver::start(open("pressure-sensitive").unwrap());
+    let events = match driver.app.listed_events() {
+        Some(Ok(listed)) => listed.list.clone(),
+        other => panic!("{other:?}"),
+    };
+    let energy = |event: &Event| event.jump.map_or(0.0, |jump| jump.energy.abs());
+    let largest = events.iter().map(energy).fold(0.0, f64::max);
+    let mut large: Vec<f64> = Vec::new();
+    for event in events.iter().filter(|event| energy(event) >= 0.1 * largest) {
+        large.push(event.indentation);
+    }
+    // States in which the animation is at two frames of 50 in a second.
+    let mut rested: Vec<f64> = Vec::new();
+    let mut before = f64::NAN;
+    while driver.app.play.playing {
+        driver.elapse(0.02);
+        let indentation = driver.app.indentation();
+        let is_new = rested.last() != Some(&indentation);
+        if indentation == before && is_new && driver.app.play.playing {
+            rested.push(indentation);
+        }
+        before = indentation;
+    }
+    assert_eq!(rested.len(), large.len());
+    for (rested, large) in rested.iter().zip(&large) {
+        assert!(
+            (rested - large).abs() <= 1e-9 * large.abs(),
+            "{rested} {large}"
+        );
+    }
 }

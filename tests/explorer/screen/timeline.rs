@@ -459,3 +459,50 @@ fn a_pane_chosen_in_the_list_of_commands_is_shown() {
     driver.press(": `events` Enter");
     driver.shows("▸ Events");
 }
+
+#[test]
+fn rows_of_events_are_whole_in_wide_windows_and_state_forces_where_there_is_room() {
+    for name in ["two-spheres", "pressure-sensitive"] {
+        let mut driver = Driver::start(open(name).unwrap());
+        driver.resize((200, 55));
+        driver.press("! e");
+        let area = driver.area(Pane::Events);
+        let mut rows = driver.rows();
+        rows.truncate(area.bottom().into());
+        let rows: Vec<String> = rows
+            .drain(usize::from(area.y)..)
+            .map(|row| row.chars().skip(area.x.into()).collect())
+            .collect();
+        assert!(!rows.iter().any(|row| row.contains('…')), "{rows:#?}");
+        assert!(
+            rows.iter()
+                .any(|row| row.contains("fJ") || row.contains("pJ"))
+        );
+        driver.press("z");
+        driver.shows(" F ");
+    }
+}
+
+#[test]
+fn a_selected_timeline_without_a_title_is_marked() {
+    let mut driver = Driver::start(open("pressure-sensitive").unwrap());
+    driver.press("!");
+    driver.resize((80, 24));
+    let row = |driver: &Driver| {
+        let area = driver.area(Pane::Timeline);
+        driver.rows()[usize::from(area.bottom()) - 1].clone()
+    };
+    driver.app.view.pane = Pane::Force;
+    assert!(row(&driver).starts_with('├'), "{}", row(&driver));
+    driver.app.view.pane = Pane::Timeline;
+    assert!(row(&driver).starts_with('▸'), "{}", row(&driver));
+}
+
+#[test]
+fn a_narrow_window_shows_the_force_under_manual_loading() {
+    let mut driver = Driver::start(open("pressure-sensitive").unwrap());
+    driver.resize((80, 24));
+    driver.press("! d Right");
+    let title = driver.rows()[usize::from(driver.area(Pane::Force).y) - 1].clone();
+    assert!(title.contains("◆ d ") && title.contains(" F -"), "{title}");
+}
