@@ -31,6 +31,12 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
+/// Shows the next quantity of the map, with the scale of colours that suits it.
+pub fn next_quantity(app: &mut App) {
+    app.map.quantity = app.next_mapped();
+    app.map.scale = None;
+}
+
 /// Shows the next or the previous map of the study, depending on the pressed key. If the present
 /// scene is a cell of the map that was shown before, the scene becomes the corresponding cell of
 /// the new map.

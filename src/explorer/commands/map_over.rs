@@ -306,6 +306,7 @@ pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     state.of_study = false;
     state.plan_file = None;
     state.quantity = quantity;
+    state.scale = None;
     state
         .plan(app.edit.document.scene())
         .map_err(|error| error.to_string())?;

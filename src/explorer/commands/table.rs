@@ -299,7 +299,7 @@ static TABLE: &[Entry] = &[
     row("M", EXPLORE, "map-over", Do(map_over::ask), "", "map a quantity over two rows, such as F_a/F_a,max over E × h", MAP).words("study sweep parametric two axes diagram plan"),
     row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value on an axis", MAP).merges().unlisted(),
     row("Shift+← Shift+→ Shift+↓ Shift+↑ H L J K", MAP_PANE, "move-scene-coarse", Key(map::step), "", "move the scene by four values", MAP).merges().unlisted(),
-    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity", MAP),
+    row("V", MAP_PANE, "next-map-quantity", Do(map::next_quantity), "quantity", "map another quantity", MAP),
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "back to the map over H and κ; show the map of the study, or the map of the scene", MAP),
     row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "next or previous preload of the study, or value of a further axis", MAP),
 

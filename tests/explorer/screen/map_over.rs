@@ -42,6 +42,11 @@ fn a_map_has_the_selected_row_and_the_row_edited_before() {
     assert_ne!(driver.text(), usual);
     driver.press("X");
     assert_eq!(driver.text(), usual);
+    // Another quantity begins with its own scale.
+    driver.press("X V");
+    assert_eq!(driver.app.map.scale, None);
+    driver.app.map.quantity = Quantity::AdhesionShare;
+    assert_eq!(driver.text(), usual);
     // The arrow keys move the scene over the map, which stays.
     let height = |driver: &Driver| driver.document().scene().number("roughness.rms_height");
     let present = height(&driver);
