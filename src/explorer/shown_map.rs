@@ -2,6 +2,7 @@
 
 use super::app::App;
 use super::map_state::Live;
+use asperity_data::AxisScale;
 use asperity_study::maps::{Grid, GridPlace};
 use asperity_study::{Axis, Quantity};
 
@@ -53,6 +54,16 @@ impl App {
             return chosen;
         }
         quantities.first().copied().unwrap_or(chosen)
+    }
+
+    /// Returns the scale of the colours of a quantity, if the user has chosen one; `None` for the
+    /// scale that suits the values. A share, such as F_a/F_a,max, has a linear scale, on which a
+    /// live map of a few profiles and a study of many have the same colours.
+    pub fn colour_scale(&self, quantity: Quantity) -> Option<AxisScale> {
+        if quantity == self.mapped() && self.map.scale.is_some() {
+            return self.map.scale;
+        }
+        (quantity.bounds() == (0.0, 1.0)).then_some(AxisScale::Linear)
     }
 
     /// Returns the quantities that the map can show. The list is empty before a map is computed.

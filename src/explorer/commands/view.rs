@@ -49,7 +49,8 @@ pub fn toggle_scale(app: &mut App) {
         let Some(usual) = usual.map(|layer| layer.scale) else {
             return app.set_error("regimes have no scale; V shows another quantity");
         };
-        app.map.scale = Some(other_scale(app.map.scale.unwrap_or(usual)));
+        let present = app.colour_scale(mapped).unwrap_or(usual);
+        app.map.scale = Some(other_scale(present));
         return;
     }
     app.view.preloads = other_scale(app.view.preloads);

@@ -79,7 +79,7 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text(title, &nothing_yet(app));
     };
     let foot = below(app, grid, size);
-    let Some(mut chart) = map(grid, app.mapped(), app.map.scale) else {
+    let Some(mut chart) = map(grid, app.mapped(), app.colour_scale(app.mapped())) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
@@ -150,7 +150,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
         None => curves(app, grid),
         Some(_) => shown_quantities(app.mapped(), grid)
             .into_iter()
-            .filter_map(|quantity| study_map(grid, quantity, false, app.map.scale))
+            .filter_map(|quantity| study_map(grid, quantity, false, app.colour_scale(quantity)))
             .collect(),
     };
     let title = match app.map.shown_study() {
