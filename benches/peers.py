@@ -120,7 +120,8 @@ def pulled_off(np):
 
     def by_asperity():
         ball = asp.profile(side, 4096, form=asp.sphere(radius))
-        return asp.load(ball, modulus=modulus, work=work, stages=["50 mm", "separation"]).pull_off
+        loop = asp.load(ball, modulus=modulus, work=work, stages=["50 mm", "separation"])
+        return loop.pull_off_force
 
     def by_adhesion():
         attraction = (radius * work**2 / (modulus**2 * tabor**3)) ** (1 / 3)
