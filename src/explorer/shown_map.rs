@@ -57,13 +57,9 @@ impl App {
     }
 
     /// Returns the scale of the colours of a quantity, if the user has chosen one; `None` for the
-    /// scale that suits the values. A share, such as F_a/F_a,max, has a linear scale, on which a
-    /// live map of a few profiles and a study of many have the same colours.
+    /// scale that suits the quantity.
     pub fn colour_scale(&self, quantity: Quantity) -> Option<AxisScale> {
-        if quantity == self.mapped() && self.map.scale.is_some() {
-            return self.map.scale;
-        }
-        (quantity.bounds() == (0.0, 1.0)).then_some(AxisScale::Linear)
+        self.map.scale.filter(|_| quantity == self.mapped())
     }
 
     /// Returns the quantities that the map can show. The list is empty before a map is computed.

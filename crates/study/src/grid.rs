@@ -85,10 +85,15 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     }
 }
 
-/// Returns the scale of the colours of a map that suits `means`. In contrast to [`scale_of`], a mean
-/// of zero counts as a small mean, since a cell with it has the colour of the smallest means. A map
-/// of a few profiles and a map of many profiles then usually have the same scale.
-pub(super) fn scale_of_colours(means: &[f64]) -> AxisScale {
+/// Returns the scale of the colours of a map of a quantity with these means. A share, such as
+/// F_a/F_a,max, has a linear scale, on which cells that hardly adhere look alike. For another
+/// quantity, in contrast to [`scale_of`], a mean of zero counts as a small mean, since a cell with
+/// it has the colour of the smallest means. A map of a few profiles and a map of many profiles then
+/// usually have the same scale.
+pub(super) fn scale_of_colours(quantity: Quantity, means: &[f64]) -> AxisScale {
+    if quantity.bounds() == (0.0, 1.0) {
+        return AxisScale::Linear;
+    }
     let least = means.iter().copied().filter(|mean| *mean > 0.0);
     let least = least.fold(f64::INFINITY, f64::min);
     let means = means
@@ -345,14 +350,17 @@ mod tests {
 
     #[test]
     fn a_mean_of_zero_changes_no_scale_of_colours() {
+        let energy = |means: &[f64]| scale_of_colours(Quantity::DissipatedEnergy, means);
         let small = [1.0, 0.9, 1e-3, 1e-4, 1e-5];
         let zero = [1.0, 0.9, 1e-3, 0.0, 0.0];
-        assert_eq!(scale_of_colours(&small), AxisScale::Logarithmic);
-        assert_eq!(scale_of_colours(&zero), AxisScale::Logarithmic);
+        assert_eq!(energy(&small), AxisScale::Logarithmic);
+        assert_eq!(energy(&zero), AxisScale::Logarithmic);
         // Curves cannot show zero on a logarithmic scale.
         assert_eq!(scale_of(&zero), AxisScale::Linear);
         for linear in [&[1.0, 0.5, 0.4][..], &[0.0, 0.0], &[-1.0, 0.0, 1.0], &[]] {
-            assert_eq!(scale_of_colours(linear), AxisScale::Linear, "{linear:?}");
+            assert_eq!(energy(linear), AxisScale::Linear, "{linear:?}");
         }
+        let share = scale_of_colours(Quantity::AdhesionShare, &small);
+        assert_eq!(share, AxisScale::Linear);
     }
 }

@@ -516,8 +516,9 @@ impl Results {
             .collect()
     }
 
-    /// Returns a recorded quantity with its scale. If `scale` is `None`, the quantity gets the
-    /// scale that suits its means over the profiles in all cells of the study.
+    /// Returns a recorded quantity with its scale. If `scale` is `None`, a share gets a linear scale
+    /// on a map, and other quantities get the scale that suits their means over the profiles in all
+    /// cells of the study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means: Vec<f64> = (0..self.plan.cells())
             .filter_map(|cell| Some(self.statistics(cell, quantity)?.mean))
@@ -526,7 +527,7 @@ impl Results {
         let is_map = axes.by_ref().any(has_several) && axes.any(has_several);
         let scale = match scale {
             Some(scale) => scale,
-            None if is_map => scale_of_colours(&means),
+            None if is_map => scale_of_colours(quantity, &means),
             None => scale_of(&means),
         };
         GridLayer::new(quantity, scale, &means)
