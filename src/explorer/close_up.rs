@@ -63,7 +63,8 @@ fn facts(contact: &SectionContact<'_>, stage: &Stage, number: usize) -> Option<P
 
 /// Smallest number of springs in a close-up of a patch.
 const FEWEST: usize = 32;
-/// Number of equal parts of a profile that one patch covers; the close-up shows as much as one part.
+/// Number of equal parts of a profile that one patch covers; the close-up shows as much as one
+/// part.
 const PARTS_OF_WHOLE: usize = 4;
 /// Number of equal parts into which the profile is divided. If no spring is in contact, the
 /// close-up shows one part.

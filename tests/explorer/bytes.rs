@@ -1,5 +1,5 @@
-//! Bytes that an edit of a number costs in a terminal of 24-bit colours at 120 × 36: a frame with the
-//! answer of the solver, and a frame with the results of the studies.
+//! Bytes that an edit of a number costs in a terminal of 24-bit colours at 120 × 36: a frame with
+//! the answer of the solver, and a frame with the results of the studies.
 
 use super::common::driver::Driver;
 use super::common::script::draw;

@@ -392,6 +392,29 @@ fn replaced_words_are_not_used() {
     assert!(words > 100_000, "{words} words");
 }
 
+/// rustfmt leaves comments as they are. A link may be longer.
+#[test]
+fn comments_are_within_100_columns() {
+    let mut comments = 0;
+    for folder in ["src", "crates", "python/src", "tests"] {
+        for (path, text) in texts_below(folder) {
+            if path.extension().is_none_or(|extension| extension != "rs") {
+                continue;
+            }
+            for line in text
+                .lines()
+                .filter(|line| line.trim_start().starts_with("//"))
+            {
+                comments += 1;
+                let is_link = line.contains("](") || line.contains("http");
+                let columns = line.chars().count();
+                assert!(is_link || columns <= 100, "{}: {line}", path.display());
+            }
+        }
+    }
+    assert!(comments > 20_000, "{comments} comments");
+}
+
 /// Python and the explorer show the texts of the libraries too, and have no options. The words of
 /// an option are in `src/cli/advice.rs`.
 #[test]

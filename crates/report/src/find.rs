@@ -703,8 +703,8 @@ mod tests {
         Found::of(question, simulation, Control::default()).unwrap()
     }
 
-    /// On longer profiles the springs carry no short waves. An answer holds only for the lengths that
-    /// the scene allows.
+    /// On longer profiles the springs carry no short waves. An answer holds only for the lengths
+    /// that the scene allows.
     #[test]
     fn an_answer_holds_for_the_values_that_the_scene_allows() {
         let never = asked("F_a/F_a,max = 99.99 %");

@@ -516,9 +516,9 @@ impl Results {
             .collect()
     }
 
-    /// Returns a recorded quantity with its scale. If `scale` is `None`, a share gets a linear scale
-    /// on a map, and other quantities get the scale that suits their means over the profiles in all
-    /// cells of the study.
+    /// Returns a recorded quantity with its scale. If `scale` is `None`, a share gets a linear
+    /// scale on a map, and other quantities get the scale that suits their means over the profiles
+    /// in all cells of the study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means: Vec<f64> = (0..self.plan.cells())
             .filter_map(|cell| Some(self.statistics(cell, quantity)?.mean))

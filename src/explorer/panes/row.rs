@@ -19,7 +19,8 @@ pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 pub struct PaneRow {
     /// Function that makes the content of the pane for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
-    /// Function that returns the number of pages into which an area of this size divides the content.
+    /// Function that returns the number of pages into which an area of this size divides the
+    /// content.
     pub pages: fn(&App, Size) -> usize,
     /// Function that makes the figure of the pane for an exported file. The figure may contain more
     /// than the chart on the screen. The function returns `None` if the pane has no chart.

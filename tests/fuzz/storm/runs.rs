@@ -145,7 +145,8 @@ fn assert_stage(
             [pair[1], pair[0]]
         };
         // On one way the contact grows with the indentation. A half-space that relaxes on a soft
-        // instrument also moves by itself, so that only the displacement of the instrument is known.
+        // instrument also moves by itself, so that only the displacement of the instrument is
+        // known.
         if let (true, Some(instrument)) = (is_relaxing, &outcome.instrument) {
             let displacement = |point: &CurvePoint| point.displacement(instrument.stiffness);
             let balance = BALANCE / ROUNDING * rounding / instrument.stiffness;
@@ -241,8 +242,8 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
         Edges::SubCell => f64::EPSILON * deepest * deepest,
     };
     let mut rounded = 0.5 * outcome.governing.modulus * outcome.line.length * squares;
-    // The released energy of a half-space that relaxes is a difference of works, each with the error
-    // of the steps in time.
+    // The released energy of a half-space that relaxes is a difference of works, each with the
+    // error of the steps in time.
     for stage in stages.iter().filter(|stage| !stage.seconds.is_empty()) {
         let force = stage.largest.force.abs().max(stage.smallest.force.abs());
         let ways = stage.curve.windows(2);

@@ -29,8 +29,8 @@ pub struct Drawn {
     extreme: u32,
 }
 
-/// Returns a form of spheres with these radii and distances. If `is_ahead` is true, the first sphere
-/// is ahead of all others.
+/// Returns a form of spheres with these radii and distances. If `is_ahead` is true, the first
+/// sphere is ahead of all others.
 fn spheres_in_ron(spheres: &[[String; 2]], is_ahead: bool) -> String {
     let mut written = Vec::new();
     for (index, [radius, behind]) in spheres.iter().enumerate() {

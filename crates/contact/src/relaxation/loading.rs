@@ -204,8 +204,8 @@ impl Drive {
     }
 
     /// Finds the state at which a motion reaches its goal, within the step from the state `from` to
-    /// the state `to`. The goal is not reached at `from`, and is reached at `to`. A state also counts
-    /// as the goal if its value of `goal` differs from zero by at most `rounding`.
+    /// the state `to`. The goal is not reached at `from`, and is reached at `to`. A state also
+    /// counts as the goal if its value of `goal` differs from zero by at most `rounding`.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.

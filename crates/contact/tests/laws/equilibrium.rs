@@ -154,7 +154,8 @@ fn compare(
         let record = match solver.advance(target) {
             Ok(record) => record,
             Err(ContactError::NothingToPull | ContactError::DetachesBefore { .. }) => {
-                // The body has not moved. The stage of a separation still has the contact of its end.
+                // The body has not moved. The stage of a separation still has the contact of its
+                // end.
                 if blind.contact.contains(&true) {
                     agree(&solver, &blind, present)?;
                 }

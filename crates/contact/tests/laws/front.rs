@@ -223,8 +223,8 @@ proptest! {
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// Columns are the points of the stages, points at given indentations are those of a stage, and a
-    /// reversal equals a loading and an unloading.
+    /// Columns are the points of the stages, points at given indentations are those of a stage, and
+    /// a reversal equals a loading and an unloading.
     #[test]
     fn columns_points_and_reversals_agree_with_the_stages(
         body in bodies(120), turns in indentations(5), mut at in prop::collection::vec(-0.9..1.3_f64, 0..6),

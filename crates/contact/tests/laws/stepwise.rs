@@ -28,8 +28,8 @@ proptest! {
         let (mut exact, mut stepwise) = (body.on(2), stepwise(&contact, step));
         for target in to_indentations(&turns) {
             let (one, other) = (stepwise.advance(target).unwrap(), exact.advance(target).unwrap());
-            // The end of a stage does not depend on the step: the same springs and, bit for bit, the
-            // same force.
+            // The end of a stage does not depend on the step: the same springs and, bit for bit,
+            // the same force.
             prop_assert_eq!(one.curve.last(), other.curve.last());
             prop_assert_eq!((one.attached, one.detached), (other.attached, other.detached));
             if other.curve.len() == 1 || end(&other).springs == 0 && other.detached == 0 {

@@ -6,7 +6,8 @@ use asperity_contact::{Modulus, Profile};
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// The points of a curve divide the stage evenly; an extreme of the force between them is added.
+    /// The points of a curve divide the stage evenly; an extreme of the force between them is
+    /// added.
     #[test]
     fn curves_have_the_requested_samples(
         body in bodies(200), deep in 0.1..1.2_f64, back in 0.0..0.9_f64, samples in 2_usize..80,

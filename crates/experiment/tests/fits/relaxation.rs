@@ -252,8 +252,8 @@ fn a_curve_of_several_speeds_is_computed_at_these_speeds() {
     }
 }
 
-/// Curves of one specimen at three speeds, with noise of 1 % of the pull-off force, and the scene at
-/// which their fit begins.
+/// Curves of one specimen at three speeds, with noise of 1 % of the pull-off force, and the scene
+/// at which their fit begins.
 fn curves_of_three_speeds(is_timed: bool) -> (Vec<(String, MeasuredCurve)>, Document) {
     let mut curves = Vec::new();
     for (number, speed) in [1e-7, 1e-6, 1e-5].into_iter().enumerate() {

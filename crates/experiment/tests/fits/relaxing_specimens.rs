@@ -42,7 +42,8 @@ impl Specimen {
         1.0 - self.terms.iter().map(|term| term.share).sum::<f64>()
     }
 
-    /// Stretch in m of the edge at which an elastic contact opens or closes with a work of adhesion.
+    /// Stretch in m of the edge at which an elastic contact opens or closes with a work of
+    /// adhesion.
     fn stretch(&self, radius: f64, work: f64) -> f64 {
         (2.0 * PI * radius * work / self.modulus).sqrt()
     }

@@ -137,7 +137,8 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     };
     let symbol = if is_adhesive { "F_a" } else { "d" };
     let mut ratio = ratio(&compared);
-    // Without random surfaces the ratio has no interval. The error that is left is that of the grid.
+    // Without random surfaces the ratio has no interval. The error that is left is that of the
+    // grid.
     if compared.error.is_none()
         && let Some(reference) = &loops.reference
         && let Some(error) = reference.budget.grid

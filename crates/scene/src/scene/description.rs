@@ -114,8 +114,8 @@ impl Document {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
     }
 
-    /// Returns true if the scene has the title of a built-in scene. If it is this scene, a change of
-    /// its values replaces the title.
+    /// Returns true if the scene has the title of a built-in scene. If it is this scene, a change
+    /// of its values replaces the title.
     pub fn has_built_in_title(&self) -> bool {
         built_in_scenes()
             .iter()

@@ -1,6 +1,6 @@
-//! Comparison with published solutions of the viscoelastic contact of a sphere. Their statements are
-//! tested where the edge relaxes much faster than the bulk, as this model assumes. In addition, the
-//! pull-off force at several speeds is compared with a quadrature.
+//! Comparison with published solutions of the viscoelastic contact of a sphere. Their statements
+//! are tested where the edge relaxes much faster than the bulk, as this model assumes. In addition,
+//! the pull-off force at several speeds is compared with a quadrature.
 //!
 //! * Mandriota, Menga and Carbone, arXiv 2407.11524: after full relaxation, a retraction detaches
 //!   like a flat punch, at constant contact.
