@@ -4,8 +4,8 @@
 //!
 //! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and
 //! plays no loop to its end, `-- --runs 100` sets the number of repetitions, `-- --program PATH`
-//! measures another executable, `-- --ssh` prints only the table over SSH. Without `--bench`, as started by `cargo test --benches`, it only
-//! checks that it runs, on a small scene.
+//! measures another executable, `-- --ssh` prints only the table over SSH. Without `--bench`, as
+//! started by `cargo test --benches`, it only checks that it runs, on a small scene.
 
 #[cfg(unix)]
 #[path = "../tests/common/terminal.rs"]
@@ -264,8 +264,8 @@ mod measure {
     }
 
     /// Prints the times from keys to their answers over SSH and in a local terminal, and the median
-    /// and the largest number of frames of a key over SSH. Both explorers get the same keys in turn, so that a load of the
-    /// machine slows down both.
+    /// and the largest number of frames of a key over SSH. Both explorers get the same keys in
+    /// turn, so that a load of the machine slows down both.
     fn compare(options: &Options) {
         println!(
             "{SMALL}, 120 x 40; {} keys each; ms from the key to the end of the frame with its answer",
@@ -438,8 +438,8 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// Pull-off force of the shown profile in the status line, and preload at its mark on the curve,
-    /// at least one of which each edit changes.
+    /// Pull-off force of the shown profile in the status line, and preload at its mark on the
+    /// curve, at least one of which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
         let row = rows
             .iter()

@@ -1,7 +1,7 @@
 //! Cost of each stage of an exact loop, and of a whole edit of a scene: in milliseconds, in
 //! nanoseconds for each spring, and in units of one real Fourier transform of the same length
-//! measured in the same run, which makes runs on different machines comparable. Loops with relaxation
-//! are compared with elastic ones.
+//! measured in the same run, which makes runs on different machines comparable. Loops with
+//! relaxation are compared with elastic ones.
 //!
 //! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
 //! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` sets the number of

@@ -396,7 +396,7 @@ fn replaced_words_are_not_used() {
 #[test]
 fn comments_are_within_100_columns() {
     let mut comments = 0;
-    for folder in ["src", "crates", "python/src", "tests"] {
+    for folder in ["src", "crates", "python/src", "tests", "benches"] {
         for (path, text) in texts_below(folder) {
             if path.extension().is_none_or(|extension| extension != "rs") {
                 continue;
