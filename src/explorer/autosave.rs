@@ -219,12 +219,12 @@ impl Autosave {
         }
     }
 
-    /// Returns true if there is a file with the unsaved changes of this session.
+    /// Returns true if there is a file with the unsaved changes of this explorer.
     pub fn has_file(&self) -> bool {
         self.own.is_some()
     }
 
-    /// Writes these changes to the file of this session, in place of those that it contains. If
+    /// Writes these changes to the file of this explorer and replaces what the file contains. If
     /// there are no changes, the file is removed. Even if the process is killed meanwhile, the file
     /// has either its complete old content or its complete new content.
     pub fn keep(&mut self, unsaved: &Unsaved<'_>) -> io::Result<()> {
@@ -238,8 +238,8 @@ impl Autosave {
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
-        // On a file system without locks, another session may offer these copies while this session
-        // is still running. This does no harm.
+        // On a file system without locks, another explorer may offer these copies while this one is
+        // still running. This does no harm.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
         // The content must be on the disk before the file gets its name, or else a power cut could

@@ -71,10 +71,10 @@ const PARTS_OF_WHOLE: usize = 4;
 const PARTS: usize = 32;
 
 /// Returns the range of springs in a close-up. If the user has chosen the number of springs, the
-/// range has this size and lies around the centre. Otherwise the range contains the whole patch.
-/// Its size is then a power of two, so that it does not change when the patch grows a little. Of a
-/// patch that covers nearly the whole profile, which its own pane shows, the range is a part around
-/// the centre.
+/// range has this size and lies around the centre. Otherwise the range contains the whole patch,
+/// and its size is a power of two, so that it does not change when the patch grows a little. If the
+/// patch covers nearly the whole profile, which has a pane of its own, the range is only a part
+/// around the centre.
 fn shown(
     count: usize,
     centre: usize,

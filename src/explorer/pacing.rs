@@ -15,7 +15,7 @@ const ANSWER_TIME: Duration = Duration::from_millis(30);
 const STUDY_TIME: Duration = Duration::from_millis(100);
 const REMOTE_STUDY_TIME: Duration = Duration::from_secs(1);
 
-/// What the next frame shows.
+/// Content of the next frame, which decides how soon the frame is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Only progress of the studies.

@@ -56,8 +56,8 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session, with which this session continues; `None` if it
-    /// continues no other session. Their first scene is the scene that is opened.
+    /// Unsaved changes that an earlier explorer has left, with which this explorer continues;
+    /// `None` if there are none. Their first scene is the scene that is opened.
     pub restored: Option<Kept>,
     /// Configuration. The fields `theme` and `marker` have precedence over it.
     pub config: Config,

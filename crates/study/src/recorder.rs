@@ -144,8 +144,8 @@ impl<'p> Recorder<'p> {
         let mut records = Vec::with_capacity(cells);
         for (loading, cell) in loadings.into_iter().zip(streak.cells.clone()) {
             let mut smooth = None;
-            // The smooth body is computed without relaxation, so it is no reference for a scene
-            // that relaxes.
+            // The smooth body is computed without relaxation. A scene that relaxes cannot be
+            // compared with it.
             if (needs_touch_regime || needs_regime) && !scene.relaxes() {
                 let figures = &loading.figures;
                 let simulation = &mut self.simulation;

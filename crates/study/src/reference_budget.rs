@@ -167,8 +167,8 @@ mod tests {
         );
     }
 
-    /// For smooth bodies there is no error of a sample. A flat square and its profile may
-    /// nevertheless differ. For a body of revolution the profile model is exact.
+    /// Nothing is random about smooth bodies, so their sample has no error. A flat square and its
+    /// profile may nevertheless differ. For a body of revolution the profile model is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

@@ -93,8 +93,8 @@ pub fn go_to_pull_off(app: &mut App) {
     app.set_playhead(rest);
 }
 
-/// How the animation moves through a loading stage: evenly, with a rest of the same time at each
-/// large jump. The whole stage takes the time [`STAGE_TIME`].
+/// Movement of the animation through a loading stage. The animation moves evenly and rests for the
+/// same time at each large jump. The whole stage takes the time [`STAGE_TIME`].
 struct Pace {
     /// States just after the large jumps that are still ahead, in the order of the motion.
     ahead: Vec<Player>,

@@ -193,15 +193,6 @@ fn scenes_without_roughness_adhesion_or_force_have_maps_as_well() {
 }
 
 #[test]
-fn the_saved_plan_of_a_map_has_all_points_of_the_curve() {
-    let mut driver = with_maps(rough());
-    driver.press("M Ctrl+u `F_a over L × h` Enter s Ctrl+u `map.ron` Enter");
-    let text = driver.file("map.ron");
-    let samples = driver.document().scene().numerics.samples;
-    assert!(text.contains(&format!("samples: {samples}")), "{text}");
-}
-
-#[test]
 fn a_scene_without_the_numbers_of_a_map_closes_it() {
     let mut driver = with_maps(rough());
     driver.press("M Ctrl+u `F_a over H × h` Enter");

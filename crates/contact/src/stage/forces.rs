@@ -69,11 +69,8 @@ impl Stage {
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if an array does not fit into memory.
     pub fn curve(&self, indentations: &[f64]) -> Result<Vec<CurvePoint>, ContactError> {
-        if indentations.is_empty() {
-            return Ok(Vec::new());
-        }
-        let sampled = self.sample(Grid::at(indentations.to_vec()))?;
-        Ok(sampled
+        let states = self.states(indentations)?;
+        Ok(states
             .iter()
             .map(|state| state.point(&self.contact))
             .collect())
@@ -107,14 +104,19 @@ impl Stage {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn forces(&self, indentations: &[f64]) -> Result<Vec<ForcePoint>, ContactError> {
-        if indentations.is_empty() {
-            return Ok(Vec::new());
-        }
-        let sampled = self.sample(Grid::at(indentations.to_vec()))?;
-        Ok(sampled
+        let states = self.states(indentations)?;
+        Ok(states
             .iter()
             .map(|state| state.force_point(&self.contact))
             .collect())
+    }
+
+    /// Computes the contact at ascending indentations in m, of which there may be none.
+    fn states(&self, indentations: &[f64]) -> Result<Vec<ContactState>, ContactError> {
+        if indentations.is_empty() {
+            return Ok(Vec::new());
+        }
+        self.sample(Grid::at(indentations.to_vec()))
     }
 
     /// Returns the energy in J that springs release on this motion at indentations above `low` and

@@ -301,8 +301,8 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
 mod tests {
     use super::*;
 
-    /// An approach is a segment even if it is much shorter than the retraction. A displacement that
-    /// moves back and forth by the same distance is no segment.
+    /// An approach is a segment even if it is much shorter than the retraction. A part in
+    /// which the displacement goes back and forth by the same distance is not a segment.
     #[test]
     fn points_that_are_dense_near_a_turn_are_no_pause() {
         let far: Vec<f64> = (0..100)
